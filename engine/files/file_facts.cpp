@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/walls/wall_faces.hpp"
+#include "engine/state/face_names.hpp"
 
 namespace grainreel {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/base/text_file.hpp"
-#include "engine/step/traffic.hpp"
+#include "engine/state/traffic.hpp"
 
 namespace grainreel {
 

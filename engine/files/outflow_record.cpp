@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/start/continuation.hpp"
-#include "engine/start/table_mark.hpp"
+#include "engine/scene/keys/accepted_key.hpp"
+#include "engine/state/table_mark.hpp"
 
 namespace grainreel {
 

@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/error.hpp"
 #include "engine/files/file_facts.hpp"
+#include "engine/files/frames/damaged_frame.hpp"
 #include "engine/files/netcdf/kept_records.hpp"
 #include "engine/frame.hpp"
 
@@ -43,7 +43,7 @@ struct TrajectoryInfo {
     bool checksums = true;          // false in a file of an earlier version: there damage may look like data
     Vec3 cell_origin{0, 0, 0};      // m
     Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic
-    FileFacts facts = {};           // written, not read
+    FileFacts facts = {};           // of what is read, densities alone
 };
 
 class TrajectoryWriter {
@@ -75,13 +75,6 @@ class TrajectoryWriter {
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
-};
-
-// A frame whose checksum is not that of its numbers, or that holds what no run can have: NaN, a radius of 0,
-// a species that is none. The other frames may well be whole.
-class DamagedFrame : public UserError {
-  public:
-    using UserError::UserError;
 };
 
 class TrajectoryReader {

@@ -71,10 +71,18 @@ struct TrajectoryReader::Impl {
         if (file.has_variable(body_variables.front().name)) read_planes();
         std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
         for (std::string name; std::getline(names, name);) info.species.push_back(name);
+        read_densities();
         info.checksums = file.has_variable(frame_checksum) && file.has_variable(grain_checksum);
         if (frames == 0) return;
         file.get(file.find_variable("cell_origin"), {0, 0}, {1, 3}, info.cell_origin.data());
         file.get(file.find_variable("cell_lengths"), {0, 0}, {1, 3}, info.periodic_length.data());
+    }
+
+    // "2500 7800 kg m-3", by species; none in files of earlier versions.
+    void read_densities() {
+        std::istringstream text(file.text_attribute(file.find_variable("type"), "density"));
+        for (double density = 0; info.facts.densities.size() < info.species.size() && text >> density;)
+            info.facts.densities.push_back(density);
     }
 
     // How many they are says the dimension; names are for people.

@@ -28,9 +28,9 @@
 #include "engine/state/container_faces.hpp"
 #include "engine/state/drive_pose.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/state/traffic.hpp"
 #include "engine/step/contact_view.hpp"
 #include "engine/step/geometry/wall_sums.hpp"
-#include "engine/step/traffic.hpp"
 
 namespace grainreel {
 

@@ -54,4 +54,7 @@ struct Answer {
     std::optional<std::vector<std::int32_t>> grains{};
 };
 
+// Ids that an answer names: of its tables' columns "id", and of contacts "first" and "second".
+std::vector<std::int32_t> grains_in(const Answer& answer);
+
 }  // namespace grainreel

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
 #include "engine/run/simulation/contact_force.hpp"
 #include "engine/scene/scene.hpp"
@@ -17,13 +18,6 @@ struct SnapshotForces {
     // m/s2, of each grain of the frame, as its motion to the next step has it. Empty with an integrator whose
     // steps do not tell it.
     std::vector<Vec3> acceleration;
-};
-
-// What the run's observers measured (columns of measures.csv).
-struct MeasuredRow {
-    double time = 0;  // s
-    std::vector<std::string> columns;
-    std::vector<double> values;  // NaN: none
 };
 
 // What a question may take that a snapshot may lack: contacts; what only a moment that was brought back has;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
+#include "engine/scene/keys/accepted_key.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -32,12 +33,6 @@ std::vector<KeyDifference> deciding_differences(std::string_view then, std::stri
 // Likewise, all keys of one table, such as "output".
 std::vector<KeyDifference> differences_of_table(std::string_view then, std::string_view now,
                                                 std::string_view table);
-
-// A key that `resume --accept` changed at a step of a run. Checkpoints from before have it as it was.
-struct AcceptedKey {
-    std::int64_t step = 0;
-    std::string key, then, now;  // as in a KeyDifference
-};
 
 // What differs between the scene that a checkpoint of `step` holds and the run's, by the keys that decide.
 // What was accepted after that step is no difference. None: the checkpoint is of this run. kept: as text, of

@@ -1,19 +1,13 @@
 #include "engine/start/restart.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <fstream>
 #include <numeric>
 #include <sstream>
-#include <string_view>
 
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
-#include "engine/base/plain_file.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/start_file.hpp"
 
@@ -21,77 +15,26 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::string_view kName = "grainrs";  // of every version, whose digit follows
-constexpr char kVersion = 'b';
-
-template <class Grain, class Each>
-void transfer_grains(Grain& g, const Each& each) {
-    each(g.id), each(g.species), each(g.place), each(g.motion), each(g.load);
-    each(g.wall_work), each(g.orientation), each(g.derivatives);
-}
-
 UserError cannot_start(const Scene& scene, const std::string& what) {
     return UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
 }
 
-std::string read_whole(const Scene& scene) {
-    std::ifstream in = read_plain(scene.start.file);
-    std::error_code failed;
-    const std::uintmax_t size = std::filesystem::file_size(scene.start.file, failed);
-    std::string bytes(failed ? 0 : size, '\0');
-    if (failed || !in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        throw cannot_start(scene, "cannot be read; give the checkpoint.grs or final.csv of an earlier run");
-    return bytes;
-}
-
-// What follows name, version and checksum, once these are right.
-std::string_view body_of(const Scene& scene, std::string_view bytes) {
-    if (bytes.size() > kName.size() && bytes[kName.size()] != kVersion)
-        throw cannot_start(scene,
-                           "is a checkpoint of another version of grainreel; give the final.csv beside it");
-    std::uint64_t sum = 0;
-    constexpr std::size_t prologue = kName.size() + sizeof kVersion + sizeof sum;
-    if (bytes.size() <= prologue) throw damaged_checkpoint(scene);
-    std::memcpy(&sum, bytes.data() + prologue - sizeof sum, sizeof sum);
-    bytes.remove_prefix(prologue);
-    if (sum != XXH64(bytes.data(), bytes.size(), 0)) throw damaged_checkpoint(scene);
-    return bytes;
-}
-
-// As many values of each kind as there are grains.
-bool has_all_values(const Grains& g) {
-    const auto all = [&](const auto& values) { return values.size() == g.size(); };
-    return all(g.species) && all(g.place) && all(g.motion) && all(g.load) && all(g.wall_work) &&
-           (g.orientation.empty() || all(g.orientation)) && (g.derivatives.empty() || all(g.derivatives));
-}
-
-struct Saved {
-    std::string scene;
-    CheckpointHeader header;
-    bool fresh = false;
-    std::string gathered;
-    Grains grains;
-};
-
-Saved read_saved(const Scene& scene, Bytes& in) {
-    Saved saved;
-    std::vector<char> text, gathered;
-    std::int64_t step = 0;
-    std::uint8_t fresh = 0;
-    read_vector(in, text);
-    read_value(in, saved.header);
-    read_value(in, fresh);
-    read_vector(in, gathered);
-    read_value(in, step);
-    transfer_grains(saved.grains, Reading{in});
-    const CheckpointHeader& h = saved.header;
-    if (in.failed() || h.step != step || step < 0 || fresh > 1 || !std::isfinite(h.start_energy) ||
-        !h.wall_offset.allFinite() || !h.wall_velocity.allFinite() || !has_all_values(saved.grains))
-        throw damaged_checkpoint(scene);
-    saved.scene.assign(text.begin(), text.end());
-    saved.fresh = fresh == 1;
-    saved.gathered.assign(gathered.begin(), gathered.end());
-    return saved;
+// Nothing in it is believed yet.
+CheckpointFile read_saved(const Scene& scene) {
+    CheckpointFile file(scene.start.file);
+    switch (file.fault()) {
+        case CheckpointFile::Fault::unreadable:
+            throw cannot_start(scene,
+                               "cannot be read; give the checkpoint.grs or final.csv of an earlier run");
+        case CheckpointFile::Fault::other_version:
+            throw cannot_start(
+                scene, "is a checkpoint of another version of grainreel; give the final.csv beside it");
+        case CheckpointFile::Fault::damaged:
+            throw damaged_checkpoint(scene);
+        case CheckpointFile::Fault::none:
+            break;
+    }
+    return file;
 }
 
 std::int64_t total_of(const std::vector<std::int64_t>& given) {
@@ -115,7 +58,7 @@ UserError damaged_checkpoint(const Scene& scene) {
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
                  const std::vector<std::int64_t>& given) {
     write_value(out, step);
-    transfer_grains(grains, Writing{out});
+    write_grains(out, grains);
     loop.save(out);
     if (total_of(given) > 0) write_vector(out, given);
 }
@@ -130,71 +73,14 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
     write_value(body, static_cast<std::uint8_t>(loop.is_fresh() ? 1 : 0));
     write_vector(body, std::vector<char>(gathered.begin(), gathered.end()));
     write_state(body, header.step, grains, loop, given);
-    const std::string bytes = body.str();
-    const std::uint64_t sum = XXH64(bytes.data(), bytes.size(), 0);
-
-    const std::filesystem::path temporary = path.string() + ".part";
-    make_way(temporary);
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(kName.data(), static_cast<std::streamsize>(kName.size()));
-    write_value(file, kVersion);
-    write_value(file, sum);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    std::error_code failed;
-    if (file) std::filesystem::rename(temporary, path, failed);
-    if (!file || failed) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw RunError(fmt::format("{}: the checkpoint cannot be written; is the disk full?", path.string()));
-    }
-}
-
-bool is_checkpoint(const std::filesystem::path& path) {
-    std::ifstream in = read_plain(path);
-    std::string name(kName.size(), '\0');
-    in.read(name.data(), static_cast<std::streamsize>(name.size()));
-    return in && name == kName;
-}
-
-bool is_whole_checkpoint(const std::filesystem::path& path) {
-    Scene scene;
-    scene.start.file = path.string();
-    try {
-        return !body_of(scene, read_whole(scene)).empty();
-    } catch (const UserError&) {
-        return false;
-    }
-}
-
-std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path) {
-    std::error_code failed;
-    const std::uintmax_t size = std::filesystem::file_size(path, failed);
-    std::ifstream in = read_plain(path);
-    std::string name(kName.size(), '\0');
-    char version = 0;
-    std::uint64_t sum = 0, length = 0;
-    in.read(name.data(), static_cast<std::streamsize>(name.size()));
-    in.get(version);
-    in.read(reinterpret_cast<char*>(&sum), sizeof sum);
-    in.read(reinterpret_cast<char*>(&length), sizeof length);
-    if (failed || !in || name != kName || version != kVersion || length > size) return std::nullopt;
-    CheckpointLabel label;
-    label.scene.resize(length);
-    in.read(label.scene.data(), static_cast<std::streamsize>(length));
-    CheckpointHeader header;
-    in.read(reinterpret_cast<char*>(&header), sizeof header);
-    label.step = header.step;
-    label.wall_offset = header.wall_offset;
-    return in && label.step >= 0 ? std::optional(label) : std::nullopt;
+    write_checkpoint_file(path, body.str());
 }
 
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
                                           StepLoop& loop, std::string& gathered,
                                           std::vector<std::int64_t>& given, bool may_change) {
-    const std::string bytes = read_whole(scene);
-    Bytes in(body_of(scene, bytes));
-    Saved saved = read_saved(scene, in);
+    CheckpointFile saved = read_saved(scene);
+    Bytes in(saved.rest());
     if (!may_change) check_same_future(saved.scene, scene, plan);
     check_grains_possible(scene, saved.grains);
     check_masses(scene, saved.grains);
@@ -217,9 +103,7 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
 }
 
 Grains grains_from_checkpoint(const Scene& scene) {
-    const std::string bytes = read_whole(scene);
-    Bytes in(body_of(scene, bytes));
-    const Saved saved = read_saved(scene, in);
+    const CheckpointFile saved = read_saved(scene);
     check_grains_possible(scene, saved.grains);
     Grains grains;
     grains.reserve(saved.grains.size());
@@ -240,9 +124,8 @@ Grains grains_from_checkpoint(const Scene& scene) {
 
 std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const ContactRules& rules,
                                                    const WallParts& walls) {
-    const std::string bytes = read_whole(scene);
-    Bytes in(body_of(scene, bytes));
-    const Saved saved = read_saved(scene, in);
+    const CheckpointFile saved = read_saved(scene);
+    Bytes in(saved.rest());
     check_grains_possible(scene, saved.grains);
     std::vector<KeptContacts> kept = read_contacts(in, rules, saved.grains, walls);
     if (in.failed()) throw damaged_checkpoint(scene);

@@ -4,24 +4,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/checkpoint_file.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/lists/saved_lists.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
-
-struct CheckpointHeader {
-    std::int64_t step = 0;
-    double start_energy = 0;  // J, of the balance
-    Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
-};
 
 // Everything that decides the future, the scene among it, to a temporary name, then renamed. gathered: what
 // observers have gathered (Observers::save), which decides nothing. given: how many grains each feed has
@@ -33,21 +27,6 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
 // The bytes behind save_checkpoint, for hashes.
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
                  const std::vector<std::int64_t>& given = {});
-
-// Whether it is one, of this version or another.
-bool is_checkpoint(const std::filesystem::path& path);
-
-// What a checkpoint says of itself, without looking at the rest: its step, and the scene as it was used.
-// None where there is no such file, or it is of another version or cut off.
-struct CheckpointLabel {
-    std::int64_t step = 0;
-    std::string scene;
-    Vec3 wall_offset{0, 0, 0};  // m, of the container
-};
-std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path);
-
-// Whether it has the bytes that were written, by its checksum.
-bool is_whole_checkpoint(const std::filesystem::path& path);
 
 // Both throw UserError, at the scene's `start.file` or at the key that differs, when the file is missing,
 // damaged, of another version, or does not fit the scene; nothing in it is believed.

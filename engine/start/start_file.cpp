@@ -7,7 +7,7 @@
 #include <unordered_set>
 
 #include "engine/base/error.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/grain_table.hpp"
 
 namespace grainreel {
 

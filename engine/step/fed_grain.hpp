@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "engine/scene/scene.hpp"
-#include "engine/step/traffic.hpp"
+#include "engine/state/traffic.hpp"
 
 namespace grainreel {
 

@@ -18,12 +18,12 @@
 #include "engine/base/team.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/state/traffic.hpp"
 #include "engine/step/contact_view.hpp"
 #include "engine/step/evaluation.hpp"
 #include "engine/step/forces/contact_forces.hpp"
 #include "engine/step/lists/bed_lists.hpp"
 #include "engine/step/surroundings.hpp"
-#include "engine/step/traffic.hpp"
 
 namespace grainreel {
 

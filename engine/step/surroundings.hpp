@@ -5,8 +5,8 @@
 
 #include "engine/state/container_faces.hpp"
 #include "engine/state/glued_grains.hpp"
+#include "engine/state/traffic.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "engine/step/traffic.hpp"
 
 namespace grainreel {
 

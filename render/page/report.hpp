@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
+#include "render/film/sources/recorded_run.hpp"
 #include "render/page/page_progress.hpp"
-#include "render/run/frames/recorded_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
+#include "render/film/moments/film_times_table.hpp"
 #include "render/page/bed/all_moments.hpp"
 #include "render/page/embed/base64.hpp"
 #include "render/page/embed/html.hpp"
@@ -14,7 +15,6 @@
 #include "render/page/embed/zlib_pack.hpp"
 #include "render/page/page_files.hpp"
 #include "render/page/page_parts.hpp"
-#include "render/run/film_times_table.hpp"
 
 namespace grainreel {
 namespace {
@@ -118,7 +118,7 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
                    : nullptr;
     };
     try {
-        const AllMoments all(*run_.run, run_.contacts);
+        const AllMoments all(run_.run->frames(), run_.contacts);
         const std::unique_ptr<FilmColours> film = coloured(all);
         BedContacts contacts;
         contacts.film = film.get();
@@ -130,10 +130,10 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         // A frame beside the trajectory is damaged: the trajectory does without it.
         bed_news_.push_back(
             fmt::format("{}; the page has the moments of trajectory.nc alone", problem.what()));
-        const std::unique_ptr<FilmColours> film = coloured(*run_.run);
+        const std::unique_ptr<FilmColours> film = coloured(run_.run->frames());
         BedContacts contacts;
         contacts.film = film.get();
-        bed_ = bed_frames(*run_.run, most_bytes, progress, contacts);
+        bed_ = bed_frames(run_.run->frames(), most_bytes, progress, contacts);
     }
 }
 

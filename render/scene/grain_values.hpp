@@ -47,14 +47,6 @@ inline bool is_signed(GrainValue value) {
     return value == GrainValue::vertical_velocity || value == GrainValue::rise;
 }
 
-// SI units in one of `unit`, 0.01 for "cm/s"; 1 for an empty one. Throws UserError, without a place, when it
-// is not a unit of the dimension.
-double unit_size(const std::string& unit, Dimension dimension);
-
-// The largest of the dimension's usual units in which `value` is not below 0.5; the smallest of them for
-// less.
-std::string fitting_unit(double value, Dimension dimension);
-
 // Low and high of the colours when the scene does not say: of the whole film, from the scene alone, so that a
 // colour means the same in every frame, while the run goes on and when it is drawn again. Estimated such that
 // 99 of 100 grains lie between in the course of the film. {0, 0} when the scene gives no scale.

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/scene/grain_values.hpp"
 
 namespace grainreel {

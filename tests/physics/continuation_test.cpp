@@ -10,12 +10,12 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
+#include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/start/continuation.hpp"
-#include "engine/start/grain_table.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

@@ -28,18 +28,19 @@ class MadeRun final : public FrameArchive {
             moments_.push_back(moment);
         }
     }
-    const std::filesystem::path& folder() const override { return folder_; }
+    const std::filesystem::path& path() const override { return folder_; }
+    const World& world() const override { return world_; }
+    FrameSupply supply() const override { return {}; }
     const std::vector<Frame>& moments() const override { return moments_; }
     Frame grains(std::size_t index) const override {
         Frame frame = frames_[index];
         frame.touches.clear();
         return frame;
     }
-    Frame frame(std::size_t index) const override { return frames_[index]; }
-    int periods() const override { return 1; }
 
   private:
     std::filesystem::path folder_;
+    World world_;
     std::vector<Frame> frames_, moments_;
 };
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/columns.hpp"
+#include "render/film/moments/film_times_table.hpp"
 #include "render/page/film/film_times.hpp"
-#include "render/run/film_times_table.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/measure_columns.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/state/face_names.hpp"
 
 namespace grainreel {
 namespace {
@@ -45,20 +45,6 @@ double area_between(const Container& c, const std::string& face, double low, dou
     const double slanted = part(0, edge), middle = 0.5 * (std::max(low, 0.0) + std::min(high, edge));
     const double half = wedge ? c.half_width - (edge - middle) * std::tan(c.half_angle) : 0;
     return 2 * (slanted * half + part(edge, c.height) * c.half_width);
-}
-
-std::vector<std::string> face_names(const Scene& scene) {
-    std::vector<std::string> names;
-    std::set<std::string> taken;
-    const auto add = [&](const std::string& name) {
-        std::string part = column_part(name);
-        std::replace(part.begin(), part.end(), ' ', '_');
-        const std::string first = part;
-        for (int number = 2; !taken.insert(part).second; ++number) part = fmt::format("{}_{}", first, number);
-        names.push_back(part);
-    };
-    for (const Face& face : faces_of(scene)) add(face.name);
-    return names;
 }
 
 WallScale wall_scale(const Scene& scene, const Plan& plan) {

@@ -1,4 +1,4 @@
-// The faces of a scene as measures name them, and what their sums are counted in.
+// The faces of a scene as measures see them: what their sums are counted in, and pressure on them.
 #pragma once
 
 #include <string>
@@ -10,10 +10,6 @@
 #include "engine/step/geometry/wall_sums.hpp"
 
 namespace grainreel {
-
-// Container and planes, in the order of the surroundings' faces, as parts of columns: "left_slant". Each name
-// once: of planes of one name the second is "NAME_2".
-std::vector<std::string> face_names(const Scene& scene);
 
 // A force's quantum is 2^-48 of what the stiffest wall would give the largest grain over its radius.
 WallScale wall_scale(const Scene& scene, const Plan& plan);

@@ -15,6 +15,7 @@
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
+#include "engine/state/face_names.hpp"
 
 namespace grainreel::observers {
 

@@ -1,4 +1,5 @@
 #include "engine/run/driver/key_moments.hpp"
+#include "engine/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 #include "engine/base/text_file.hpp"
 #include "engine/files/former_run.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/driver/key_moments.hpp"
 #include "engine/scene/file/scene_file.hpp"
 #include "engine/scene/text/comments.hpp"
-#include "engine/start/grain_table.hpp"
 
 namespace grainreel {
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/segregation/big_and_small.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/start/continuation.hpp"

@@ -8,9 +8,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/columns.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {
@@ -56,26 +55,6 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
             "with --no-replay, or run the scene again with output.checkpoints",
             run.string()));
     return make_plan(started_from(scene, kept.front().file));
-}
-
-CheckpointScene scene_in_checkpoint(const fs::path& checkpoint) {
-    const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
-    if (!label)
-        throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
-                                    checkpoint.string()));
-    // It does not say how its grains came to be; they are in it.
-    const std::string name = checkpoint.string();
-    return {{label->scene, checkpoint},
-            {{"start.method=file", name},
-             {"start.file=" + fs::absolute(checkpoint).string(), name},
-             {"start.keep_clock=true", name}}};
-}
-
-Scene scene_of_checkpoint(const fs::path& checkpoint) {
-    const auto [text, sets] = scene_in_checkpoint(checkpoint);
-    Scene scene;
-    read_scene_into(scene, text, sets, measurable_in);
-    return scene;
 }
 
 Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {

@@ -24,15 +24,6 @@ using ReplayWatcher = std::function<bool(double done)>;
 // UserError where there is no checkpoint.
 Plan plan_of_run(const Scene& scene, const std::filesystem::path& run);
 
-// The text of the scene as it was used, and what makes it start from the checkpoint. Whoever reads it adds
-// own changes. Throws UserError where the file is none.
-struct CheckpointScene {
-    NamedText text;
-    Assignments sets;
-};
-CheckpointScene scene_in_checkpoint(const std::filesystem::path& checkpoint);
-Scene scene_of_checkpoint(const std::filesystem::path& checkpoint);
-
 // A run with the scene that a checkpoint of it holds, as it was used; instruments and fields are left out.
 // Throws UserError where the checkpoint cannot be used.
 Simulation run_of_checkpoint(const std::filesystem::path& checkpoint, int threads);

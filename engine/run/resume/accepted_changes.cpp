@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/scene/scene.hpp"
 #include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
 

@@ -12,6 +12,7 @@
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/plan/rhythm.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 

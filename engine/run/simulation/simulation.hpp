@@ -16,7 +16,7 @@
 #include "engine/run/simulation/contact_force.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/contact_record.hpp"
-#include "engine/step/traffic.hpp"
+#include "engine/state/traffic.hpp"
 
 namespace grainreel {
 

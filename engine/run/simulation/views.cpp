@@ -75,7 +75,7 @@ std::vector<FieldValues> Simulation::fields() const {
     return impl_->observers.look_at_fields(impl_->moment(), impl_->contacts());
 }
 
-std::vector<Simulation::ContactRecord> Simulation::contacts() const {
+std::vector<ContactRecord> Simulation::contacts() const {
     std::vector<ContactRecord> records;
     impl_->loop->visit_contacts(impl_->step, [&](const ContactView& c) {
         if (c.normal_force <= 0) return;

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "engine/plan/plan.hpp"
-#include "render/film/run/thread_plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 

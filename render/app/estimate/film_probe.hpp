@@ -6,7 +6,7 @@
 
 #include "engine/frame.hpp"
 #include "render/app/estimate/speed_cache.hpp"
-#include "render/film/run/thread_plan.hpp"
+#include "render/film/request/thread_plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -12,7 +12,7 @@
 
 #include "engine/scene/text/assignment.hpp"
 #include "render/app/report/reporter.hpp"
-#include "render/film/run/film_request.hpp"
+#include "render/film/request/film_request.hpp"
 #include "render/page/live/watch.hpp"
 
 namespace grainreel {

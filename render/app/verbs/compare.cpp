@@ -6,7 +6,7 @@
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/run/compare/compare_run.hpp"
+#include "render/film/compare/compare_run.hpp"
 
 namespace grainreel {
 namespace {

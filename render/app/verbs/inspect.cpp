@@ -9,6 +9,9 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/damaged_frame.hpp"
+#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/asked_moment.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/histogram.hpp"
 #include "engine/questions/mean_answer.hpp"
@@ -18,12 +21,10 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/run/frames/asked_moment.hpp"
-#include "render/run/frames/recorded_run.hpp"
-#include "render/run/frames/saved_state.hpp"
-#include "render/run/pick/answer_forces.hpp"
-#include "render/run/pick/answer_picture.hpp"
-#include "render/run/pick/pixel_question.hpp"
+#include "render/film/answers/answer_picture.hpp"
+#include "render/film/answers/filmed_record.hpp"
+#include "render/film/answers/pixel_question.hpp"
+#include "render/film/production/caption_holds.hpp"
 
 namespace grainreel {
 namespace {
@@ -116,7 +117,8 @@ class Inspect final : public Verb {
     int run(Reporter& reporter) override {
         if (!picture_.empty()) check_picture_file(picture_);
         check_options();
-        const std::unique_ptr<const Record> record = open_record();
+        open();
+        const Record* const record = asked_->record;
         tell_news(*record, reporter);
         MomentFinder finder(*record);
         Answer answer =
@@ -193,11 +195,10 @@ class Inspect final : public Verb {
     Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {
         const ChosenMoment chosen = snapshot_of(finder, record, reporter);
         const Snapshot& snapshot = chosen.snapshot;
-        Answer answer = answer_of(finder, record.scene(), snapshot, reporter);
+        Answer answer = answer_of(finder, snapshot, reporter);
         answer.moment = chosen.about;
         if (!picture_.empty())
-            draw_answer(snapshot, record.scene(), marks_of(snapshot, answer), film_time(record.scene()),
-                        picture_, gl_);
+            draw_answer(snapshot, asked_->scene(), marks_of(snapshot, answer), film_time(), picture_, gl_);
         return answer;
     }
 
@@ -214,10 +215,12 @@ class Inspect final : public Verb {
         return {all.grains, all.forces, all.words, !snapshot.forces};
     }
 
-    std::unique_ptr<const Record> open_record() const {
+    void open() {
         std::error_code ignored;
-        if (fs::is_regular_file(run_, ignored)) return std::make_unique<SavedState>(run_, sets_);
-        return std::make_unique<RecordedRun>(run_, sets_for_contacts(), true);
+        asked_ = fs::is_regular_file(run_, ignored) ? open_filmed_state(run_, sets_)
+                                                    : open_filmed_run(run_, sets_for_contacts());
+        CaptionHolds holds(asked_->scene().film);
+        moment_.held = [holds](double time) mutable { return holds.begin_at(time); };
     }
 
     // What is damaged or not of this run is left out of answers, and the user is to know.
@@ -244,9 +247,9 @@ class Inspect final : public Verb {
     bool asks_for_forces() const { return wall_ || largest_overlap_; }
 
     // s of the film; a camera that moves is somewhere else at each.
-    double film_time(const FilmedScene& scene) const {
+    double film_time() const {
         if (film_time_) return *film_time_;
-        return moment_.frame ? static_cast<double>(*moment_.frame) / scene.film.rate : 0;
+        return moment_.frame ? static_cast<double>(*moment_.frame) / asked_->scene().film.rate : 0;
     }
 
     bool asks_nothing() const {
@@ -264,8 +267,9 @@ class Inspect final : public Verb {
                                const Record& record) const {
         if (!asked.kept || asks_for_forces()) return true;
         if (grain_) return finder.can_bring_back(asked);
-        return (takes(Needs::contacts) && !record.has_contacts_of(*asked.kept)) || takes(Needs::forces) ||
-               takes(Needs::period) || (asks_nothing() && finder.is_checkpoint(asked));
+        return (takes(Needs::contacts) && !record.frames().has_contacts_of(*asked.kept)) ||
+               takes(Needs::forces) || takes(Needs::period) ||
+               (asks_nothing() && finder.is_checkpoint(asked));
     }
 
     // A kept moment. None where it is damaged and can be brought back.
@@ -349,11 +353,11 @@ class Inspect final : public Verb {
             else if (histogram)
                 named("--histogram", [&] { return histogram->add(snapshot); });
             else
-                mean.add(answer_of(finder, record.scene(), snapshot, reporter), snapshot.frame.time);
+                mean.add(answer_of(finder, snapshot, reporter), snapshot.frame.time);
         });
         if (moments == 0)
             throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
-                                        record.folder().string(), *average_, asked.time));
+                                        record.frames().path().string(), *average_, asked.time));
         if (without_grain == moments)
             throw UserError(
                 fmt::format("--grain: no grain has the id {} at any of the {} moments", *grain_, moments));
@@ -368,8 +372,7 @@ class Inspect final : public Verb {
         return answer;
     }
 
-    Answer answer_of(MomentFinder& finder, const FilmedScene& scene, const Snapshot& snapshot,
-                     Reporter& reporter) const {
+    Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {
         if (wall_) return named("--wall", [&] { return wall_answer(snapshot, *wall_, limit_); });
         if (largest_overlap_) return largest_overlap_answer(snapshot, limit_);
         if (grain_) return named("--grain", [&] { return grain_answer(snapshot, *grain_); });
@@ -383,7 +386,7 @@ class Inspect final : public Verb {
         if (!pixel_.empty())
             return named("--pixel", [&] {
                 Answer there =
-                    PixelPicker(snapshot, scene, film_time(scene)).at(pixel_[0], pixel_[1], through_);
+                    PixelPicker(snapshot, asked_->scene(), film_time()).at(pixel_[0], pixel_[1], through_);
                 if (there.tables[0].rows.empty())
                     throw UserError(fmt::format("nothing is at {:g},{:g}", pixel_[0], pixel_[1]));
                 return there;
@@ -411,6 +414,7 @@ class Inspect final : public Verb {
 
     fs::path run_;
     Assignments sets_;
+    std::unique_ptr<const FilmedRecord> asked_;  // once it is open
     fs::path picture_;
     gl::Provider gl_ = gl::Provider::automatic;
     std::vector<double> pixel_;

@@ -1,9 +1,10 @@
 #include "render/app/verbs/page_of_run.hpp"
 
 #include "engine/base/error.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "render/app/check/print_plan.hpp"
-#include "render/run/frames/recorded_scene.hpp"
+#include "render/film/sources/recorded_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -25,7 +26,8 @@ bool is_there(const fs::path& path) {
 bool kept_moments(const fs::path& folder) {
     if (!is_there(folder / "trajectory.nc")) return false;
     try {
-        return TrajectoryReader(folder / "trajectory.nc").frames() > 0;
+        const auto frames = open_frames(folder / "trajectory.nc", {.format = "trajectory"});
+        return !frames->moments().empty() || !frames->damage().empty();
     } catch (const UserError&) {
         return true;
     }

@@ -10,9 +10,9 @@
 #include "render/app/report/record.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/run/frames/revisited_run.hpp"
-#include "render/run/redraw_run.hpp"
-#include "render/run/still.hpp"
+#include "render/film/run/redraw_run.hpp"
+#include "render/film/run/still.hpp"
+#include "render/film/sources/revisited_run.hpp"
 
 namespace grainreel {
 namespace {

@@ -8,8 +8,8 @@
 #include "engine/run/folder/run_desk.hpp"
 #include "engine/run/folder/side_work.hpp"
 #include "render/film/production/film_maker.hpp"
-#include "render/film/run/film_request.hpp"
-#include "render/film/run/thread_plan.hpp"
+#include "render/film/request/film_request.hpp"
+#include "render/film/request/thread_plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

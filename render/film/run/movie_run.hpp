@@ -7,11 +7,11 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
+#include "render/film/moments/film_times_table.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/scene_run.hpp"
-#include "render/run/film_times_table.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/same_run.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "render/run/frames/same_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

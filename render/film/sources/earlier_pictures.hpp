@@ -12,8 +12,8 @@
 #include "engine/measure/measure_table.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/run/frames/frame_source.hpp"
-#include "render/run/frames/picture_parts.hpp"
+#include "render/film/sources/frame_source.hpp"
+#include "render/film/sources/picture_parts.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@ class SceneRun::Parts final : public PartSupply {
     FramePtr at(std::int64_t step) const override { return driver_.kept(step); }
     std::vector<Touch> touches(const Frame&) const override {
         std::vector<Touch> touches;
-        for (const Simulation::ContactRecord& contact : driver_.simulation().contacts())
+        for (const ContactRecord& contact : driver_.simulation().contacts())
             touches.push_back({contact.first, contact.second, contact.normal});
         return touches;
     }

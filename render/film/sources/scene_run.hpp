@@ -9,8 +9,8 @@
 #include "engine/run/driver/run_driver.hpp"
 #include "render/film/moments/bed_periods.hpp"
 #include "render/film/sources/earlier_pictures.hpp"
-#include "render/run/frames/frame_source.hpp"
-#include "render/run/frames/picture_parts.hpp"
+#include "render/film/sources/frame_source.hpp"
+#include "render/film/sources/picture_parts.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

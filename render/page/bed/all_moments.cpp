@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/same_run.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "render/run/frames/same_run.hpp"
 
 namespace grainreel {
 
@@ -21,14 +22,18 @@ bool is_there(const fs::path& file) {
     return fs::exists(file, ignored);
 }
 
+std::unique_ptr<FrameArchive> open_moments(const fs::path& file) {
+    return open_frames(file, {.format = "trajectory"});
+}
+
 }  // namespace
 
-AllMoments::AllMoments(const RecordedRun& run, bool with_contacts)
+AllMoments::AllMoments(const RunArchive& run, bool with_contacts)
     : run_(run), with_contacts_(with_contacts), moments_(run.moments()) {
     for (std::size_t k = 0; k < moments_.size(); ++k) places_.push_back({k, {}, {}});
     const fs::path film = run.folder() / kFilmMoments, keys = run.folder() / kKeyMoments;
     try {
-        if (is_there(film)) merge(film_.emplace(film), &Place::film, film.string());
+        if (is_there(film)) merge(*(film_ = open_moments(film)), &Place::film, film.string());
     } catch (const UserError& problem) {
         film_.reset();
         news_.push_back(fmt::format("{}; its moments are not on the page", problem.what()));
@@ -40,7 +45,7 @@ AllMoments::AllMoments(const RecordedRun& run, bool with_contacts)
             news_.push_back(
                 fmt::format("{}: was cut off; the forces of the last key moments are not on the page",
                             contacts.string()));
-        merge(keys_.emplace(keys), &Place::key, keys.string());
+        merge(*(keys_ = open_moments(keys)), &Place::key, keys.string());
     } catch (const UserError& problem) {
         keys_.reset();
         news_.push_back(fmt::format("{}; the forces of key moments are not on the page", problem.what()));
@@ -48,7 +53,7 @@ AllMoments::AllMoments(const RecordedRun& run, bool with_contacts)
 }
 
 // All of the file or nothing.
-void AllMoments::merge(const TrajectoryReader& file, std::optional<std::size_t> Place::*of,
+void AllMoments::merge(const FrameArchive& file, std::optional<std::size_t> Place::*of,
                        const std::string& name) {
     std::vector<Frame> moments;
     std::vector<Place> places;
@@ -59,13 +64,17 @@ void AllMoments::merge(const TrajectoryReader& file, std::optional<std::size_t> 
             places.push_back(places_[next]);
         }
     };
-    if (file.frames() > 0) check_grains(run_.scene(), file.info(), file.read(0), name);
-    for (std::size_t index = 0; index < file.frames(); ++index) {
-        Frame moment = file.read_moment(index);
+    const Scene& scene = *run_.scene();
+    const std::vector<std::string> damage = file.damage();
+    if (!file.moments().empty() && file.place(0) == 0)
+        check_grains(scene, file.world(), file.grains(0), name);
+    if (!damage.empty()) throw UserError(damage.front());
+    for (std::size_t index = 0; index < file.moments().size(); ++index) {
+        Frame moment = file.moments()[index];
         take_until(moment.step);
         if (moments.empty() || moments.back().step < moment.step) {
-            add_planes(run_.scene().walls, moment.time, moment.bodies);
-            check_drive(run_.scene(), run_.clock(), moment, name);
+            add_planes(scene.walls, moment.time, moment.bodies);
+            check_drive(scene, run_.clock(), moment, name);
             moments.push_back(std::move(moment));
             places.emplace_back();
         }
@@ -79,8 +88,8 @@ void AllMoments::merge(const TrajectoryReader& file, std::optional<std::size_t> 
 Frame AllMoments::grains(std::size_t index) const {
     const Place& place = places_.at(index);
     if (place.trajectory) return run_.grains(*place.trajectory);
-    Frame frame = place.film ? film_->read(*place.film) : keys_->read(*place.key);
-    add_planes(run_.scene().walls, frame.time, frame.bodies);
+    Frame frame = place.film ? film_->grains(*place.film) : keys_->grains(*place.key);
+    add_planes(run_.scene()->walls, frame.time, frame.bodies);
     return frame;
 }
 
@@ -92,7 +101,7 @@ bool AllMoments::has_touches(std::size_t index) const {
 std::optional<std::vector<Touch>> AllMoments::touches(std::size_t index) const {
     const Place& place = places_.at(index);
     if (place.key && key_contacts_->has_all(*place.key)) return key_contacts_->touches(*place.key);
-    if (place.trajectory && with_contacts_) return run_.frame(*place.trajectory).touches;
+    if (place.trajectory && with_contacts_) return run_.touches(*place.trajectory);
     return std::nullopt;
 }
 

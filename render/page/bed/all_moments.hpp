@@ -3,12 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/files/contacts_file.hpp"
-#include "engine/files/trajectory.hpp"
-#include "render/run/frames/recorded_run.hpp"
+#include "engine/files/frames/run_archive.hpp"
 
 namespace grainreel {
 
@@ -16,30 +16,31 @@ class AllMoments final : public FrameArchive {
   public:
     // The run outlives it. with_contacts: its frames come with touches. Files beside the trajectory that are
     // damaged or of another run are left out.
-    AllMoments(const RecordedRun& run, bool with_contacts);
+    AllMoments(const RunArchive& run, bool with_contacts);
 
-    const std::filesystem::path& folder() const override { return run_.folder(); }
+    const std::filesystem::path& path() const override { return run_.path(); }
+    const World& world() const override { return run_.world(); }
+    FrameSupply supply() const override { return run_.supply(); }
     const std::vector<Frame>& moments() const override { return moments_; }
     Frame grains(std::size_t index) const override;
-    Frame frame(std::size_t index) const override { return grains(index); }
     int periods() const override { return run_.periods(); }
 
-    // Who pushes whom then; none where the run did not keep it.
-    std::optional<std::vector<Touch>> touches(std::size_t index) const;
+    // None where the run did not keep it.
+    std::optional<std::vector<Touch>> touches(std::size_t index) const override;
     bool has_touches(std::size_t index) const;
     bool is_key(std::size_t index) const { return places_[index].key.has_value(); }
     // Sentences about files beside the trajectory that are damaged; their moments are left out.
-    const std::vector<std::string>& news() const { return news_; }
+    std::vector<std::string> news() const override { return news_; }
 
   private:
     struct Place {  // in each of the files that has the moment
         std::optional<std::size_t> trajectory, film, key;
     };
-    void merge(const TrajectoryReader& file, std::optional<std::size_t> Place::*of, const std::string& name);
+    void merge(const FrameArchive& file, std::optional<std::size_t> Place::*of, const std::string& name);
 
-    const RecordedRun& run_;
+    const RunArchive& run_;
     const bool with_contacts_;
-    std::optional<TrajectoryReader> film_, keys_;
+    std::unique_ptr<FrameArchive> film_, keys_;
     std::optional<ContactsReader> key_contacts_;
     std::vector<Frame> moments_;
     std::vector<Place> places_;  // of each

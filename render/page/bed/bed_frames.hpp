@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/frames/frame_archive.hpp"
 #include "render/page/bed/film_colours.hpp"
 #include "render/page/bed/pair_forces.hpp"
 #include "render/page/page_progress.hpp"
-#include "render/run/frames/frame_source.hpp"
 
 namespace grainreel {
 

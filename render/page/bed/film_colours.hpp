@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
+#include "engine/files/frames/frame_archive.hpp"
+#include "render/film/sources/frame_source.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
-#include "render/run/frames/frame_source.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/page/bed/slabs.hpp"
 #include "render/picture/grains/colour_map.hpp"
 #include "render/picture/grains/colour_scale.hpp"

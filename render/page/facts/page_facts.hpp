@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/measure/measure_table.hpp"
+#include "render/film/sources/frame_source.hpp"
 #include "render/page/bed/bed_frames.hpp"
 #include "render/page/film/film_times.hpp"
 #include "render/page/film/page_film.hpp"

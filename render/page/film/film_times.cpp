@@ -6,9 +6,9 @@
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/plan/plan.hpp"
+#include "render/film/moments/film_times_table.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/timeline.hpp"
-#include "render/run/film_times_table.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -12,11 +12,11 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/measure/columns.hpp"
+#include "render/film/sources/recorded_run.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/live/last_picture.hpp"
 #include "render/page/live/live_page.hpp"
 #include "render/page/page_measures.hpp"
-#include "render/run/frames/recorded_run.hpp"
 #include "render/scene/read_scene.hpp"
 
 namespace grainreel {
@@ -138,10 +138,11 @@ void LiveRun::read_bed_again() {
         trajectory_time_ = time;
         if (moments.back().step == bed_step_) return;
         std::optional<FilmColours> film;
-        if (film_has_scale(run.scene())) film.emplace(run.scene(), run, run.clock(), run.span().from);
+        if (film_has_scale(run.scene()))
+            film.emplace(run.scene(), run.frames(), run.clock(), run.span().from);
         BedContacts beside;
         beside.film = film ? &*film : nullptr;
-        const BedFrames bed = bed_frames_of(run, shown_of(moments.size()), kNoPageProgress, beside);
+        const BedFrames bed = bed_frames_of(run.frames(), shown_of(moments.size()), kNoPageProgress, beside);
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;
         auto bytes = shared(with_length(bed_facts_json(run.scene(), bed), bed.packed));

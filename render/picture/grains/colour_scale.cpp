@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/picture/grains/colour_map.hpp"
 #include "render/scene/grain_values.hpp"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/scene/film_shows.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/grain_values.hpp"

@@ -1,21 +1,14 @@
 // Forces on a body, each an arrow at the point where it acts.
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "engine/state/point_force.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
 
 namespace grainreel {
-
-struct PointForce {
-    Vec3 at;                       // m
-    Vec3 force;                    // N
-    bool pulls = false;            // its arrow begins at the point; else it ends there
-    std::optional<Vec3> centre{};  // m, of the grain that it is a force of
-};
 
 // Pixels of the arrow of the strongest force.
 double longest_force_arrow(const View& view);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/measure/measure_table.hpp"
-#include "engine/measure/walls/wall_faces.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/state/face_names.hpp"
 #include "render/picture/marks/arrow.hpp"
 #include "render/scene/filmed_scene.hpp"
 

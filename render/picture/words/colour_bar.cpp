@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/text/fitting_unit.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/plots/ticks.hpp"
 #include "render/picture/words/writer.hpp"

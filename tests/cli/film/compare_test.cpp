@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/files/trajectory.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/grain_table.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/files/trajectory.hpp"
-#include "render/run/moments/known_reach.hpp"
+#include "render/film/moments/known_reach.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

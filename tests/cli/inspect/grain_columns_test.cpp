@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/questions/answer_forces.hpp"
 #include "engine/questions/displacement.hpp"
 #include "engine/questions/questions.hpp"
+#include "render/film/answers/answer_picture.hpp"
 #include "render/picture/grains/quantities.hpp"
-#include "render/run/pick/answer_forces.hpp"
-#include "render/run/pick/answer_picture.hpp"
 #include "render/scene/grain_values.hpp"
 #include "render/scene/read_scene.hpp"
 

@@ -15,9 +15,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/run/frames/asked_moment.hpp"
-#include "render/run/frames/recorded_run.hpp"
-#include "render/run/pick/pixel_question.hpp"
+#include "engine/questions/asked_moment.hpp"
+#include "render/film/answers/pixel_question.hpp"
+#include "render/film/sources/recorded_run.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -129,7 +129,7 @@ TEST_P(PixelOfTheFilm, IsOfTheGrainThatThePictureShows) {
     const Pixels picture = read_picture(here / "run/frames" / fmt::format("{:06}.png", shown_frame));
 
     const RecordedRun record(here / "run", {}, true);
-    MomentFinder finder(record);
+    MomentFinder finder(record.record());
     const Snapshot snapshot =
         finder.brought_back(finder.find({.frame = shown_frame}), [](double) { return true; });
     const PixelPicker picker(snapshot, record.scene(), shown_frame / record.scene().film.rate);

@@ -6,9 +6,10 @@
 #include <sstream>
 
 #include "engine/files/trajectory.hpp"
+#include "engine/grain_table.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/scene/file/reader.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/film_length.hpp"

@@ -1,6 +1,6 @@
 // What pictures show beside their own moment: ways, exposures, means; given by a run that goes on and keeps
 // what they will want, or by a record that has every moment.
-#include "render/run/frames/picture_parts.hpp"
+#include "render/film/sources/picture_parts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

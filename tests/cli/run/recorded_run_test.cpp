@@ -1,6 +1,6 @@
 // Runs that lie on disk as sources of frames: what they supply, files that do not belong together, files that
 // lack something, files that grow.
-#include "render/run/frames/recorded_run.hpp"
+#include "render/film/sources/recorded_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -159,7 +159,7 @@ TEST_F(Recorded, GivesItsFramesInAnyOrder) {
     EXPECT_THAT(archive.before(3, 0.1), testing::ElementsAre(1, 2));
 
     // The same frame, whoever asks for it and after whatever other.
-    const Frame last = archive.frame(4), first = archive.frame(0), again = archive.frame(4);
+    const Frame last = record.frame(4), first = record.frame(0), again = record.frame(4);
     EXPECT_EQ(last.position, again.position);
     EXPECT_EQ(last.displacement, again.displacement);
     EXPECT_EQ(last.displacement.size(), 50u);
@@ -196,13 +196,14 @@ TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
     record.start({{{0.15, 1}, {0.2, 0}}, {mean, exposed}, false});
     const auto go_on = [] { return true; };
     const Frame four = *record.next(go_on)->frame, averaged = *record.next(go_on)->frame;
-    const std::size_t at = record.nearest(0.2);
+    const FrameArchive& archive = *record.archive();
+    const std::size_t at = archive.nearest(0.2);
     Vec3 expected = Vec3::Zero();
-    for (std::size_t k = 0; k < 16; ++k) expected += record.grains(at - k).position[7] / 16;
+    for (std::size_t k = 0; k < 16; ++k) expected += archive.grains(at - k).position[7] / 16;
     EXPECT_LT((averaged.position[7] - expected).norm(), 1e-12);
     EXPECT_LT(averaged.container().place.norm(), 1e-6) << "the drive goes round";
     ASSERT_EQ(four.exposed.size(), 3u);
-    EXPECT_EQ(four.exposed[2]->position, record.grains(record.nearest(0.15) - 1).position);
+    EXPECT_EQ(four.exposed[2]->position, archive.grains(archive.nearest(0.15) - 1).position);
 }
 
 // What is whole is read while the run goes on: each frame with its contacts and its row of measures.

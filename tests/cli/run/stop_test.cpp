@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/trajectory.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/grain_table.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_disk.hpp"

@@ -13,7 +13,7 @@
 #include "engine/files/log.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
-#include "engine/start/grain_table.hpp"
+#include "engine/grain_table.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

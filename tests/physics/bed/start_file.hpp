@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/grain_table.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/start/grain_table.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 

@@ -1,6 +1,6 @@
 // Grains that leave and enter: the step in which they do, the same bits on any number of threads, and the
 // account of their energy.
-#include "engine/step/traffic.hpp"
+#include "engine/state/traffic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,78 @@
+#include "engine/files/frames/open_frames.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+
+// All readers, a line each, in the order in which they are asked: FrameReader NAME_reader() in
+// engine/files/frames/readers.
+#define GRAINREEL_FRAME_READERS(one) one(run_folder) one(trajectory) one(checkpoint) one(grain_table)
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+#define GRAINREEL_DECLARE(name) FrameReader name##_reader();
+GRAINREEL_FRAME_READERS(GRAINREEL_DECLARE)
+#undef GRAINREEL_DECLARE
+
+namespace {
+
+FileHead head_of(const fs::path& path) {
+    FileHead head;
+    head.path = path;
+    std::error_code error;
+    head.folder = fs::is_directory(path, error);
+    if (head.folder) return head;
+    if (const std::string other = other_than_file(path, true); !other.empty())
+        throw UserError(fmt::format("{}: is {}, from which no frames are read; give a file or a folder",
+                                    path.string(), other));
+    std::ifstream in = read_plain(path);
+    if (!in) throw UserError(fmt::format("{}: cannot be opened; is there such a file?", path.string()));
+    head.size = fs::file_size(path, error);
+    head.bytes.resize(std::min<std::uintmax_t>(error ? 0 : head.size, kHeadBytes));
+    in.read(head.bytes.data(), static_cast<std::streamsize>(head.bytes.size()));
+    head.bytes.resize(static_cast<std::size_t>(in.gcount()));
+    return head;
+}
+
+[[noreturn]] void refuse(const fs::path& path) {
+    std::string known;
+    for (const FrameReader& reader : frame_readers()) known += fmt::format("\n  {}", reader.about);
+    throw UserError(
+        fmt::format("{}: holds no frames that can be read. These can be:{}", path.string(), known));
+}
+
+}  // namespace
+
+const std::vector<FrameReader>& frame_readers() {
+#define GRAINREEL_LIST(name) name##_reader(),
+    static const std::vector<FrameReader> all{GRAINREEL_FRAME_READERS(GRAINREEL_LIST)};
+#undef GRAINREEL_LIST
+    return all;
+}
+
+const FrameReader* reader_of(const fs::path& path) {
+    const FileHead head = head_of(path);
+    for (const FrameReader& reader : frame_readers())
+        if (reader.takes(head)) return &reader;
+    return nullptr;
+}
+
+std::unique_ptr<FrameArchive> open_frames(const fs::path& path, const FrameRequest& request) {
+    if (request.format.empty()) {
+        const FrameReader* reader = reader_of(path);
+        if (reader == nullptr) refuse(path);
+        return reader->open(path, request);
+    }
+    for (const FrameReader& reader : frame_readers())
+        if (request.format == reader.name) return reader.open(path, request);
+    throw UserError(fmt::format("{}: there is no reader called {}", path.string(), request.format));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,25 @@
+// Opens whatever has frames.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/frame_reader.hpp"
+
+namespace grainreel {
+
+// All readers, in the order in which they are asked.
+const std::vector<FrameReader>& frame_readers();
+
+// The one that takes what lies there; null where none does. Throws UserError where nothing lies there, or no
+// ordinary file.
+const FrameReader* reader_of(const std::filesystem::path& path);
+
+// By the first reader that takes it, or the one that is asked for. Throws UserError where there is none, with
+// a list of what can be read, and for what its reader finds wrong.
+std::unique_ptr<FrameArchive> open_frames(const std::filesystem::path& path,
+                                          const FrameRequest& request = {});
+
+}  // namespace grainreel

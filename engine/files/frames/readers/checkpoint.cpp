@@ -1,0 +1,118 @@
+// A checkpoint: the grains of one moment, and the scene that they are of. What the step loop keeps in it is
+// left alone, so no laws are needed. Its forces and measures come from the run itself, once it is restored.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/nearest_image.hpp"
+#include "engine/files/frame_faults.hpp"
+#include "engine/files/frames/clock_of.hpp"
+#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/saved_scene.hpp"
+#include "engine/state/checkpoint_file.hpp"
+#include "engine/state/wall_motion.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void damaged(const fs::path& file) {
+    throw UserError(fmt::format("{}: is damaged; take another checkpoint", file.string()));
+}
+
+CheckpointFile whole_file(const fs::path& path) {
+    CheckpointFile file(path);
+    switch (file.fault()) {
+        case CheckpointFile::Fault::unreadable:
+            throw UserError(
+                fmt::format("{}: cannot be read; give the checkpoint.grs of a run", path.string()));
+        case CheckpointFile::Fault::other_version:
+            throw UserError(fmt::format(
+                "{}: is a checkpoint of another version of grainreel; give the final.csv beside it",
+                path.string()));
+        case CheckpointFile::Fault::damaged:
+            damaged(path);
+        case CheckpointFile::Fault::none:
+            break;
+    }
+    return file;
+}
+
+// By rising id, as frames have them.
+Frame frame_of(const Grains& grains, double period) {
+    std::vector<std::size_t> order(grains.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return grains.id[a] < grains.id[b]; });
+    Frame frame;
+    for (const std::size_t i : order) {
+        frame.id.push_back(grains.id[i]);
+        frame.species.push_back(grains.species[i]);
+        frame.radius.push_back(grains.place[i].radius);
+        Vec3 position = grains.place[i].position;
+        position.x() = wrapped(position.x(), period);
+        frame.position.push_back(position);
+        frame.velocity.push_back(grains.motion[i].velocity);
+        frame.spin.push_back(grains.motion[i].spin);
+        if (!grains.orientation.empty()) frame.orientation.push_back(grains.orientation[i]);
+    }
+    return frame;
+}
+
+class Checkpoint final : public FrameArchive {
+  public:
+    explicit Checkpoint(const fs::path& path)
+        : path_(path), scene_(scene_of_checkpoint(path)), world_(world_of(scene_)) {
+        scene_.name = path.stem().string();
+        const CheckpointFile file = whole_file(path);
+        frame_ = frame_of(file.grains, period_of_depth(scene_.container));
+        const Clock clock = clock_of_steps(scene_, scene_.run.step.value_or(0));
+        frame_.step = file.header.step;
+        frame_.time = clock.time(frame_.step);
+        frame_.cycles = clock.cycles(frame_.step);
+        frame_.phase = clock.phase(frame_.step);
+        frame_.bodies =
+            poses_of(bodies_of(scene_.drive, scene_.walls), WallMotion(scene_.drive, clock).at(frame_.step));
+        if (moment_fault(frame_) || grains_fault(frame_, scene_.species.size())) damaged(path);
+        moments_ = {moment_of(frame_)};
+        world_.most_grains = frame_.size();
+    }
+
+    const fs::path& path() const override { return path_; }
+    const World& world() const override { return world_; }
+    FrameSupply supply() const override {
+        FrameSupply supply;
+        supply.orientations = !frame_.orientation.empty();
+        return supply;
+    }
+    const std::vector<Frame>& moments() const override { return moments_; }
+    Frame grains(std::size_t) const override { return frame_; }
+    const Scene* scene() const override { return &scene_; }
+
+  private:
+    fs::path path_;
+    Scene scene_;
+    World world_;
+    Frame frame_;
+    std::vector<Frame> moments_;
+};
+
+bool takes(const FileHead& head) {
+    return !head.folder && begins_checkpoint(head.bytes);
+}
+
+std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest&) {
+    return std::make_unique<Checkpoint>(path);
+}
+
+}  // namespace
+
+FrameReader checkpoint_reader() {
+    return {"checkpoint", "a checkpoint (checkpoint.grs)", takes, open};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,139 @@
+// The table of grains of a final.csv: one moment of a run, without time or walls. Names, masses and walls are
+// those of the scene.toml beside it, where one lies there.
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/saved_scene.hpp"
+#include "engine/grain_table.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int32_t most_types = 1000;
+
+// Questions find grains by their ids, so the rows come by rising id.
+Frame by_id(const Frame& table) {
+    std::vector<std::size_t> order(table.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return table.id[a] < table.id[b]; });
+    Frame frame;
+    for (const std::size_t i : order) {
+        frame.id.push_back(table.id[i]);
+        frame.species.push_back(table.species[i]);
+        frame.radius.push_back(table.radius[i]);
+        frame.position.push_back(table.position[i]);
+        frame.velocity.push_back(table.velocity[i]);
+        frame.spin.push_back(table.spin[i]);
+        if (!table.orientation.empty()) frame.orientation.push_back(table.orientation[i]);
+    }
+    return frame;
+}
+
+// Of a table that lies alone.
+std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
+    std::vector<WorldSpecies> types(static_cast<std::size_t>(last) + 1);
+    for (std::size_t type = 0; type < types.size(); ++type)
+        types[type].name = fmt::format("type {}", type + 1);
+    std::vector<double> sums(types.size(), 0);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto type = static_cast<std::size_t>(frame.species[i]);
+        ++types[type].count;
+        sums[type] += 2 * frame.radius[i];
+    }
+    for (std::size_t type = 0; type < types.size(); ++type)
+        if (types[type].count > 0) types[type].diameter = sums[type] / static_cast<double>(types[type].count);
+    return types;
+}
+
+class GrainTable final : public FrameArchive {
+  public:
+    GrainTable(const fs::path& file, const FrameRequest& request)
+        : file_(file), frame_(by_id(read_grain_table(file))) {
+        frame_.time = frame_.cycles = kUnknown;
+        news_.push_back(fmt::format(
+            "{}: holds neither time nor walls; heights are counted from the floor at rest", file_.string()));
+        read_scene_beside(request);
+        moments_ = {moment_of(frame_)};
+        world_.most_grains = frame_.size();
+        world_.time_known = false;
+    }
+
+    const fs::path& path() const override { return file_; }
+    const World& world() const override { return world_; }
+    FrameSupply supply() const override {
+        FrameSupply supply;
+        supply.orientations = !frame_.orientation.empty();
+        return supply;
+    }
+    const std::vector<Frame>& moments() const override { return moments_; }
+    Frame grains(std::size_t) const override { return frame_; }
+    const Scene* scene() const override { return scene_ ? &*scene_ : nullptr; }
+    std::vector<std::string> news() const override { return news_; }
+
+  private:
+    void read_scene_beside(const FrameRequest& request) {
+        const std::int32_t last = *std::max_element(frame_.species.begin(), frame_.species.end());
+        const fs::path beside = file_.parent_path();
+        std::error_code error;
+        if (!fs::exists(beside / "scene.toml", error)) {
+            if (last >= most_types)
+                throw UserError(fmt::format("{}: has grains of type {}; there may be {} types at most",
+                                            file_.string(), last + 1, most_types));
+            world_.species = types_of(frame_, last);
+            news_.push_back(
+                fmt::format("{}: there is no scene.toml beside it; names, masses and walls are not known",
+                            file_.string()));
+            return;
+        }
+        const fs::path folder = beside.empty() ? fs::path(".") : beside;
+        scene_ = request.scene_of_run ? request.scene_of_run(folder) : plain_scene_of_run(folder);
+        world_ = world_of(*scene_);
+        if (static_cast<std::size_t>(last) >= scene_->species.size())
+            throw UserError(
+                fmt::format("{}: has grains of type {}, but the scene.toml beside it has {} species; "
+                            "they are of two runs",
+                            file_.string(), last + 1, scene_->species.size()));
+        check_all_are_there();
+    }
+
+    // Where no grain comes or goes, the table of a run has as many as its scene.
+    void check_all_are_there() const {
+        const bool traffic = !scene_->feeds.empty() || (scene_->container.outlet && !scene_->container.tray);
+        const auto grains = static_cast<std::int64_t>(frame_.size());
+        if (traffic || file_.filename() != kFinalTable || grains == scene_->grains()) return;
+        throw UserError(
+            fmt::format("{}: has {} grains, but the scene.toml beside it has {}; it was cut off, or they "
+                        "are of two runs",
+                        file_.string(), grains, scene_->grains()));
+    }
+
+    fs::path file_;
+    Frame frame_;
+    std::vector<Frame> moments_;
+    std::optional<Scene> scene_;
+    World world_;
+    std::vector<std::string> news_;
+};
+
+bool takes(const FileHead& head) {
+    return !head.folder && begins_grain_table(head.bytes);
+}
+
+std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest& request) {
+    return std::make_unique<GrainTable>(path, request);
+}
+
+}  // namespace
+
+FrameReader grain_table_reader() {
+    return {"grain-table", "a table of grains (final.csv)", takes, open};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,72 @@
+// trajectory.nc, and the other files of moments that a run writes in its format, without what lies beside
+// them.
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/trajectory_world.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Trajectory final : public FrameArchive {
+  public:
+    explicit Trajectory(const fs::path& path) : path_(path), reader_(path), world_(world_of(reader_.info())) {
+        for (std::size_t place = 0; place < reader_.frames(); ++place) {
+            try {
+                moments_.push_back(reader_.read_moment(place));
+                places_.push_back(place);
+            } catch (const DamagedFrame& one) {
+                damage_.emplace_back(one.what());
+            }
+        }
+    }
+
+    const fs::path& path() const override { return path_; }
+    const World& world() const override { return world_; }
+    FrameSupply supply() const override {
+        FrameSupply supply;
+        supply.orientations = reader_.info().orientation;
+        supply.contact_numbers = reader_.info().contact_numbers;
+        return supply;
+    }
+    const std::vector<Frame>& moments() const override { return moments_; }
+    Frame grains(std::size_t index) const override { return reader_.read(places_.at(index)); }
+    std::size_t place(std::size_t index) const override { return places_.at(index); }
+    std::vector<std::string> damage() const override { return damage_; }
+    std::vector<std::string> news() const override {
+        std::vector<std::string> news = faults_of(reader_, path_.string());
+        news.insert(news.end(), damage_.begin(), damage_.end());
+        return news;
+    }
+
+  private:
+    fs::path path_;
+    TrajectoryReader reader_;
+    World world_;
+    std::vector<Frame> moments_;
+    std::vector<std::size_t> places_;  // in the file, of the moments
+    std::vector<std::string> damage_;
+};
+
+// The header of classic NetCDF, with the words that the convention and this program put there.
+bool takes(const FileHead& head) {
+    const auto says = [&](const char* text) { return head.bytes.find(text) != std::string::npos; };
+    return head.bytes.starts_with("CDF") && says("AMBER") && says("grainreel");
+}
+
+std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest&) {
+    return std::make_unique<Trajectory>(path);
+}
+
+}  // namespace
+
+FrameReader trajectory_reader() {
+    return {"trajectory", "the trajectory.nc of a run", takes, open};
+}
+
+}  // namespace grainreel

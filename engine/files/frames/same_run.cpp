@@ -1,0 +1,227 @@
+#include "engine/files/frames/same_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/nearest_image.hpp"
+#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/wall_motion.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double same_size = 1e-4;   // relative; an early version kept radii as floats
+constexpr double same_time = 1e-6;   // relative, and in turns
+constexpr double same_place = 1e-6;  // of the drive's amplitude or speed, or of a diameter
+
+[[noreturn]] void of_two_runs(const std::string& what) {
+    throw UserError(what + "; they are of two runs");
+}
+
+void check_times(const Scene& scene, double step_length, double step, double time, double cycles,
+                 const std::string& file) {
+    if (scene.run.step && std::abs(time - step * *scene.run.step) > same_time * std::abs(time))
+        of_two_runs(
+            fmt::format("{} has {:.6g} s at step {:.0f}, but by scene.toml beside it a step is {:.6g} s",
+                        file, time, step, *scene.run.step));
+    if (std::abs(time - step * step_length) > same_time * std::abs(time))
+        of_two_runs(
+            fmt::format("{} has {:.6g} s at step {:.0f}, but in trajectory.nc beside it a step is {:.6g} s",
+                        file, time, step, step_length));
+    const double frequency = scene.drive.present ? scene.drive.frequency : 0;
+    const double periods = scene.drive.changes() && time > 0 ? DriveSchedule(scene.drive).times().cycles(time)
+                                                             : time * frequency;
+    if (std::abs(cycles - periods) > same_time * (1 + std::abs(cycles)))
+        of_two_runs(
+            fmt::format("{} has {:.6g} periods of the drive at {:.6g} s, but scene.toml beside it has {}",
+                        file, cycles, time,
+                        scene.drive.changes() ? fmt::format("{:.6g}", periods)
+                        : frequency > 0       ? fmt::format("{:.6g} Hz", frequency)
+                                              : "no drive"));
+}
+
+void check_pose(const Drive& drive, const BodyPose& is, const Pose& by_scene, const std::string& what) {
+    const auto near = [](const Vec3& a, const Vec3& b, double scale) {
+        return (a - b).norm() <= same_place * std::max(scale, a.norm());
+    };
+    const DrivePeaks peaks = drive_peaks(drive);
+    if (near(is.place, by_scene.offset, peaks.offset) && near(is.velocity, by_scene.velocity, peaks.speed))
+        return;
+    const auto along = [&](const Vec3& vector) { return vector.dot(drive.direction); };
+    of_two_runs(fmt::format(
+        "{} {:.4g} m from rest along the drive, at {:.4g} m/s, but the drive of scene.toml "
+        "beside it has it at {:.4g} m and {:.4g} m/s then",
+        what, along(is.place), along(is.velocity), along(by_scene.offset), along(by_scene.velocity)));
+}
+
+}  // namespace
+
+void check_species(const Scene& scene, const World& world, const std::string& trajectory) {
+    if (world.species.size() != scene.species.size())
+        of_two_runs(fmt::format("{}: has {} species, but scene.toml beside it has {}", trajectory,
+                                world.species.size(), scene.species.size()));
+}
+
+void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory) {
+    const auto grains = static_cast<std::int64_t>(world.most_grains);
+    if (grains != scene.grains() && !world.traffic)
+        of_two_runs(fmt::format("{}: has {} grains, but scene.toml beside it has {}", trajectory, grains,
+                                scene.grains()));
+    std::vector<std::int64_t> count(scene.species.size(), 0);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto of = static_cast<std::size_t>(frame.species[i]);
+        const Species& species = scene.species[of];
+        ++count[of];
+        const double diameter = 2 * frame.radius[i];
+        if (diameter < species.diameter.smallest * (1 - same_size) ||
+            diameter > species.diameter.largest * (1 + same_size))
+            of_two_runs(fmt::format("{}: grain {} of '{}' is {:.4g} m wide, but not in scene.toml beside it",
+                                    trajectory, frame.id[i], species.name, diameter));
+    }
+    for (std::size_t s = 0; s < count.size(); ++s)
+        if (count[s] > scene.species[s].count && !world.traffic)  // fewer when some have gone
+            of_two_runs(fmt::format("{}: has {} grains of '{}', but scene.toml beside it has {}", trajectory,
+                                    count[s], scene.species[s].name, scene.species[s].count));
+}
+
+void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame) {
+    check_times(scene, clock.step, static_cast<double>(moment.step), moment.time, moment.cycles, frame);
+    const double turns = moment.phase - moment.cycles - clock.initial_phase;
+    if (scene.drive.present && std::abs(turns - std::round(turns)) > same_time)
+        of_two_runs(
+            fmt::format("{} is at phase {:.4g} after {:.6g} periods, but the drive of scene.toml beside "
+                        "it begins at phase {:.4g}",
+                        frame, moment.phase, moment.cycles, scene.drive.phase));
+    if (clock.step <= 0) return;
+    const Pose drive = WallMotion(scene.drive, clock).at(moment.step);
+    const bool all_moves = scene.drive.moves == Drive::Moves::container;
+    check_pose(scene.drive, moment.floor(), drive, frame + " has the floor");
+    check_pose(scene.drive, moment.container(), all_moves ? drive : Pose(), frame + " has the container");
+}
+
+namespace {
+
+// Places of the rows that have a step of the trajectory, the last first: row and frame.
+struct Pair {
+    std::size_t row, frame;
+};
+std::vector<Pair> moments_of_both(const std::vector<double>& steps, const std::vector<Frame>& moments) {
+    std::vector<Pair> pairs;
+    for (std::size_t row = steps.size(); row-- > 0;) {
+        const auto found = std::lower_bound(
+            moments.begin(), moments.end(), steps[row],
+            [](const Frame& moment, double step) { return static_cast<double>(moment.step) < step; });
+        if (found != moments.end() && static_cast<double>(found->step) == steps[row])
+            pairs.push_back({row, static_cast<std::size_t>(found - moments.begin())});
+    }
+    return pairs;
+}
+
+double mean_height(const Frame& frame, std::size_t species) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        if (static_cast<std::size_t>(frame.species[i]) == species) sum += frame.position[i].z(), ++count;
+    return sum / count;
+}
+
+void check_heights(const Scene& scene, const MeasureTable& table, std::size_t row, const Frame& frame,
+                   const std::string& measures) {
+    for (std::size_t s = 0; s < scene.species.size(); ++s) {
+        const auto column = column_of(table, scene.species[s].name + "_centre_z_m");
+        if (!column) continue;
+        const double said = table.values(*column, row, row + 1).front(), is = mean_height(frame, s);
+        if (std::abs(said - is) > same_place * (scene.species[s].diameter.largest + std::abs(is)))
+            of_two_runs(
+                fmt::format("{}: has the centre of '{}' at a height of {:.6g} m at {:.6g} s, but in "
+                            "trajectory.nc beside it it is at {:.6g} m",
+                            measures, scene.species[s].name, said, frame.time, is));
+    }
+}
+
+// Of all rows: they follow each other, and each has the time of its step.
+void check_rows(double step_length, const std::vector<double>& steps, const std::vector<double>& times,
+                const std::string& measures) {
+    for (std::size_t row = 0; row < steps.size(); ++row) {
+        const std::string line = fmt::format("{}:{}: ", measures, row + 2);
+        if (row > 0 && !(steps[row] > steps[row - 1]))
+            throw UserError(
+                fmt::format("{}is of step {}, but the row before is of step {}; the file was altered", line,
+                            steps[row], steps[row - 1]));
+        if (std::abs(times[row] - steps[row] * step_length) > same_time * std::abs(times[row]))
+            throw UserError(fmt::format(
+                "{}has {:.6g} s at step {}, but a step of this run is {:.6g} s; the file was altered", line,
+                times[row], steps[row], step_length));
+    }
+}
+
+}  // namespace
+
+void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
+                    const std::string& measures) {
+    const auto step = column_of(table, "step");
+    if (!step) return;
+    const std::vector<double> steps = table.values(*step, 0, table.rows());
+    const auto found = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(frame.step));
+    if (found == steps.end() || *found != static_cast<double>(frame.step)) return;
+    const auto row = static_cast<std::size_t>(found - steps.begin());
+    check_heights(scene, table, row, frame, fmt::format("{}:{}", measures, row + 2));
+}
+
+void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
+                    const FrameArchive& trajectory, const std::string& measures) {
+    const auto step = column_of(table, "step"), time = column_of(table, "time_s"),
+               cycles = column_of(table, "cycles");
+    const std::size_t rows = table.rows();
+    if (!step || !time || !cycles || rows == 0) return;
+    const std::vector<double> steps = table.values(*step, 0, rows);
+    const auto last = [&](std::size_t column) { return table.values(column, rows - 1, rows).front(); };
+    if (clock.step > 0)
+        check_times(scene, clock.step, steps.back(), last(*time), last(*cycles), measures + ": its last row");
+    if (clock.step > 0) check_rows(clock.step, steps, table.values(*time, 0, rows), measures);
+    for (const auto& [row, index] : moments_of_both(steps, trajectory.moments())) {
+        try {
+            return check_heights(scene, table, row, trajectory.grains(index), measures);
+        } catch (const DamagedFrame&) {
+            continue;  // whoever draws it says so
+        }
+    }
+}
+
+void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
+                    const std::string& contacts) {
+    constexpr double room = 1.05;  // over the radii; overlaps are what carries force
+    const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
+    const auto index_of = [&](std::int32_t id) -> std::optional<std::size_t> {
+        const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+        if (found == frame.id.end() || *found != id) return std::nullopt;
+        return static_cast<std::size_t>(found - frame.id.begin());
+    };
+    const auto apart = [&](std::size_t a, std::size_t b) {
+        Vec3 way = frame.position[b] - frame.position[a];
+        way.x() = nearest_image(way.x(), depth);
+        return way.norm() > room * (frame.radius[a] + frame.radius[b]);
+    };
+    for (const Touch& touch : touches) {
+        const auto first = index_of(touch.first);
+        const auto second = touch.second < 0 ? first : index_of(touch.second);  // a wall
+        if (first && second && (touch.second < 0 || !apart(*first, *second))) continue;
+        of_two_runs(
+            fmt::format("{}: has grains {} and {} push each other at {:.6g} s, but in trajectory.nc "
+                        "beside it they do not touch",
+                        contacts, touch.first, touch.second, frame.time));
+    }
+}
+
+std::optional<std::size_t> column_of(const MeasureTable& table, const std::string& name) {
+    const std::vector<std::string>& columns = table.columns();
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+}  // namespace grainreel

@@ -1,0 +1,61 @@
+#include "engine/files/frames/saved_scene.hpp"
+
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/state/checkpoint_file.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of_run(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+        throw UserError(fmt::format("{}: no such folder; give the folder of a run", folder.string()));
+    const fs::path normal = folder.lexically_normal();
+    if (normal.has_filename() && normal.filename() != "." && normal.filename() != "..") return normal;
+    return normal.has_filename() || !normal.has_parent_path() ? fs::canonical(folder) : normal.parent_path();
+}
+
+fs::path file_of_run(const fs::path& folder, const char* name, const char* advice) {
+    if (const std::string other = other_than_file(folder / name, true); !other.empty())
+        throw UserError(
+            fmt::format("{}: is {}, not a file of a run; {}", (folder / name).string(), other, advice));
+    std::error_code error;
+    if (fs::exists(folder / name, error)) return folder / name;
+    throw UserError(fmt::format("{}: has no {}; {}", folder.string(), name, advice));
+}
+
+Scene plain_scene_of_run(const fs::path& folder) {
+    Scene scene = read_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"), {},
+                             measurable_in);
+    scene.name = folder.filename().string();
+    return scene;
+}
+
+CheckpointScene scene_in_checkpoint(const fs::path& checkpoint) {
+    const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
+    if (!label)
+        throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
+                                    checkpoint.string()));
+    const std::string name = checkpoint.string();
+    return {{label->scene, checkpoint},
+            {{"start.method=file", name},
+             {"start.file=" + fs::absolute(checkpoint).string(), name},
+             {"start.keep_clock=true", name}}};
+}
+
+Scene scene_of_checkpoint(const fs::path& checkpoint) {
+    const auto [text, sets] = scene_in_checkpoint(checkpoint);
+    Scene scene;
+    read_scene_into(scene, text, sets, measurable_in);
+    return scene;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,43 @@
+#include "engine/files/frames/world.hpp"
+
+#include "engine/scene/bed.hpp"
+
+namespace grainreel {
+
+World world_of(const Scene& scene) {
+    World world;
+    world.title = scene.title;
+    for (const Species& species : scene.species)
+        world.species.push_back({species.name, species.diameter.mean, species.density, species.count});
+    WorldCell& cell = world.cell.emplace();
+    cell.origin = extent_of(scene).low;
+    if (scene.container.periodic_depth) {
+        cell.edges[0].x() = scene.container.depth;
+        cell.periodic[0] = true;
+    }
+    world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
+    for (const FreeWall& wall : scene.walls) world.bodies.push_back({wall.name, {}, {}});
+    for (const Face& face : faces_of(scene))
+        if (face.body.number >= 0)
+            world.bodies.at(static_cast<std::size_t>(face.body.number)).faces.push_back(face);
+    world.most_grains = static_cast<std::size_t>(scene.grains());
+    world.facts = file_facts(scene);
+    return world;
+}
+
+Scene scene_of(const World& world) {
+    Scene scene;
+    scene.title = world.title;
+    scene.container.shape = Container::Shape::none;
+    for (const WorldSpecies& one : world.species) {
+        Species species;
+        species.name = one.name;
+        species.count = one.count;
+        species.diameter.mean = one.diameter;
+        species.density = one.density;
+        scene.species.push_back(species);
+    }
+    return scene;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,38 @@
+// A trajectory.nc from whatever has frames. A run writes its own through TrajectoryWriter itself, which can
+// also go on with a file that is there.
+#include <optional>
+
+#include "engine/files/frames/frame_writer.hpp"
+#include "engine/files/frames/trajectory_world.hpp"
+#include "engine/files/trajectory.hpp"
+
+namespace grainreel {
+
+namespace {
+
+class Trajectory final : public FrameWriter {
+  public:
+    explicit Trajectory(std::filesystem::path path) : path_(std::move(path)) {}
+
+    void begin(const World& world, const FrameSupply& supply) override {
+        writer_.emplace(path_, trajectory_info(world, supply));
+    }
+    void frame(const Frame& frame) override { writer_->write(frame); }
+    void end() override { writer_.reset(); }
+
+  private:
+    std::filesystem::path path_;
+    std::optional<TrajectoryWriter> writer_;
+};
+
+std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
+    return std::make_unique<Trajectory>(path);
+}
+
+}  // namespace
+
+FrameFormat trajectory_format() {
+    return {"trajectory", "a trajectory.nc, as runs have it", make};
+}
+
+}  // namespace grainreel

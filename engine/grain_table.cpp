@@ -1,0 +1,176 @@
+#include "engine/grain_table.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "engine/base/byte_order_mark.hpp"
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/text_file.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::string_view plain_header = "id,type,radius,x,y,z,vx,vy,vz,wx,wy,wz";
+constexpr std::string_view orientation_columns = ",qx,qy,qz,qw";
+// Of earlier versions, where `species` counted from 0.
+constexpr std::string_view old_header = "id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz";
+
+struct TableForm {
+    bool orientation = false;
+    const char* species = "type";  // the column's name
+    std::int32_t first_species = 1;
+};
+
+std::optional<TableForm> form_of(std::string_view header) {
+    TableForm form;
+    form.orientation = header.ends_with(orientation_columns);
+    if (form.orientation) header.remove_suffix(orientation_columns.size());
+    if (header == plain_header) return form;
+    form.species = "species";
+    form.first_species = 0;
+    return header == old_header ? std::optional(form) : std::nullopt;
+}
+
+void append(fmt::memory_buffer& row, const double* values, int count) {
+    for (int i = 0; i < count; ++i) fmt::format_to(std::back_inserter(row), ",{}", values[i]);
+}
+
+// One row's cells, taken from the left; knows its place for messages.
+class Row {
+  public:
+    Row(const std::filesystem::path& path, int line, std::string_view text)
+        : path_(path), line_(line), text_(text) {}
+
+    template <class Number>
+    Number take(const char* column) {
+        if (at_ > text_.size()) fail(fmt::format("the row ends before `{}`", column));
+        const std::size_t end = std::min(text_.find(',', at_), text_.size());
+        const std::string_view cell = text_.substr(at_, end - at_);
+        Number value{};
+        const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+        if (error != std::errc() || stop != cell.data() + cell.size()) {
+            fail(fmt::format("`{}` is no number for `{}`", cell, column));
+        }
+        if constexpr (std::is_floating_point_v<Number>) {
+            if (!std::isfinite(value)) fail(fmt::format("`{}` is {}", column, value));
+        }
+        last_ = at_;
+        at_ = end + 1;
+        return value;
+    }
+
+    Vec3 take_vector(const std::array<const char*, 3>& columns) {
+        Vec3 vector;
+        for (int i = 0; i < 3; ++i) vector[i] = take<double>(columns[static_cast<std::size_t>(i)]);
+        return vector;
+    }
+
+    void end() {
+        if (at_ <= text_.size()) fail("the row has more columns than the header");
+    }
+
+    // About the cell taken last.
+    [[noreturn]] void reject(const std::string& what) {
+        at_ = last_;
+        fail(what);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw UserError(fmt::format("{}:{}:{}: {}; write the table again from a run", path_.string(), line_,
+                                    at_ + 1, what));
+    }
+
+    const std::filesystem::path& path_;
+    int line_;
+    std::string_view text_;
+    std::size_t at_ = 0, last_ = 0;
+};
+
+void read_grain(Row& row, const TableForm& form, std::unordered_set<std::int32_t>& ids, Frame& frame) {
+    frame.id.push_back(row.take<std::int32_t>("id"));
+    if (frame.id.back() < 0) row.reject("`id` is negative");
+    if (!ids.insert(frame.id.back()).second)
+        row.reject(fmt::format("grain {} is here twice", frame.id.back()));
+    const auto species = row.take<std::int32_t>(form.species);
+    if (species < form.first_species)
+        row.reject(
+            fmt::format("`{}` is {}, but it counts from {}", form.species, species, form.first_species));
+    frame.species.push_back(species - form.first_species);
+    frame.radius.push_back(row.take<double>("radius"));
+    if (frame.radius.back() <= 0) row.reject("`radius` is not positive");
+    frame.position.push_back(row.take_vector({"x", "y", "z"}));
+    frame.velocity.push_back(row.take_vector({"vx", "vy", "vz"}));
+    frame.spin.push_back(row.take_vector({"wx", "wy", "wz"}));
+    if (form.orientation) {
+        const Vec3 q = row.take_vector({"qx", "qy", "qz"});
+        frame.orientation.emplace_back(row.take<double>("qw"), q.x(), q.y(), q.z());
+    }
+    row.end();
+}
+
+}  // namespace
+
+bool begins_grain_table(std::string_view bytes) {
+    std::string line(bytes.substr(0, bytes.find('\n')));
+    drop_byte_order_mark(line);
+    if (line.ends_with('\r')) line.pop_back();
+    return form_of(line).has_value();
+}
+
+TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame) {
+    const bool with_orientation = !frame.orientation.empty();
+    fmt::memory_buffer text;
+    fmt::format_to(std::back_inserter(text), "{}{}\n", plain_header,
+                   with_orientation ? orientation_columns : "");
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        fmt::format_to(std::back_inserter(text), "{},{},{}", frame.id[i], frame.species[i] + 1,
+                       frame.radius[i]);
+        append(text, frame.position[i].data(), 3);
+        append(text, frame.velocity[i].data(), 3);
+        append(text, frame.spin[i].data(), 3);
+        if (with_orientation) append(text, frame.orientation[i].coeffs().data(), 4);
+        text.push_back('\n');
+    }
+    replace_file(path, {text.data(), text.size()});
+    return mark_of_table(static_cast<std::int64_t>(frame.size()), {text.data(), text.size()});
+}
+
+Frame read_grain_table(const std::filesystem::path& path) {
+    std::ifstream file = read_plain(path);
+    std::string line;
+    if (!file)
+        throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));
+    std::getline(file, line);
+    drop_byte_order_mark(line);
+    if (line.ends_with('\r')) line.pop_back();
+    const std::optional<TableForm> form = form_of(line);
+    if (!form) {
+        throw UserError(fmt::format("{}:1:1: not a table of grains; the first line must be `{}`",
+                                    path.string(), plain_header));
+    }
+    Frame frame;
+    std::unordered_set<std::int32_t> ids;
+    for (int number = 2; std::getline(file, line); ++number) {
+        if (line.ends_with('\r')) line.pop_back();
+        if (line.empty()) continue;
+        Row row(path, number, line);
+        read_grain(row, *form, ids, frame);
+    }
+    if (frame.size() == 0) throw UserError(fmt::format("{}:2:1: no grains in the table", path.string()));
+    check_as_written(path, static_cast<std::int64_t>(frame.size()));
+    return frame;
+}
+
+}  // namespace grainreel

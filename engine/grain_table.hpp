@@ -1,0 +1,32 @@
+// final.csv: the state of every grain as a table, one row a grain. Written with as many digits as it takes to
+// read back the same bits, so a scene may start from it.
+//
+//   id,type,radius,x,y,z,vx,vy,vz,wx,wy,wz[,qx,qy,qz,qw]
+//
+// SI units: radius and position m, velocity m/s, spin (angular velocity) rad/s; `type` counts the scene's
+// species from 1 and `id` the grains from 0, as in trajectory.nc; the orientation is a unit quaternion, there
+// only when the run kept it. Earlier versions had the column `species` there, counted from 0: it is read too.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "engine/frame.hpp"
+#include "engine/state/table_mark.hpp"
+
+namespace grainreel {
+
+// Whether a file that begins so is such a table, by its first line.
+bool begins_grain_table(std::string_view bytes);
+
+// What run.json is to keep of it. Throws RunError when the file cannot be written; what it held before stays
+// then.
+TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame);
+
+// The frame's step, time and wall poses stay at their defaults: the table does not hold them.
+// Throws UserError with line and column when the file is missing, is not such a table, or holds a value that
+// no grain can have (a radius of 0, an infinite speed, an id twice); and when it is a final.csv that is not
+// what the run.json beside it says.
+Frame read_grain_table(const std::filesystem::path& path);
+
+}  // namespace grainreel

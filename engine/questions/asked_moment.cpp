@@ -1,0 +1,222 @@
+#include "engine/questions/asked_moment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/nearest_image.hpp"
+#include "engine/files/frames/open_frames.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/questions/displacement.hpp"
+#include "engine/run/driver/run_files.hpp"
+#include "engine/run/replay/checkpoint_ring.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/container_faces.hpp"
+#include "render/film/production/caption_holds.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// m/s2, of each grain of `now`, from its places now and a step later: x' = x + dt v + dt^2 a / 2 with
+// velocity Verlet, x' = x + dt (v + dt a) with leapfrog. Empty with other integrators.
+std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Frame& later, double step) {
+    const Integrator integrator = scene.run.integrator;
+    if (integrator != Integrator::velocity_verlet && integrator != Integrator::leapfrog) return {};
+    const double share = integrator == Integrator::velocity_verlet ? 2 : 1;
+    const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
+    std::vector<Vec3> all;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const auto there = std::lower_bound(later.id.begin(), later.id.end(), now.id[i]);
+        if (there == later.id.end() || *there != now.id[i]) {  // it leaves in this step
+            all.push_back(Vec3::Constant(std::nan("")));
+            continue;
+        }
+        Vec3 way = later.position[static_cast<std::size_t>(there - later.id.begin())] - now.position[i];
+        way.x() = nearest_image(way.x(), depth);
+        all.push_back(share * (way - step * now.velocity[i]) / (step * step));
+    }
+    return all;
+}
+
+}  // namespace
+
+// A run that was broken off has come further than its last kept moment.
+double MomentFinder::last_time() const {
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    const double last = record_.to();
+    return kept.empty() ? last : std::max(last, record_.clock().time(kept.back().step));
+}
+
+AskedMoment MomentFinder::find(const MomentRequest& request) const {
+    const Clock& clock = record_.clock();
+    const std::vector<Frame>& moments = record_.moments();
+    const auto named = [&](double time, const char* option) {
+        const double from = record_.from(), to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
+        if (!(time >= from - hair && time <= to + hair))
+            throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
+                                        option, time, from, to));
+        AskedMoment asked;
+        asked.nearest = record_.frames().nearest(time);
+        asked.step = clock.step > 0 ? std::llround(time / clock.step) : moments[asked.nearest].step;
+        if (moments[asked.nearest].step == asked.step) asked.kept = asked.nearest;
+        asked.time = clock.step > 0 ? clock.time(asked.step) : moments[asked.nearest].time;
+        return asked;
+    };
+    if (request.at) return named(*request.at, request.at_option);
+    if (request.frame) return named(clock.time(step_of_frame(request)), "--frame");
+    if (request.cycle) {
+        if (!record_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
+        return named(clock.time(clock.step_at(*request.cycle)), "--cycle");
+    }
+    return last();
+}
+
+// The end of a run is in its last checkpoint, and need not be among the kept moments.
+AskedMoment MomentFinder::last() const {
+    const std::vector<Frame>& moments = record_.moments();
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    const std::size_t back = moments.size() - 1;
+    if (!kept.empty() && kept.back().step > moments[back].step)
+        return {kept.back().step, record_.clock().time(kept.back().step), std::nullopt, back, true};
+    return {moments[back].step, moments[back].time, back, back, true};
+}
+
+// Of the film that the run made: its kept moments, one a picture, and where a caption holds a picture, as
+// often as the film shows it.
+std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
+    const std::filesystem::path file = record_.frames().path() / kFilmMoments;
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw UserError(
+            fmt::format("--frame: {} has no {}, so that the moments of its film are not known; give --at "
+                        "TIME, or run the "
+                        "scene again with output.film_moments = true",
+                        record_.frames().path().string(), kFilmMoments));
+    const std::int64_t frame = *request.frame;
+    const auto pictures = open_frames(file, {.format = "trajectory"});
+    const std::vector<std::string> damage = pictures->damage();
+    std::int64_t shown = 0;
+    for (std::size_t k = 0; k < pictures->moments().size(); ++k) {
+        if (pictures->place(k) != k)
+            break;  // which picture is which is known up to the first that is damaged
+        const Frame& moment = pictures->moments()[k];
+        shown += 1 + (request.held ? request.held(moment.time) : 0);
+        if (frame < shown && frame >= 0) return moment.step;
+    }
+    if (!damage.empty()) throw UserError(damage.front());
+    throw UserError(
+        fmt::format("--frame: the film has the frames 0 to {}, but {} is asked for", shown - 1, frame));
+}
+
+Snapshot MomentFinder::kept(std::size_t index) const {
+    Snapshot snapshot{record_.scene(), record_.frame(index), record_.frames().has_contacts_of(index),
+                      record_.frames().first()};
+    snapshot.measured = record_.measured_near(index);
+    return snapshot;
+}
+
+bool MomentFinder::is_checkpoint(const AskedMoment& moment) const {
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    return std::any_of(kept.begin(), kept.end(), [&](const auto& one) { return one.step == moment.step; });
+}
+
+bool MomentFinder::can_bring_back(const AskedMoment& moment) const {
+    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    return !kept.empty() && kept.front().step <= moment.step;
+}
+
+namespace {
+
+// All but the accelerations.
+Snapshot snapshot_of(const Simulation& run, const Record& record) {
+    Snapshot snapshot{record.scene(), run.frame(), true, record.frames().first()};
+    for (const ContactRecord& one : run.contacts())
+        snapshot.frame.touches.push_back({one.first, one.second, one.normal});
+    snapshot.measured = MeasuredRow{snapshot.frame.time, run.measured(), run.measures().values()};
+    snapshot.forces.emplace();
+    snapshot.forces->contacts = run.contact_forces();
+    return snapshot;
+}
+
+}  // namespace
+
+void MomentFinder::check_can_bring_back(const AskedMoment& moment) const {
+    if (can_bring_back(moment)) return;
+    const bool none = record_.checkpoints().empty();
+    throw UserError(fmt::format(
+        "{}: has no checkpoint{}, so that {} brought back; ask for a kept moment with --no-replay, or "
+        "run the scene again with output.checkpoints",
+        record_.frames().path().string(), none ? "s" : fmt::format(" of {:.6g} s or before", moment.time),
+        none ? "no moment can be" : "this moment cannot be"));
+}
+
+Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatcher& watcher) {
+    check_can_bring_back(moment);
+    const Scene& scene = record_.scene();
+    Simulation run =
+        replayed(record_.frames().path(), record_.checkpoints(), moment.step, scene.run.threads, watcher);
+    Snapshot snapshot = snapshot_of(run, record_);
+    run.advance(moment.step + 1);
+    snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), record_.clock().step);
+    return snapshot;
+}
+
+Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher) {
+    const Scene& scene = record_.scene();
+    if (!scene.drive.present)
+        throw UserError("the run has no drive, so that there are no ways over a period of it");
+    const Clock& clock = record_.clock();
+    const int periods = record_.frames().periods();
+    const AskedMoment before{clock.step_at(clock.cycles(moment.step) - periods),
+                             clock.time(moment.step) - periods / scene.drive.highest_frequency(),
+                             {},
+                             0};
+    if (before.step < record_.moments().front().step || !can_bring_back(before))
+        throw UserError(fmt::format(
+            "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",
+            periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
+    const Frame then =
+        replayed(record_.frames().path(), record_.checkpoints(), before.step, scene.run.threads, watcher)
+            .frame();
+    Snapshot snapshot = brought_back(moment, watcher);
+    set_displacement(snapshot.frame, then, periods, period_of_depth(scene.container));
+    return snapshot;
+}
+
+void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool replay,
+                                const ReplayWatcher& watcher, const std::function<void(Snapshot)>& see) {
+    const Clock& clock = record_.clock();
+    if (!record_.scene().drive.present) throw UserError("--average: the run has no drive, and so no periods");
+    const double end = clock.cycles(moment.step);
+    const std::int64_t from = clock.step_at(end - periods);
+    if (clock.time(from) < record_.from() - 1e-9)
+        throw UserError(
+            fmt::format("--average: {} periods before {:.6g} s lie before the run's first moment, {:.6g} s; "
+                        "ask for fewer",
+                        periods, moment.time, record_.from()));
+    if (!replay) {
+        for (std::size_t k = 0; k < record_.moments().size(); ++k)
+            if (const std::int64_t step = record_.moments()[k].step; step > from && step <= moment.step)
+                see(kept(k));
+        return;
+    }
+    const auto count = static_cast<std::int64_t>(std::ceil(periods * kMomentsAPeriod));
+    const auto step_of = [&](std::int64_t k) {
+        return clock.step_at(end - static_cast<double>(count - 1 - k) / kMomentsAPeriod);
+    };
+    Simulation run = replayed(record_.frames().path(), record_.checkpoints(), step_of(0),
+                              record_.scene().run.threads, watcher);
+    for (std::int64_t k = 0; k < count; ++k) {
+        run.advance(step_of(k));
+        see(snapshot_of(run, record_));
+        if (!watcher(static_cast<double>(k + 1) / static_cast<double>(count)))
+            throw RunError("stopped before the moments were reached");
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,85 @@
+#include "render/film/answers/answer_picture.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/film/files/png.hpp"
+#include "render/film/production/picture_files.hpp"
+#include "render/film/request/thread_plan.hpp"
+#include "render/picture/grains/shown_grains.hpp"
+#include "render/picture/whole/renderer.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+namespace {
+
+bool is_among(const std::vector<std::int32_t>& ids, std::int32_t id) {
+    return std::binary_search(ids.begin(), ids.end(), id);
+}
+
+// Whether the film's cut takes one of these grains away.
+bool cut_hides(const Snapshot& snapshot, const FilmCut& cut, const std::vector<std::int32_t>& ids) {
+    const std::vector<HalfSpace> halves = kept_by_cut(cut, snapshot.frame);
+    return std::any_of(ids.begin(), ids.end(), [&](std::int32_t id) {
+        const std::optional<std::size_t> grain = snapshot.place_of(id);
+        return grain && std::any_of(halves.begin(), halves.end(), [&](const HalfSpace& half) {
+                   return half.normal.dot(snapshot.frame.position[*grain]) < half.distance;
+               });
+    });
+}
+
+// Of one moment, which nothing came before.
+FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const AnswerMarks& marks) {
+    FilmShows& shows = scene.film.shows;
+    shows.plots.clear();
+    shows.wall_forces = {};
+    if (needs_measures(shows)) shows.live_words.clear(), shows.text.clear();
+    if (needs_displacement(shows)) {
+        shows.colour = {}, shows.highlight_if = {}, shows.arrows = {}, shows.streamlines = {};
+    }
+    if (!snapshot.contacts && needs_touches(shows)) shows.colour = {}, shows.highlight_if = {};
+    shows.trails = {};
+    shows.highlighted = marks.grains;
+    shows.force_chains = snapshot.contacts && marks.lines && !marks.grains.empty();
+    if (!marks.words.empty()) shows.live_words = {{marks.words, "", "", 1}};
+    for (const std::int32_t id : marks.grains)
+        if (const auto grain = snapshot.place_of(id))
+            std::erase(shows.hidden, static_cast<std::size_t>(snapshot.frame.species[*grain]));
+    if (cut_hides(snapshot, scene.film.look.cut, marks.grains)) scene.film.look.cut = {};
+    return scene;
+}
+
+}  // namespace
+
+void check_picture_file(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    if (file.extension() != ".png")
+        throw UserError(fmt::format("--png {}: name a file that ends in .png", file.string()));
+    if (!std::filesystem::is_directory(folder, error))
+        throw UserError(
+            fmt::format("--png {}: there is no folder {}; make it first", file.string(), folder.string()));
+    if (std::filesystem::exists(file, error))
+        throw UserError(fmt::format("--png {}: exists already; choose another name", file.string()));
+}
+
+void draw_answer(const Snapshot& snapshot, const FilmedScene& filmed, const AnswerMarks& marks,
+                 double film_time, const std::filesystem::path& file, gl::Provider provider) {
+    const FilmedScene scene = scene_of_moment(filmed, snapshot, marks);
+    Frame frame = snapshot.frame;
+    if (scene.film.shows.force_chains)
+        std::erase_if(frame.touches, [&](const Touch& touch) {
+            return !is_among(marks.grains, touch.first) && !is_among(marks.grains, touch.second);
+        });
+    Renderer renderer(scene, drawing_threads(scene.run.threads).raster, provider);
+    renderer.point_out({marks.grains, marks.forces});
+    renderer.start_from(snapshot.start);
+    write_png(file, renderer.draw(frame, "", film_time), texts_of(scene.name, scene.film.title, frame, ""),
+              scene.film.transparent);
+}
+
+}  // namespace grainreel

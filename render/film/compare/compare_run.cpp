@@ -1,0 +1,184 @@
+#include "render/film/compare/compare_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/film/compare/comparison_words.hpp"
+#include "render/film/production/picture_files.hpp"
+#include "render/film/production/side_by_side_drawer.hpp"
+#include "render/film/run/still.hpp"
+#include "render/film/run/together.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/panels/side_by_side.hpp"
+
+namespace grainreel {
+
+CompareRun::CompareRun(const FilmRequest& request, RunListener& listener, Comparison all)
+    : FilmRun(request, listener), all_(std::move(all)) {
+    film_.use_threads(all_.threads);
+    if (!all_.still) film_.check(all_.film, all_.film_pictures);
+    if (all_.still && request.to_stdout)
+        throw UserError("--out -: with --at there is no film; name a folder");
+    make_folder({all_.film.name, request.base, request.out, request.force});
+}
+
+void CompareRun::begin() {
+    const std::vector<Instant>& instants = all_.pictures.instants;
+    for (const auto& member : all_.members) {
+        desk_.record.panels.push_back(member->place());
+        if (member->archive() != nullptr)
+            desk_.record.drawn.push_back({member->place(), static_cast<std::int64_t>(instants.size()),
+                                          instants.front().time, instants.back().time});
+    }
+    begin_record(all_.warnings);
+    for (const auto& member : all_.members) member->begin(folder(), request_.command, request_.program);
+}
+
+std::function<bool()> CompareRun::go_on() const {
+    return [this] { return desk_.listener.stop_signal() == 0; };
+}
+
+bool CompareRun::work() {
+    begin();
+    Frames frames(all_.members.size());
+    const auto pack = [this](Member& member, FramePtr&) { return member.pack(go_on()); };
+    if (!for_all(Stage::packing, frames, pack)) return false;
+    mark_begun();
+    for (const auto& member : all_.members) member->start(all_.pictures);
+    for (Panel& panel : all_.panels)
+        settle_orbit(panel.scene.film.camera, static_cast<double>(all_.film_pictures) / all_.film.film.rate);
+    return (all_.still ? draw_still(frames) : draw_film(frames)) && finish(frames);
+}
+
+// The same in each panel's own thread.
+bool CompareRun::next(Frames& frames) {
+    return for_all(Stage::pictures, frames, [this](Member& member, FramePtr& frame) {
+        frame = member.next(go_on());
+        return frame != nullptr;
+    });
+}
+
+// What remains of the runs.
+bool CompareRun::finish(Frames& frames) {
+    return for_all(Stage::pictures, frames, [this](Member& member, FramePtr&) {
+        member.next(go_on());
+        return desk_.listener.stop_signal() == 0;
+    });
+}
+
+bool CompareRun::draw_still(Frames& frames) {
+    const Instant moment = all_.pictures.instants.front();
+    stage_ = Stopwatch();
+    if (!next(frames)) return false;
+    SideBySide drawer(all_.panels, all_.film.film, film_.threads().raster, film_.request().gl);
+    if (const std::string note = drawer.gl_note(); !note.empty()) desk_.listener.info(note);
+    desk_.record.gl = drawer.gl_description();
+    const auto segment = static_cast<std::size_t>(moment.segment);
+    const Picture& picture = drawer.draw(frames, segment, all_.reference, *all_.still);
+    still_ = fmt::format("still-{}s.png", seconds_in_names(moment.time));
+    write_png(folder() / still_, picture,
+              texts_of(all_.film.name, all_.film.title, *frames[all_.reference], ""),
+              all_.film.film.transparent);
+    return true;
+}
+
+bool CompareRun::draw_film(Frames& frames) {
+    const std::vector<Instant>& instants = all_.pictures.instants;
+    std::vector<std::size_t> segment_of;
+    for (const Instant& instant : instants) segment_of.push_back(static_cast<std::size_t>(instant.segment));
+    film_.open(all_.film, static_cast<std::int64_t>(instants.size()), nullptr,
+               side_by_side_drawer(all_.panels, all_.film.film, film_.threads().raster, film_.request().gl,
+                                   all_.reference, segment_of));
+    stage_ = Stopwatch();
+    for (const std::size_t segment : segment_of) {
+        if (!next(frames)) return false;
+        const auto timer = desk_.times.during("waiting for the film");
+        film_.maker().take(frames, playback_of_all(all_.panels, segment));
+    }
+    return true;
+}
+
+const char* CompareRun::name_of(Stage stage) const {
+    return stage == Stage::packing ? "packing" : all_.all_recorded() ? "reading" : "engine";
+}
+
+bool CompareRun::for_all(Stage stage, Frames& frames, const Work& work) {
+    const auto timer = desk_.times.during(name_of(stage));
+    std::atomic<bool> all_well = true;
+    std::vector<std::function<void()>> works;
+    for (std::size_t i = 0; i < all_.members.size(); ++i)
+        works.push_back([&, i] {
+            try {
+                if (!work(*all_.members[i], frames[i])) all_well = false;
+            } catch (const std::exception& problem) {
+                all_.members[i]->note_failure(problem.what());
+                throw;
+            }
+        });
+    run_together(works, [&] { show_progress(stage); });
+    show_progress(stage);
+    return all_well;
+}
+
+void CompareRun::show_progress(Stage stage) {
+    if (all_.all_recorded()) {
+        if (stage == Stage::pictures && film_.is_open()) film_.show_progress();
+        return;
+    }
+    Progress progress;
+    progress.stage = stage == Stage::packing ? Progress::Stage::growing : Progress::Stage::vibrating;
+    double runs = 0;
+    for (const auto& member : all_.members) {
+        if (member->run() == nullptr) continue;
+        ++runs;
+        progress.done += member->done();
+        progress.particle_steps_per_second += member->speed();
+    }
+    progress.done /= runs;
+    progress.end = all_.pictures.instants.back().time;
+    progress.time = progress.done * progress.end;
+    progress.frames = film_.frames_done();
+    progress.frames_planned = film_.frames_planned();
+    progress.elapsed = desk_.watch.seconds();
+    const double seconds = stage_.seconds();
+    if (stage == Stage::pictures && progress.done > 0 && seconds > 1)
+        progress.remaining = seconds * (1 - progress.done) / progress.done;
+    desk_.listener.progress(progress);
+}
+
+void CompareRun::keep_state() {
+    for (const auto& member : all_.members) member->keep_state();
+}
+
+void CompareRun::conclude() {
+    for (const auto& member : all_.members)
+        member->close(desk_.record.status, *desk_.record.exit_status, desk_.failure);
+}
+
+std::string CompareRun::stopped_text() const {
+    if (all_.still) return "stopped";
+    return fmt::format("stopped at frame {} of {}", film_.report().frames, film_.frames_planned());
+}
+
+void CompareRun::report_written() {
+    std::vector<std::string> folders;
+    for (const auto& member : all_.members) {
+        if (member->run() == nullptr) continue;
+        folders.push_back(member->place() + "/");
+        for (const std::string& line : member->source().news())
+            desk_.listener.warning(fmt::format("{}: {}", member->place(), line));
+    }
+    const std::string runs =
+        folders.empty() ? "" : fmt::format("{} (each a run), ", fmt::join(folders, ", "));
+    desk_.listener.info(fmt::format("wrote {}: {}{}run.json, log.txt", folder().string(),
+                                    all_.still && !still_.empty() ? still_ + ", " : film_.files_text(),
+                                    runs));
+    desk_.listener.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s",
+                                    duration_text(desk_.watch.seconds()), all_.members.size(),
+                                    all_.pictures.instants.front().time, all_.pictures.instants.back().time));
+}
+
+}  // namespace grainreel

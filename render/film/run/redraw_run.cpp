@@ -1,0 +1,202 @@
+#include "render/film/run/redraw_run.hpp"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/pacing.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/choice.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// The run's folder is what is drawn from: it is neither replaced nor written to.
+void check_out(const FilmRequest& request, const std::filesystem::path& run) {
+    std::error_code error;
+    if (request.out && std::filesystem::equivalent(*request.out, run, error))
+        throw UserError(
+            fmt::format("--out {}: is the run that is drawn; choose another name", request.out->string()));
+    if (!request.film && !request.frames)
+        throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
+}
+
+std::vector<Frame> moments_of(const std::vector<Shot>& shots, const FilmOfRun& film) {
+    std::vector<Frame> moments;
+    for (const Shot& shot : shots) moments.push_back(film.moment(shot.step));
+    return moments;
+}
+
+}  // namespace
+
+RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
+                     RevisitedRun& source)
+    : FilmRun(request, listener),
+      source_(source),
+      scene_(source.scene()),
+      kept_alone_(what.every.has_value()) {
+    check_out(request, source.record().frames().folder());
+    if (kept_alone_)
+        choose_kept(what);
+    else
+        choose_pictures(what);
+    film_.check(scene_, static_cast<std::int64_t>(shots_.size()));
+    film_.use_threads(drawing_threads(scene_.run.threads));
+    make_folder({scene_.name + "-render", source.record().frames().folder().parent_path(), request.out,
+                 request.force});
+}
+
+// The film's, from one moment to another.
+void RedrawRun::choose_pictures(const RenderRequest& what) {
+    constexpr double hair = 1e-9;  // s
+    const FilmOfRun& film = source_.film();
+    const std::vector<Shot> all = film.shots();
+    scene_.film.segments = source_.segments();
+    for (const Shot& shot : all) {
+        const double time = film.moment(shot.step).time;
+        if (time >= what.from.value_or(time) - hair && time <= what.to.value_or(time) + hair)
+            shots_.push_back(shot);
+    }
+    if (shots_.empty() && !all.empty())
+        throw UserError(fmt::format("{}: no picture of the film lies there; they go from {:.6g} to {:.6g} s",
+                                    what.from ? "--from" : "--to", film.moment(all.front().step).time,
+                                    film.moment(all.back().step).time));
+    if (shots_.empty())
+        throw UserError(fmt::format("{}: the run came to none of its film's pictures",
+                                    source_.record().frames().folder().string()));
+    show_what_there_is();
+}
+
+// What cannot be had gives way to the kept moment that is nearest, once.
+void RedrawRun::show_what_there_is() {
+    std::vector<Shot> shown;
+    std::set<std::size_t> uneven;
+    for (const Shot& shot : shots_) {
+        const std::int64_t step = source_.shown(shot.step);
+        if (step == shot.step && source_.is_brought_back(step) && ++brought_back_ > 0) source_.prove(step);
+        if (step != shot.step) uneven.insert(static_cast<std::size_t>(shot.segment));
+        if (!shown.empty() && step <= shown.back().step) {
+            ++left_out_;
+            continue;
+        }
+        if (step != shot.step) ++replaced_;
+        shown.push_back({step, shot.segment});
+    }
+    shots_ = std::move(shown);
+    captions_.resize(segments_of(scene_.film).size());
+    for (const std::size_t segment : uneven) {
+        std::vector<Shot> inside = shots_;
+        std::erase_if(inside, [&](const Shot& shot) { return shot.segment != static_cast<int>(segment); });
+        captions_[segment] =
+            pacing_caption(moments_of(inside, source_.film()), scene_.drive, scene_.film.rate);
+    }
+}
+
+// Frames of the trajectory have a pace of their own.
+void RedrawRun::choose_kept(const RenderRequest& what) {
+    const std::vector<Frame> moments = chosen_moments(what, source_.record().frames());
+    const std::optional<FilmSegment> segment = pacing_of(moments, scene_.drive, scene_.film.rate);
+    for (const Frame& moment : moments) shots_.push_back({moment.step, 0});
+    scene_.film.segments = {segment.value_or(FilmSegment())};
+    captions_ = {segment ? playback_caption(*segment, scene_.drive, scene_.film.rate) : ""};
+}
+
+std::vector<std::string> RedrawRun::warnings() const {
+    const FilmedScene& scene = source_.scene();
+    std::vector<std::string> warnings = source_.news();
+    const auto add = [&](std::vector<std::string> lines) {
+        std::move(lines.begin(), lines.end(), std::back_inserter(warnings));
+    };
+    if (auto warning = periods_warning(scene, source_.record().frames()))
+        warnings.push_back(std::move(*warning));
+    if (kept_alone_) {
+        add(single_moment_warnings(scene,
+                                   "--every draws frames of the trajectory, which are single moments"));
+    } else if (replaced_ + left_out_ == 0) {
+        add(pace_warnings(scene, source_.clock()));
+        add(strobe_warnings(scene.film, scene.drive, scene.run.duration));
+    }
+    if (kept_alone_ || replaced_ > 0) {
+        if (auto warning = pacing_warning(moments_of(shots_, source_.film()), scene.drive))
+            warnings.push_back(std::move(*warning));
+    }
+    if (replaced_ + left_out_ > 0)
+        warnings.push_back(fmt::format(
+            "of the film's {} pictures {} {} not kept: {} the kept moment that is nearest, {} left out; {}",
+            shots_.size() + left_out_, replaced_ + left_out_, replaced_ + left_out_ == 1 ? "was" : "were",
+            replaced_ == 1 ? "1 shows" : fmt::format("{} show", replaced_),
+            left_out_ == 1 ? "1 is" : fmt::format("{} are", left_out_), source_.why_not_all()));
+    add(film_warnings(scene_, static_cast<std::int64_t>(shots_.size())));
+    return warnings;
+}
+
+std::string RedrawRun::caption_of(const Taken& picture) const {
+    const auto segment = static_cast<std::size_t>(picture.segment);
+    if (kept_alone_ || !captions_.at(segment).empty()) return captions_.at(segment);
+    const Film& film = scene_.film;
+    const FilmSegment rule =
+        played(spanning(segments_of(film).at(segment), picture.periods), film.rate, source_.clock());
+    return playback_caption(rule, scene_.drive, film.rate);
+}
+
+// Start heights are those of the film's first picture, of which this film may have but a part.
+FramePtr RedrawRun::first_of_film(const FrameSource::GoOn& go_on) {
+    if (kept_alone_) return std::make_shared<const Frame>(source_.record().frames().first_whole());
+    return source_.grains(source_.shown(source_.film().shots().front().step), go_on);
+}
+
+bool RedrawRun::work() {
+    mark_begun();
+    const std::vector<Frame> moments = moments_of(shots_, source_.film());
+    desk_.record.scene_file = scene_.file;
+    desk_.record.drawn = {{source_.record().frames().folder().string(),
+                           static_cast<std::int64_t>(moments.size()), moments.front().time,
+                           moments.back().time}};
+    begin_record(warnings());
+    if (brought_back_ > 0)
+        desk_.listener.info(fmt::format(
+            "{} of {} pictures were not kept and are brought back from checkpoints; --no-replay does without",
+            brought_back_, moments.size()));
+    const auto go_on = [this] {
+        if (desk_.listener.stop_signal() != 0) return false;
+        desk_.folder->lock().check_there();
+        return true;
+    };
+    const FramePtr start = first_of_film(go_on);
+    if (!start) return false;
+    film_.open(scene_, static_cast<std::int64_t>(moments.size()), start);
+    source_.watch_replay([this](double) { return film_.show_progress(), true; });
+    source_.start(shots_, segments_of(scene_.film));
+    const auto next = [&] {
+        const auto timer = desk_.times.during("reading");
+        return source_.next(go_on);
+    };
+    while (std::optional<Taken> picture = next()) {
+        const auto timer = desk_.times.during("waiting for the film");
+        const std::string caption = caption_of(*picture);
+        film_.maker().take(std::move(picture->frame), caption);
+        film_.show_progress();
+    }
+    return desk_.listener.stop_signal() == 0;
+}
+
+std::string RedrawRun::stopped_text() const {
+    return fmt::format("stopped at frame {} of {}", film_.report().frames, film_.frames_planned());
+}
+
+void RedrawRun::report_written() {
+    const FilmOfRun& film = source_.film();
+    desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
+    desk_.listener.info(
+        fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
+                    film_.report().frames, source_.record().frames().folder().string(),
+                    film.moment(shots_.front().step).time, film.moment(shots_.back().step).time));
+}
+
+}  // namespace grainreel

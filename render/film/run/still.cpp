@@ -1,0 +1,168 @@
+#include "render/film/run/still.hpp"
+
+#include <cmath>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/questions/asked_moment.hpp"
+#include "engine/run/driver/stage_times.hpp"
+#include "render/film/production/picture_files.hpp"
+#include "render/film/request/thread_plan.hpp"
+#include "render/film/sampling/film_limits.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/whole/renderer.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beside the run: "wedge-1.250s.png", and a number when that is taken.
+fs::path free_name(const FilmedScene& scene, const fs::path& run, double time) {
+    const std::string stem = fmt::format("{}-{}s", scene.name, seconds_in_names(time));
+    const fs::path beside = run.parent_path();
+    fs::path path = beside / (stem + ".png");
+    for (int number = 2; fs::exists(path); ++number) path = beside / fmt::format("{}-{}.png", stem, number);
+    return path;
+}
+
+void check_free(const fs::path& path, bool force) {
+    std::error_code error;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, error))
+        throw UserError(
+            fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
+    if (fs::is_directory(path, error))
+        throw UserError(fmt::format("--out {}: is a folder; with --at, name a PNG file", path.string()));
+    if (path.extension() != ".png")
+        throw UserError(fmt::format("--out {}: with --at, name a file that ends in .png", path.string()));
+    if (fs::exists(path, error) && !force)
+        throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
+                                    path.string()));
+}
+
+// What is drawn, and how it is told.
+struct Chosen {
+    std::int64_t step = 0;
+    std::string from;                    // "frame 4 of 7 of trajectory.nc"
+    std::optional<std::string> instead;  // of what was asked for, a warning
+};
+
+// One that stands for another lies no further from it than the kept moments do from each other.
+Chosen choose(double at, const RevisitedRun& source) {
+    const RecordedRun& run = source.record();
+    const AskedMoment asked = MomentFinder(run.record()).find({.at = at});
+    Chosen chosen{source.shown(asked.step), "", std::nullopt};
+    const double time = source.film().moment(chosen.step).time;
+    if (chosen.step != asked.step) {
+        const std::vector<Frame>& kept = run.moments();
+        const double apart =
+            kept.size() < 2 ? 0
+                            : (kept.back().time - kept.front().time) / static_cast<double>(kept.size() - 1);
+        const std::string what = fmt::format("--at: {:.6g} s was not kept ({})", at, source.why_not_all());
+        if (std::abs(time - asked.time) > apart)
+            throw UserError(
+                fmt::format("{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
+                            "for it; choose that one",
+                            what, time));
+        chosen.instead = fmt::format("{}; {:.6g} s is drawn, the kept moment that is nearest", what, time);
+    }
+    const std::size_t index = run.frames().nearest(time);
+    if (run.moments()[index].step == chosen.step)
+        chosen.from = fmt::format("frame {} of {} of trajectory.nc", index + 1, run.moments().size());
+    else
+        chosen.from =
+            source.is_brought_back(chosen.step) ? "brought back from a checkpoint" : "from film_moments.nc";
+    return chosen;
+}
+
+// Shows progress once it has gone on for a second.
+ReplayWatcher watcher_of(RunListener& listener) {
+    return [&listener, watch = Stopwatch()](double done) {
+        Progress progress;
+        progress.stage = Progress::Stage::replaying;
+        progress.done = done;
+        progress.elapsed = watch.seconds();
+        if (progress.elapsed < 1) return true;
+        if (done > 0) progress.remaining = progress.elapsed * (1 - done) / done;
+        listener.progress(progress);
+        return true;
+    };
+}
+
+// The film's pictures that reach no further back than its trails do, less those that cannot be had.
+std::vector<std::int64_t> before(std::int64_t step, double duration, const RevisitedRun& source) {
+    constexpr double room = 1.001;
+    std::vector<std::int64_t> steps;
+    const double from = source.film().moment(step).time - room * duration;
+    for (const Shot& shot : source.film().shots())
+        if (shot.step < step && source.film().moment(shot.step).time >= from && source.has(shot.step))
+            steps.push_back(shot.step);
+    return steps;
+}
+
+// What a picture shows of the film before it: where grains were at first, and trails. False when told to
+// stop.
+bool remember_what_was(Renderer& renderer, std::int64_t step, RevisitedRun& source,
+                       const FrameSource::GoOn& go_on) {
+    const std::vector<Shot> film = source.film().shots();
+    const FramePtr start = film.empty()
+                               ? std::make_shared<const Frame>(source.record().frames().first_whole())
+                               : source.grains(source.shown(film.front().step), go_on);
+    if (!start) return false;
+    renderer.start_from(*start);
+    const FilmTrails& trails = source.scene().film.shows.trails;
+    if (!trails.wanted()) return true;
+    for (const std::int64_t earlier : before(step, trails.duration, source)) {
+        const FramePtr frame = source.grains(earlier, go_on);
+        if (!frame) return false;
+        renderer.remember(*frame);
+    }
+    return true;
+}
+
+}  // namespace
+
+std::string seconds_in_names(double time) {
+    int digits = 3;
+    for (double shown = time * 1e3; digits < 6 && std::abs(shown - std::round(shown)) > 1e-4; shown *= 10)
+        ++digits;
+    return fmt::format("{:.{}f}", time, digits);
+}
+
+std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunListener& listener,
+                                   RevisitedRun& source) {
+    if (request.to_stdout) throw UserError("--out -: with --at, name a file that ends in .png");
+    const Chosen chosen = choose(at, source);
+    if (request.out) check_free(*request.out, request.force);
+    for (const std::string& line : source.news()) listener.warning(line);
+    if (chosen.instead) listener.warning(*chosen.instead);
+    for (const std::string& line : film_warnings(source.scene(), 1)) listener.warning(line);
+    source.watch_replay(watcher_of(listener));
+    const auto go_on = [&] { return listener.stop_signal() == 0; };
+    // A camera that moves is where it would be in the film.
+    const FilmOfRun::Place place = source.film().place_of(chosen.step);
+    FilmedScene scene = source.scene();
+    settle_orbit(scene.film.camera, static_cast<double>(source.film().shots().size()) / scene.film.rate);
+    Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
+    if (const std::string note = renderer.gl_note(); !note.empty()) listener.info("note: " + note);
+    if (!remember_what_was(renderer, chosen.step, source, go_on)) return std::nullopt;
+    source.start({{chosen.step, place.segment}}, source.segments());
+    const std::optional<Taken> picture = source.next(go_on);
+    if (!picture) return std::nullopt;
+    const fs::path path = request.out
+                              ? *request.out
+                              : free_name(scene, source.record().frames().folder(), picture->frame->time);
+    write_png(path, renderer.draw(*picture->frame, "", place.time),
+              texts_of(scene.name, scene.film.title, *picture->frame, ""), scene.film.transparent);
+    if (const std::string note = renderer.colour_note(); !note.empty()) listener.info(note);
+    listener.info(
+        fmt::format("wrote {}: the run at {:.6g} s, {}", path.string(), picture->frame->time, chosen.from));
+    return path;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,79 @@
+#include "render/film/sources/picture_parts.hpp"
+
+#include <algorithm>
+
+#include "engine/questions/displacement.hpp"
+#include "render/film/moments/period_means.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+PictureParts::PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first)
+    : shows_(scene.film.shows),
+      clock_(clock),
+      first_(first),
+      depth_(scene.container.periodic_depth ? scene.container.depth : 0) {}
+
+std::vector<std::int64_t> PictureParts::earlier(std::int64_t step, int periods) const {
+    if (!needs_displacement(shows_)) return {};
+    const std::int64_t before = clock_.changes.empty() ? step - periods * clock_.steps_per_period
+                                                       : clock_.step_at(clock_.cycles(step) - periods);
+    if (before < first_) return {};
+    return {before};
+}
+
+// A picture near the beginning is exposed for less.
+std::vector<std::int64_t> PictureParts::exposed(std::int64_t step, const FilmSegment& rule,
+                                                int periods) const {
+    std::vector<std::int64_t> over = exposed_steps({step, 0}, rule, clock_, periods);
+    std::erase_if(over, [&](std::int64_t one) { return one < first_; });
+    return over;
+}
+
+std::vector<std::int64_t> PictureParts::averaged(std::int64_t step, const FilmSegment& rule,
+                                                 int periods) const {
+    return averaged_steps({step, 0}, rule, clock_, periods);
+}
+
+std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSegment& rule,
+                                                int periods) const {
+    std::vector<WantedMoment> all;
+    for (const std::int64_t one : earlier(step, periods)) all.push_back({one, false});
+    for (const std::int64_t one : exposed(step, rule, periods)) all.push_back({one, true});
+    for (const std::int64_t one : averaged(step, rule, periods))
+        if (std::max(one, first_) != step) all.push_back({std::max(one, first_), false});
+    return all;
+}
+
+void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const {
+    for (const std::int64_t step : earlier(frame.step, periods))
+        if (const FramePtr before = supply.at(step)) set_displacement(frame, *before, periods, depth_);
+    for (const std::int64_t step : exposed(frame.step, rule, periods))
+        if (FramePtr moment = supply.at(step)) frame.exposed.push_back(std::move(moment));
+    if (needs_touches(shows_)) frame.touches = supply.touches(frame);
+    if (shows_.outflow) frame.flowed_out = supply.flowed_out(frame);
+    if (needs_measures(shows_)) {
+        PartSupply::Measured measured = supply.measured(frame);
+        frame.measures = std::move(measured.table);
+        frame.measure_rows = measured.rows;
+    }
+    add_mean(frame, rule, periods, supply);
+}
+
+// Before the run's first step the grains are taken to have been where they were then.
+void PictureParts::add_mean(Frame& frame, const FilmSegment& rule, int periods,
+                            const PartSupply& supply) const {
+    const std::vector<std::int64_t> steps = averaged(frame.step, rule, periods);
+    if (steps.empty()) return;
+    const auto own = std::make_shared<const Frame>(places_of(frame));
+    std::vector<FramePtr> moments;
+    for (const std::int64_t step : steps) {
+        const std::int64_t from = std::max(step, first_);
+        moments.push_back(from == frame.step ? own : supply.at(from));
+        if (!moments.back()) return;
+    }
+    set_mean(frame, moments, static_cast<double>(frame.step - steps.front()) * clock_.step, depth_);
+}
+
+}  // namespace grainreel

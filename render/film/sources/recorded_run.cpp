@@ -1,0 +1,190 @@
+#include "render/film/sources/recorded_run.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frames/same_run.hpp"
+#include "engine/files/frames/saved_scene.hpp"
+#include "engine/state/face_names.hpp"
+#include "render/film/moments/known_reach.hpp"
+#include "render/film/sources/choice.hpp"
+#include "render/film/sources/recorded_scene.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Frames as the film shows them.
+class AsFilmed final : public Record {
+  public:
+    AsFilmed(const RecordedRun& run, std::shared_ptr<const RunArchive> archive)
+        : Record(std::move(archive)), run_(run) {}
+
+    Frame frame(std::size_t index) const override { return run_.frame(index); }
+
+  private:
+    const RecordedRun& run_;
+};
+
+}  // namespace
+
+RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use use)
+    : for_questions_(use.for_questions), scene_(scene_of_run(folder_of_run(folder), sets)) {
+    archive_ = std::make_shared<RunArchive>(folder_of_run(folder), scene_, use.for_questions);
+    record_ = std::make_unique<AsFilmed>(*this, archive_);
+    const FilmShows& shows = scene_.film.shows;
+    if (scene_.film.look.rotation && !archive_->supply().orientations)
+        throw UserError(
+            fmt::format("{}: has no orientations, and the film shows rotation; run it with "
+                        "output.orientation = true, or let film.rotation be false",
+                        name_of("trajectory.nc")));
+    if (!use.for_questions) frame_what_is_reached();
+    if (needs_touches(shows)) archive_->read_contacts(use.alone);
+    if (needs_measures(shows)) read_measures_of_run();
+    if (shows.outflow) read_outflow_of_run();
+    if (scene_.film.periods > 0) archive_->set_periods(scene_.film.periods);
+    parts_.emplace(scene_, clock(), moments().front().step);
+    if (use.alone) do_without_others();
+}
+
+// The trajectory holds single moments, and of those its own.
+void RecordedRun::do_without_others() {
+    if (needs_touches(scene_.film.shows) && !archive_->has_contacts() && !for_questions_)
+        archive_->read_contacts(true);
+    for (std::string& line :
+         single_moment_warnings(scene_,
+                                "frames that a run kept are single moments; let them be brought back, "
+                                "or run the scene again with `movie`"))
+        archive_->note(std::move(line));
+    if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
+}
+
+Supply RecordedRun::supply() const {
+    const FrameSupply has = archive_->supply();
+    return {false, has.contacts, has.measures, has.orientations};
+}
+
+// The camera of a run that is over need not estimate how high the grains get.
+void RecordedRun::frame_what_is_reached() {
+    Camera& camera = scene_.film.camera;
+    if (camera.frame == CameraFrame::reach && !camera.reach && !camera.position)
+        camera.reach = known_reach(*archive_);
+}
+
+void RecordedRun::read_measures_of_run() {
+    const std::string name = name_of("measures.csv");
+    std::error_code error;
+    if (!fs::exists(name, error)) return leave_out_measures("is missing");
+    if (!archive_->measures() || table().rows() == 0) return leave_out_measures("holds no row");
+    check_columns();
+    const std::size_t rows = table().rows();
+    measured_ = table().values(*column_of(table(), "time_s"), 0, rows);
+    const double last = measured_.back(), interval = rows > 1 ? last - measured_[rows - 2] : 0;
+    const double end = moments().back().time;
+    if (last < end - 1.5 * interval - 1e-9)
+        archive_->note(
+            fmt::format("{}: ends at {:.4g} s, the trajectory at {:.4g} s; plots and live words "
+                        "stand still from there on",
+                        name, last, end));
+}
+
+// Empty plots, and words without their values, would look as if the run had been so.
+void RecordedRun::leave_out_measures(const std::string& why) {
+    FilmShows& shows = scene_.film.shows;
+    std::vector<std::string> left_out;
+    if (std::erase_if(shows.plots, [](const FilmPlot& plot) { return !plot.is_profile(); }) > 0)
+        left_out.emplace_back("plots");
+    if (std::exchange(shows.wall_forces.wanted, false)) left_out.emplace_back("forces on walls");
+    if (needs_measures(shows)) {
+        shows.live_words.clear();
+        left_out.emplace_back("live words");
+    }
+    archive_->note(
+        fmt::format("{}: {}; {} are left out", name_of("measures.csv"), why, fmt::join(left_out, " and ")));
+}
+
+void RecordedRun::check_columns() const {
+    const auto need = [&](const std::string& name, const std::string& what) {
+        if (!name.empty() && !column_of(table(), name))
+            throw UserError(
+                fmt::format("{}: lacks the column {}, which {}; take that out of the film, or run "
+                            "the scene again with it",
+                            name_of("measures.csv"), name, what));
+    };
+    need("time_s", "every run has");
+    for (const FilmPlot& plot : scene_.film.shows.plots) need(plot.column, "film.plot shows");
+    for (const LiveWords& part : scene_.film.shows.live_words) need(part.column, "film.text shows");
+    if (!scene_.film.shows.wall_forces.wanted) return;
+    for (const std::string& face : face_names(scene_)) need(face + "_force_z_N", "film.wall_forces shows");
+}
+
+void RecordedRun::read_outflow_of_run() {
+    const std::string name = name_of("outflow.csv");
+    outflow_ = OutflowRecord::read(name, scene_);
+    if (!outflow_) archive_->note(fmt::format("{}: is missing; how much has flowed out is left out", name));
+}
+
+void RecordedRun::look_for_earlier_frames() {
+    const double first = moments().front().cycles + archive_->periods() - 1e-3;
+    std::size_t lack = 0;
+    for (const Frame& moment : moments())
+        lack += moment.cycles >= first &&
+                !archive_->index_at(clock().time(clock().step_at(moment.cycles - archive_->periods())));
+    if (lack > 0)
+        archive_->note(fmt::format(
+            "{}: {} of its {} frames have none a period before them, and are drawn without displacements; "
+            "run the scene with an output.trajectory_interval that divides the period",
+            name_of("trajectory.nc"), lack, moments().size()));
+}
+
+FramePtr RecordedRun::at(std::int64_t step) const {
+    const std::optional<std::size_t> index = archive_->index_at(clock().time(step));
+    return index ? std::make_shared<const Frame>(archive_->grains(*index)) : nullptr;
+}
+
+std::vector<Touch> RecordedRun::touches(const Frame& frame) const {
+    return archive_->touches(archive_->nearest(frame.time)).value_or(std::vector<Touch>());
+}
+
+std::optional<FlowedOut> RecordedRun::flowed_out(const Frame& frame) const {
+    return outflow_ ? std::optional(outflow_->until(frame.time)) : std::nullopt;
+}
+
+PartSupply::Measured RecordedRun::measured(const Frame& frame) const {
+    const double end = frame.time * (1 + 1e-9) + 1e-12;
+    const auto after = std::upper_bound(measured_.begin(), measured_.end(), end);
+    return {archive_->measures(), static_cast<std::size_t>(after - measured_.begin())};
+}
+
+Frame RecordedRun::frame(std::size_t index) const {
+    Frame frame = archive_->grains(index);
+    parts_->add(frame, FilmSegment(), archive_->periods(), *this);
+    return frame;
+}
+
+std::vector<Frame> RecordedRun::moments(const Pictures& pictures) const {
+    std::vector<Frame> all;
+    for (const Instant& instant : pictures.instants)
+        all.push_back(moments()[archive_->nearest(instant.time)]);
+    return all;
+}
+
+void RecordedRun::start(const Pictures& pictures) {
+    pictures_ = pictures;
+}
+
+std::optional<Taken> RecordedRun::next(const GoOn& go_on) {
+    if (!go_on() || next_ == pictures_.instants.size()) return std::nullopt;
+    const Instant& instant = pictures_.instants[next_++];
+    const int periods = archive_->periods();
+    Frame frame = archive_->grains(archive_->nearest(instant.time));
+    parts_->add(frame, pictures_.segments.at(static_cast<std::size_t>(instant.segment)), periods, *this);
+    return Taken{std::make_shared<const Frame>(std::move(frame)), instant.segment, periods};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,97 @@
+// A run that lies on disk, as a source of pictures: its frames, with all that its film shows beside them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/files/frames/run_archive.hpp"
+#include "engine/files/outflow_record.hpp"
+#include "engine/measure/measure_table.hpp"
+#include "engine/questions/record.hpp"
+#include "engine/scene/text/assignment.hpp"
+#include "render/film/sources/frame_source.hpp"
+#include "render/film/sources/picture_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+class RecordedRun final : public FrameSource, private PartSupply {
+  public:
+    // sets: changes to the scene, of what is drawn only: keys of [film], colours of species, run.threads.
+    // Throws UserError for another key, when the folder has no scene.toml or no trajectory.nc that holds a
+    // frame, when its files are of two runs, and when the film shows contacts or orientations and the run
+    // kept none.
+    //
+    // Pictures are framed by how high the run's grains got (known_reach), or, for_questions, as the run's own
+    // film was, which did not know that yet. For questions, contacts that cannot be used are left out with a
+    // line of faults: they can be brought back. alone: what the kept frames lack is to be had nowhere else,
+    // and is complained of.
+    struct Use {
+        bool for_questions = false;
+        bool alone = true;
+    };
+    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, Use use);
+    RecordedRun(const std::filesystem::path& folder, const Assignments& sets, bool for_questions = false)
+        : RecordedRun(folder, sets, Use{for_questions, true}) {}
+    RecordedRun(const RecordedRun&) = delete;
+    RecordedRun& operator=(const RecordedRun&) = delete;
+
+    // As the archive does.
+    void leave_out_damaged(bool brought_back = false) { archive_->leave_out_damaged(brought_back); }
+    // From now on it is alone, and complains.
+    void do_without_others();
+
+    const FilmedScene& scene() const override { return scene_; }  // named after the folder
+    Supply supply() const override;
+    Span span() const override { return {moments().front().time, moments().back().time}; }
+    const FrameArchive* archive() const override { return archive_.get(); }
+    // Of each picture the kept moment that is nearest in time.
+    std::vector<Frame> moments(const Pictures& pictures) const override;
+    void start(const Pictures& pictures) override;
+    std::optional<Taken> next(const GoOn& go_on) override;
+    // What the film shows and the files lack.
+    std::vector<std::string> news() const override { return archive_->news(); }
+
+    // What it reads, without what a film adds.
+    const RunArchive& frames() const { return *archive_; }
+    const std::vector<Frame>& moments() const { return archive_->moments(); }
+    const Clock& clock() const { return archive_->clock(); }
+    // With all that the scene's film shows. Throws as the archive does.
+    Frame frame(std::size_t index) const;
+    // For questions: the archive, whose frames are as frame() gives them.
+    const Record& record() const { return *record_; }
+    // What pictures may take from it, and what adds that to them.
+    const PartSupply& of_parts() const { return *this; }
+    const PictureParts& parts() const { return *parts_; }
+
+  private:
+    FramePtr at(std::int64_t step) const override;
+    std::vector<Touch> touches(const Frame& frame) const override;
+    Measured measured(const Frame& frame) const override;
+    std::optional<FlowedOut> flowed_out(const Frame& frame) const override;
+
+    void frame_what_is_reached();
+    void read_measures_of_run();
+    void leave_out_measures(const std::string& why);
+    void check_columns() const;
+    void read_outflow_of_run();
+    void look_for_earlier_frames();
+    const MeasureTable& table() const { return *archive_->measures(); }
+    std::string name_of(const char* file) const { return archive_->name_of(file); }
+
+    bool for_questions_;
+    FilmedScene scene_;
+    std::shared_ptr<RunArchive> archive_;
+    std::unique_ptr<const Record> record_;
+    std::vector<double> measured_;          // s, times of the rows of measures
+    std::optional<OutflowRecord> outflow_;  // of a film that counts it
+    std::optional<PictureParts> parts_;
+
+    Pictures pictures_;
+    std::size_t next_ = 0;  // of them
+};
+
+}  // namespace grainreel

@@ -1,0 +1,73 @@
+#include "render/film/sources/recorded_scene.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frames/saved_scene.hpp"
+#include "engine/measure/columns.hpp"
+#include "render/scene/purposes.hpp"
+#include "render/scene/read_scene.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// The run is over: what would have made it another run must not look as if it had.
+void check_sets(const Assignments& sets) {
+    for (const Assignment& set : sets) {
+        const std::string key = set.key();
+        const bool of_species = key.rfind("species", 0) == 0 && (ends_with(key, ".colour"));
+        if (key.rfind("film.", 0) == 0 || of_species || key == "run.threads") continue;
+        if (key == "title") throw UserError("--set title: a film drawn again has its title in film.title");
+        throw UserError(
+            fmt::format("{}: the run is over; only keys of [film] and the colours of species "
+                        "can be changed, or run the scene again with `movie`",
+                        set.place()));
+    }
+}
+
+// The scene of a run names all its values, so that defaults of a purpose would change nothing: they are set.
+Assignments with_purpose(const Assignments& sets) {
+    Assignments all;
+    for (const Assignment& set : sets) {
+        const Purpose* purpose = set.key() == "film.for" ? find_purpose(set.value()) : nullptr;
+        if (purpose == nullptr) continue;
+        all.clear();
+        for (std::string& text : assignments_of(*purpose)) all.push_back({std::move(text), set.place()});
+    }
+    all.insert(all.end(), sets.begin(), sets.end());
+    return all;
+}
+
+}  // namespace
+
+Assignments sets_for_drawing(const Assignments& sets) {
+    check_sets(sets);
+    return with_purpose(sets);
+}
+
+FilmedScene scene_of_run(const fs::path& folder, const Assignments& sets) {
+    FilmedScene scene =
+        read_filmed_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
+                          sets_for_drawing(sets), measurable_in);
+    scene.name = folder.filename().string();
+    return scene;
+}
+
+FilmedScene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assignments& sets) {
+    auto [text, all] = scene_in_checkpoint(checkpoint);
+    for (const Assignment& set : sets_for_drawing(sets)) all.push_back(set);
+    FilmedScene scene = read_filmed_scene_text(text.text, text.file, all, measurable_in);
+    scene.name = checkpoint.stem().string();
+    return scene;
+}
+
+}  // namespace grainreel

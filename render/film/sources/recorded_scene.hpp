@@ -1,0 +1,23 @@
+// The scene of what lies on disk, as it is to be drawn.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/scene/text/assignment.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+// Changes to a scene that are changes to what is drawn: keys of [film], colours of species, run.threads; with
+// what the purpose of a film implies. Throws UserError for other keys.
+Assignments sets_for_drawing(const Assignments& sets);
+
+// Its scene.toml with such changes; named after the folder. Throws UserError likewise, and for a scene that
+// cannot be read.
+FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
+
+// The scene of a checkpoint as it was used, with such changes; named after the file. Throws UserError
+// likewise.
+FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
+
+}  // namespace grainreel
