@@ -7,6 +7,7 @@
 
 #include "engine/files/frames/open_frames.hpp"
 #include "render/picture/whole/renderer.hpp"
+#include "render/scene/plain_film.hpp"
 
 int main(int argc, char** argv) try {
     using namespace grainreel;
