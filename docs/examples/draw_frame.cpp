@@ -13,11 +13,12 @@ int main(int argc, char** argv) try {
     using namespace grainreel;
     if (argc != 3) return 2;
     const auto frames = open_frames(argv[1]);
-    FilmedScene scene = with_plain_film(frames->scene() ? *frames->scene() : scene_of(frames->world()));
+    const Frame last = frames->grains(frames->moments().size() - 1);
+    FilmedScene scene = with_plain_film(frames->scene() ? *frames->scene() : scene_of(frames->world()), last);
     scene.film.width = 480;
     scene.film.height = 360;
     Renderer renderer(scene, 1);
-    const Picture& picture = renderer.draw(frames->grains(frames->moments().size() - 1), "");
+    const Picture& picture = renderer.draw(last, "");
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     png.width = static_cast<png_uint_32>(picture.width);
