@@ -14,9 +14,6 @@
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
-#include "render/film/production/caption_holds.hpp"
-#include "render/film/sampling/sampler.hpp"
-#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
