@@ -1,7 +1,7 @@
 // Runs a scene and reads its grains, by the engine alone: two balls fly for a fifth of a second.
 #include <cstdio>
 
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/folder/run_scene.hpp"
 #include "engine/scene/file/reader.hpp"
 
 int main() {
@@ -20,12 +20,13 @@ int main() {
         duration = "0.2 s"
     )",
                                         "two_balls.toml");
-    const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
-    run.pack();
-    run.advance(plan.steps);
-    const Frame frame = run.frame();
-    for (std::size_t i = 0; i < frame.size(); ++i)
-        std::printf("%d %.12g  %.12g %.12g %.12g\n", frame.id[i], frame.time, frame.position[i].x(),
-                    frame.position[i].y(), frame.position[i].z());
+    RunSceneOptions how;
+    how.every = 0.05;
+    how.look = [](const Frame& now) {
+        for (std::size_t i = 0; i < now.size(); ++i)
+            std::printf("%.12g s: grain %d at %.12g %.12g %.12g m\n", now.time, now.id[i],
+                        now.position[i].x(), now.position[i].y(), now.position[i].z());
+        return true;
+    };
+    run_scene(scene, how);
 }

@@ -14,8 +14,6 @@
 #include "engine/files/run_names.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/files/trajectory_info.hpp"
-#include "engine/run/driver/key_moments.hpp"
-#include "engine/run/driver/run_files.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/scene/scene.hpp"
 

@@ -10,7 +10,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/run/driver/run_files.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/scene/scene.hpp"
