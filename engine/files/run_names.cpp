@@ -67,6 +67,16 @@ bool has(const std::array<std::string_view, Count>& names, const fs::path& name)
     return std::find(names.begin(), names.end(), name.string()) != names.end();
 }
 
+// "still-0.500s.png", which `compare --at` leaves.
+bool is_still(const fs::path& name) {
+    constexpr std::string_view begin = "still-", end = "s.png";
+    const std::string text = name.string();
+    if (!text.starts_with(begin) || !text.ends_with(end) || text.size() <= begin.size() + end.size())
+        return false;
+    const std::string time = text.substr(begin.size(), text.size() - begin.size() - end.size());
+    return time.find_first_not_of("0123456789.-") == std::string::npos;
+}
+
 void check_plain(const fs::path& path, bool folder) {
     const std::string other = other_than_file(path, false);
     if (other == (folder ? "a folder" : "")) return;
@@ -87,7 +97,7 @@ void check_all_inside(const fs::path& folder) {
 }  // namespace
 
 bool is_file_of_runs(const fs::path& name) {
-    return has(files_of_runs, name);
+    return has(files_of_runs, name) || is_still(name);
 }
 
 bool is_folder_of_runs(const fs::path& name) {

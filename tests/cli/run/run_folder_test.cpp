@@ -73,7 +73,8 @@ TEST(RunFolder, ForceKeepsTheOldRunUntilTheNewOneIsComplete) {
 TEST(RunFolder, ForceReplacesARunWithAllItsFiles) {
     const TemporaryFolder here;
     make_run(here / "run");
-    for (const char* file : {"fields.nc", "outflow.csv", "contacts.nc"}) write_text(here / "run" / file, "");
+    for (const char* file : {"fields.nc", "outflow.csv", "contacts.nc", "still-0.500s.png"})
+        write_text(here / "run" / file, "");
     EXPECT_EQ(RunFolder({"wedge", "output", here / "run", true}).previous(), here / ".run.old-1");
 }
 
