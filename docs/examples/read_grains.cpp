@@ -16,6 +16,8 @@ int main() {
         [[grain]]
         position = ["0 mm", "50 mm", "1 m"]
         velocity = ["0 m/s", "2 m/s", "3 m/s"]
+        [container]
+        shape = "none"
         [run]
         duration = "0.2 s"
     )",

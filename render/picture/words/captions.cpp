@@ -139,7 +139,7 @@ ShownCycle shown_cycle(const Frame& frame) {
 
 std::string playback_text(const Film& film, const Frame& frame, const std::string& playback) {
     if (!film.word_kinds.playback) return "";
-    if (frame.time >= 0) return playback;
+    if (!(frame.time < 0)) return playback;  // NaN where it is not known
     return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
 }
 

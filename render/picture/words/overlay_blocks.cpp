@@ -202,8 +202,9 @@ std::int64_t count_in_tray(const Frame& frame) {
 std::vector<std::string> clock_lines(const FilmedScene& scene, const Frame& frame) {
     const WordKinds& kinds = scene.film.word_kinds;
     std::vector<std::string> lines;
-    if (kinds.time) lines.push_back(time_text(frame.time, scene.run.duration));
-    const bool cycle = kinds.cycle && scene.drive.present;
+    const bool known = !std::isnan(frame.time);
+    if (kinds.time && known) lines.push_back(time_text(frame.time, scene.run.duration));
+    const bool cycle = kinds.cycle && scene.drive.present && known;
     if (cycle && frame.time < 0) {
         lines.emplace_back("before the drive");
     } else if (cycle) {
@@ -225,7 +226,7 @@ std::string clock_words(const FilmedScene& scene, const Frame& frame) {
 TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame& frame, double x, double y) {
     TextSize size;
     for (const std::string& line : clock_lines(scene, frame)) {
-        const bool time = size.height == 0 && scene.film.word_kinds.time;
+        const bool time = size.height == 0 && scene.film.word_kinds.time && !std::isnan(frame.time);
         const TextSize part = writer.write(x, y + size.height, line, time ? writer.strong() : writer.minor(),
                                            time ? writer.palette.ink : writer.palette.faint_ink);
         size = {std::max(size.width, part.width), size.height + part.height};
