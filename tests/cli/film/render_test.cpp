@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/files/trajectory.hpp"
+#include "engine/files/frames/open_frames.hpp"
 #include "render/film/moments/known_reach.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
@@ -89,8 +89,7 @@ TEST_F(RenderProgram, KeptContactsDrawForceChainsAndTheirColours) {
 // Of a finished run it is known how high the grains get: the picture is that of a scene that says so.
 TEST_F(RenderProgram, FramesWhatTheGrainsReached) {
     short_run();
-    const TrajectoryReader trajectory(here / "run/trajectory.nc");
-    const double reach = *known_reach(trajectory);
+    const double reach = *known_reach(*open_frames(here / "run/trajectory.nc"));
     const auto still = [&](const std::string& name, const std::string& set) {
         EXPECT_EQ(program({"render", "run", "--at", "0.1", "--out", name, "--set", set}).status, 0);
         return text_of(here / name);
