@@ -68,11 +68,11 @@ std::string scene_html(const fs::path& folder, const std::string& n, bool beside
         return "";
     }
     if (text.size() > most_scene_text)
-        return chapter("FilmedScene",
+        return chapter("Scene",
                        fmt::format("<p>The scene is too long for this page; it is {} in the run's "
                                    "folder.</p>\n",
                                    beside ? "<a href=\"./scene.toml\">scene.toml</a>" : "scene.toml"));
-    return chapter("FilmedScene",
+    return chapter("Scene",
                    "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
                    "again.</p>\n" +
                        copyable("scene-text" + n, "scene.toml", text, "plain"));

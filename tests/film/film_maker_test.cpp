@@ -136,7 +136,7 @@ TEST_F(FilmMakerTest, FramesAloneAreNumberedExactPicturesWithTimeAndScene) {
         EXPECT_EQ(png.picture.pixel(50, 50)[1], grey_of(i));
         EXPECT_EQ(std::stod(png.texts.at("Time")), 0.25 * i);
         EXPECT_EQ(png.texts.at("Step"), std::to_string(i));
-        EXPECT_EQ(png.texts.at("FilmedScene"), "teaching");
+        EXPECT_EQ(png.texts.at("Scene"), "teaching");
         EXPECT_EQ(png.texts.at("Title"), "Γ = 3, big and small");
         EXPECT_EQ(png.texts.at("Playback"), "slow motion, 1/10 speed");
     }

@@ -144,7 +144,7 @@ std::string SceneFolderRun::stopped_text() const {
 }
 
 void SceneFolderRun::report_written() {
-    desk_.listener.info(fmt::format("wrote {}: {}{}{}, log.txt", folder().string(), side_files_text(),
+    desk_.listener.info(fmt::format("wrote {}: {}{}, log.txt{}", folder().string(), side_files_text(),
                                     driver_.files_text(), page_text()));
     report_segregation();
     desk_.listener.info(

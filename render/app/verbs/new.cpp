@@ -44,7 +44,7 @@ class New final : public Verb {
         parser
             .add_option(
                 "--from", from_,
-                "FilmedScene to copy, or words of its name, as in brazil-nut; grainreel scenes lists them")
+                "Scene to copy, or words of its name, as in brazil-nut; grainreel scenes lists them")
             ->option_text("SCENE [" + from_ + "]");
         add_reporting(parser, report);
     }

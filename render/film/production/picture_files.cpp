@@ -33,7 +33,7 @@ std::string flash_remedy(const Film& film) {
 std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
                               const std::string& playback) {
     return {{"Title", title},
-            {"FilmedScene", scene},
+            {"Scene", scene},
             {"Time", fmt::format("{:.9g} s", frame.time)},
             {"Drive phase", fmt::format("{:.9g}", frame.phase)},
             {"Step", std::to_string(frame.step)},
@@ -135,7 +135,7 @@ void PictureFiles::finish() {
     check_folder_();
     if (sheet_ && count_ > 0)
         write_png(folder_ / "sheet.png", sheet_->draw(last_.picture),
-                  {{"Title", title_}, {"FilmedScene", name_}, {"Software", "grainreel"}});
+                  {{"Title", title_}, {"Scene", name_}, {"Software", "grainreel"}});
     if (film_) film_->finish();
     with_copy([&](PageCopy& copy) { copy.finish(folder_ / film_file_); });
     complete_ = true;
