@@ -225,7 +225,8 @@ TEST_F(Continuation, IsBitForBitWhereverTheFloorIs) {
 
 TEST_F(Continuation, RotationMayBeginOrEnd) {
     first(scene_of());
-    Scene scene = next_of({"film.rotation=true"});
+    Scene scene = next_of();
+    scene.wishes.orientation = true;  // as of a film that shows how grains turn
     Simulation turning(scene, make_plan(scene), 1);
     const std::int64_t end = turning.step() + 200;
     turning.advance(end);
