@@ -42,9 +42,8 @@ class New final : public Verb {
         parser.add_option("NAME", name_, "Name of the file, with .toml or without [that of the scene]")
             ->option_text("[NAME]");
         parser
-            .add_option(
-                "--from", from_,
-                "Scene to copy, or words of its name, as in brazil-nut; grainreel scenes lists them")
+            .add_option("--from", from_,
+                        "Scene to copy, or words of its name, as in brazil-nut; grainreel scenes lists them")
             ->option_text("SCENE [" + from_ + "]");
         add_reporting(parser, report);
     }
