@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
@@ -18,7 +19,7 @@ EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
                                  const RunFiles& files)
     : scene_(scene),
       files_(files),
-      moments_(run / kFilmMoments),
+      moments_(open_frames(run / kFilmMoments, {.format = "trajectory"})),
       shots_(shots),
       count_(count),
       measures_(std::move(measures)),
@@ -35,7 +36,12 @@ EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
 
 std::optional<Taken> EarlierPictures::next() {
     if (next_ == count_) return std::nullopt;
-    Frame frame = moments_.read(next_++);
+    // One that is damaged is not among them, and the film would go on with another one in its place.
+    if (next_ >= moments_->moments().size() || moments_->place(next_) != next_)
+        throw UserError(moments_->damage().empty()
+                            ? moments_->path().string() + ": lacks a picture that it has had"
+                            : moments_->damage().front());
+    Frame frame = moments_->grains(next_++);
     add_planes(scene_.walls, frame.time, frame.bodies);
     const auto shot = std::lower_bound(shots_.begin(), shots_.end(), frame.step,
                                        [](const Shot& one, std::int64_t step) { return one.step < step; });

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/files/trajectory.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "render/film/sampling/sampler.hpp"
@@ -41,7 +41,7 @@ class EarlierPictures final : private PartSupply {
 
     const FilmedScene& scene_;
     const RunFiles& files_;
-    TrajectoryReader moments_;
+    std::unique_ptr<FrameArchive> moments_;
     std::vector<Shot> shots_;
     std::size_t count_, next_ = 0;
     std::shared_ptr<const MeasureTable> measures_;
