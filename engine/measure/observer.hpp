@@ -4,7 +4,7 @@
 // observer_list.hpp. Besides what is virtual here it has
 //     static std::vector<ColumnGroup> columns(const Scene& scene);
 // which says what it gives, without a state: the scene's reader knows columns from it. An observer that is
-// made only where the scene asks for it (output.instruments, or a plot or live word of its columns) also has
+// made only where the scene asks for it (output.instruments, or somebody's wish: Scene::wishes) also has
 //     static constexpr const char* instrument = "walls";
 // and one that a key of its own asks for
 //     static bool wanted(const Scene& scene);

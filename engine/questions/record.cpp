@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of single moments the scene's step counts, which is exact.
+// A single moment tells the step only roughly; the scene's is exact.
 Clock clock_of_frames(const Scene& scene, const FrameArchive& frames) {
     Clock clock = clock_of(scene, frames.moments());
     if (scene.run.step) clock.step = *scene.run.step;
@@ -64,15 +64,6 @@ RestoredCheckpoint::Restored RestoredCheckpoint::restore(const fs::path& file) {
     Frame frame = run.frame();
     MeasuredRow measured{frame.time, run.measured(), run.measures().values()};
     return {std::move(frame), std::move(measured)};
-}
-
-std::unique_ptr<Record> open_record(const fs::path& path) {
-    std::error_code ignored;
-    if (!fs::is_directory(path, ignored) && is_checkpoint(path))
-        return std::make_unique<RestoredCheckpoint>(path);
-    std::shared_ptr<const FrameArchive> frames = open_frames(path);
-    if (auto run = std::dynamic_pointer_cast<const RunArchive>(frames)) return std::make_unique<Record>(run);
-    return std::make_unique<Record>(std::move(frames));
 }
 
 }  // namespace grainreel

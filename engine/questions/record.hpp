@@ -19,7 +19,7 @@ namespace grainreel {
 
 class Record {
   public:
-    // Of the archive's own scene; where it has none, one is made of its world.
+    // With the archive's own scene; where it has none, with one made of its world.
     explicit Record(std::shared_ptr<const FrameArchive> frames);
     // The run's folder.
     explicit Record(std::shared_ptr<const RunArchive> run);
@@ -77,8 +77,5 @@ class RestoredCheckpoint final : public Record {
 
     Restored restored_;
 };
-
-// Whatever has frames. Throws UserError as open_frames() does.
-std::unique_ptr<Record> open_record(const std::filesystem::path& path);
 
 }  // namespace grainreel

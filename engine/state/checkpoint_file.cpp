@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <xxhash.h>
+#include <algorithm>
 
 #include <cmath>
 #include <cstring>
@@ -29,7 +30,11 @@ bool read_whole(const std::filesystem::path& path, std::string& bytes) {
     std::ifstream in = read_plain(path);
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(path, failed);
-    bytes.assign(failed ? 0 : size, '\0');
+    try {
+        bytes.assign(failed ? 0 : size, '\0');
+    } catch (const std::exception&) {  // a file that says it is larger than memory
+        return false;
+    }
     return !failed && in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
@@ -112,7 +117,10 @@ std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& 
     in.get(version);
     in.read(reinterpret_cast<char*>(&sum), sizeof sum);
     in.read(reinterpret_cast<char*>(&length), sizeof length);
-    if (failed || !in || name != kName || version != kVersion || length > size) return std::nullopt;
+    constexpr std::uint64_t longest_scene = 64u << 20;  // bytes
+    if (failed || !in || name != kName || version != kVersion ||
+        length > std::min<std::uint64_t>(size, longest_scene))
+        return std::nullopt;
     CheckpointLabel label;
     label.scene.resize(length);
     in.read(label.scene.data(), static_cast<std::streamsize>(length));

@@ -9,10 +9,16 @@ namespace grainreel {
 namespace {
 
 void name_species(const Frame& frame, std::vector<Species>& species) {
+    std::vector<bool> counted;
+    for (const Species& one : species) counted.push_back(one.all() > 0);
+    const auto unknown = [&](std::size_t kind) { return kind >= counted.size() || !counted[kind]; };
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const auto kind = static_cast<std::size_t>(frame.species[i]);
-        while (species.size() <= kind)
-            species.emplace_back().name = "species " + std::to_string(species.size());
+        while (species.size() <= kind) {
+            species.emplace_back();
+            species.back().name = "type " + std::to_string(species.size());
+        }
+        if (unknown(kind)) ++species[kind].count;
         double& largest = species[kind].diameter.largest;
         largest = std::max(largest, 2 * frame.radius[i]);
     }

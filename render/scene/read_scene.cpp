@@ -15,7 +15,8 @@
 namespace grainreel {
 namespace {
 
-// Of the scene's size, from the camera to where it looks: nearer, and rounding says in which direction.
+// Smallest distance from the camera to where it looks, as a share of the scene's size. Below it rounding
+// decides the direction.
 constexpr double closest_camera = 1e-6;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {

@@ -47,6 +47,15 @@ TEST(EngineAlone, KeepsTheFilmOfEveryShippedScene) {
     EXPECT_GT(read, 10);
 }
 
+TEST(EngineAlone, KeepsAFilmThatStandsInOneLine) {
+    const std::string text = "film = { rate = 25, camera = { zoom = 2 } }\n" + wedge_text;
+    const Scene alone = read_scene_text(text, "test.toml", {}, measurable_in);
+    const FilmedScene back =
+        read_filmed_scene_text(resolved_scene(alone, make_plan(alone)), "test.toml", {}, measurable_in);
+    EXPECT_EQ(back.film.rate, 25);
+    EXPECT_EQ(back.film.camera.zoom, 2);
+}
+
 TEST(EngineAlone, LooksAtNoKeyOfTheFilm) {
     const std::string film = "[film]\nno_such_key = [1, { a = 2 }]\n[[film.segment]]\nwhat = \"ever\"\n";
     const Scene scene = read_scene_text(wedge_text + film, "test.toml", {"film.another=3"}, measurable_in);

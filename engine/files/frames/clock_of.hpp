@@ -9,7 +9,7 @@
 
 namespace grainreel {
 
-// Of steps of that length (s); at rest for ever where it is 0.
+// A clock with steps of that length (s). With 0 it stands still.
 Clock clock_of_steps(const Scene& scene, double step);
 
 // The clock of a trajectory's frames, of which only the moments count. Its step is 0 when all are at step 0.

@@ -47,7 +47,8 @@ class FrameArchive {
     virtual const std::vector<Frame>& moments() const = 0;
     // Grains and bodies, as they were kept. Throws DamagedFrame when the file is damaged there.
     virtual Frame grains(std::size_t index) const = 0;
-    // Who pushes whom then; none where that is not known. Throws UserError where it is damaged.
+    // Which bodies push each other then; nothing where that is not known. Throws UserError where it is
+    // damaged.
     virtual std::optional<std::vector<Touch>> touches(std::size_t) const { return std::nullopt; }
     // Whether all contacts of a moment are known.
     virtual bool has_contacts_of(std::size_t) const { return false; }
@@ -60,10 +61,10 @@ class FrameArchive {
     virtual int periods() const { return 1; }
     // The first moment that there was, from which ways are counted; without grains where it is not known.
     virtual Frame first() const { return moments().size() > 1 ? first_whole() : Frame(); }
-    // Of a run of ours: as it was used. Null for other records, and where it does not lie beside them.
+    // The scene as it was used. Null for records that are not ours, and where it does not lie beside them.
     virtual const Scene* scene() const { return nullptr; }
 
-    // Of each frame that is damaged, and was left out of the moments, why.
+    // Why each damaged frame was left out of the moments.
     virtual std::vector<std::string> damage() const { return {}; }
     // What the user is to know of it, a line each: damage, and what there is not.
     virtual std::vector<std::string> news() const { return damage(); }

@@ -15,8 +15,8 @@ class FrameWriter {
   public:
     virtual ~FrameWriter() = default;
 
-    // In this order: once, then the frames by rising time, then once. What each frame will have beside its
-    // places says `supply`. All throw RunError when it cannot be written; what is whole by then stays
+    // Called in this order: begin() once, frame() by rising time, end() once. `supply` says what each frame
+    // will have beside its places. All throw RunError when it cannot be written; what is whole by then stays
     // readable.
     virtual void begin(const World& world, const FrameSupply& supply) = 0;
     virtual void frame(const Frame& frame) = 0;

@@ -68,7 +68,11 @@ std::unique_ptr<FrameArchive> open_frames(const fs::path& path, const FrameReque
     if (request.format.empty()) {
         const FrameReader* reader = reader_of(path);
         if (reader == nullptr) refuse(path);
-        return reader->open(path, request);
+        std::unique_ptr<FrameArchive> frames = reader->open(path, request);
+        if (!frames->moments().empty()) return frames;
+        const std::vector<std::string> damage = frames->damage();
+        throw UserError(damage.empty() ? fmt::format("{}: holds no frame yet", path.string())
+                                       : damage.front());
     }
     for (const FrameReader& reader : frame_readers())
         if (request.format == reader.name) return reader.open(path, request);

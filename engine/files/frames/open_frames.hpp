@@ -17,8 +17,8 @@ const std::vector<FrameReader>& frame_readers();
 // ordinary file.
 const FrameReader* reader_of(const std::filesystem::path& path);
 
-// By the first reader that takes it, or the one that is asked for. Throws UserError where there is none, with
-// a list of what can be read, and for what its reader finds wrong.
+// By the first reader that takes it, and with a frame at least; or by the one that is asked for. Throws
+// UserError where there is none, with a list of what can be read, and for what its reader finds wrong.
 std::unique_ptr<FrameArchive> open_frames(const std::filesystem::path& path,
                                           const FrameRequest& request = {});
 

@@ -34,11 +34,10 @@ class RunArchive final : public FrameArchive {
     // damage shows up when half a film is made. Throws UserError when none is left, or contacts are damaged.
     // brought_back: their moments are had from elsewhere.
     void leave_out_damaged(bool brought_back);
-    // Of a bed that repeats itself after so many periods, as somebody says.
+    // Somebody says after how many periods the bed repeats itself.
     void set_periods(int periods) { periods_ = periods; }
     // A line of news that whoever uses it has found.
     void note(std::string line) { news_.push_back(std::move(line)); }
-    void note_fault(std::string line) { faults_.push_back(std::move(line)); }
 
     const std::filesystem::path& path() const override { return folder_; }
     const std::filesystem::path& folder() const { return folder_; }

@@ -1,6 +1,8 @@
 #include "engine/files/frames/trajectory_world.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
 namespace grainreel {
 
@@ -47,6 +49,11 @@ TrajectoryInfo trajectory_info(const World& world, const FrameSupply& supply) {
         }
     }
     info.facts = world.facts;
+    const bool known =
+        std::all_of(world.species.begin(), world.species.end(),
+                    [](const WorldSpecies& species) { return std::isfinite(species.density); });
+    if (info.facts.densities.empty() && known)
+        for (const WorldSpecies& species : world.species) info.facts.densities.push_back(species.density);
     return info;
 }
 

@@ -51,7 +51,7 @@ struct World {
     std::string program_version;  // of the program that wrote it
     std::vector<WorldSpecies> species;
     std::optional<WorldCell> cell;
-    std::vector<WorldBody> bodies;  // by number; container and floor come first, and may be without shapes
+    std::vector<WorldBody> bodies;  // by number; container and floor first, or none where nothing is known
     std::size_t most_grains = 0;    // that a frame can have, all that ever come counted
     bool traffic = false;           // grains come and go
     bool time_known = true;

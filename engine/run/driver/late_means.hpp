@@ -18,7 +18,6 @@ class LateMeans {
 
     // Rows come one after the other, with their step.
     void add(const Measures& row);
-    bool any() const { return !rows_.empty(); }
     // The mean of all rows that have a value. NaN where none has.
     Measures means() const;
     // What they are means of: "the last 10 periods"; "the last row" where not even one period has passed.

@@ -17,7 +17,7 @@ struct RunDesk {
 
     LoggingListener listener;
     std::optional<RunFolder> folder;  // once it is made
-    std::optional<RunLog> log;        // likewise
+    std::optional<RunLog> log;        // once the folder is made
     RunRecord record;                 // run.json
     StageTimes times;
     Stopwatch watch;  // since the run began

@@ -22,7 +22,7 @@ struct RunRequest {
     bool force = false;                        // a run in `out` is replaced
     PageMaker page;                            // none: the run leaves no page
     std::string command;                       // as typed, for run.json
-    ProgramInfo program;                       // likewise
+    ProgramInfo program;                       // for run.json
 };
 
 }  // namespace grainreel

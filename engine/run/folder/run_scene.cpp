@@ -16,8 +16,9 @@ namespace {
 std::vector<std::int64_t> steps_to_look_at(const Plan& plan, const RunSceneOptions& how) {
     std::vector<std::int64_t> steps;
     if (!(how.every > 0) || !how.look) return steps;
+    const double every = std::max(how.every, plan.clock.step);
     const auto step = [&](std::int64_t k) {
-        return std::llround(static_cast<double>(k) * how.every / plan.clock.step);
+        return std::llround(static_cast<double>(k) * every / plan.clock.step);
     };
     for (std::int64_t k = 0; step(k) <= plan.steps; ++k)
         if (steps.empty() || step(k) > steps.back()) steps.push_back(step(k));

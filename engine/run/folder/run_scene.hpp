@@ -27,7 +27,8 @@ struct RunSceneOptions {
     // Where the run's files go: scene.toml, trajectory.nc, measures.csv and what else the scene asks for. New
     // or empty. An empty name: nothing is written.
     std::filesystem::path folder{};
-    // Of the engine; 0: as the scene says, or as many as are of use. Their number changes no bit of the run.
+    // Threads of the engine; 0: as the scene says, or as many as are of use. Their number changes no bit of
+    // the run.
     int threads = 0;
     // s of simulated time between the frames that are looked at, from the start of the drive on, each at the
     // step that is nearest; 0: none is.
@@ -43,7 +44,8 @@ struct SceneEnd {
 
 // Packs the grains, if the scene does, and runs to the end of scene.run.duration. Throws UserError for what
 // is wrong with the scene or the folder, before anything is worth keeping; RunError when the run fails on its
-// way (it stopped being healthy, the disk is full, look() threw): what was written until then stays.
+// way (it stopped being healthy, the disk is full): what was written until then stays. What look() throws
+// comes through, with a folder as a RunError.
 SceneEnd run_scene(const Scene& scene, const RunSceneOptions& how = {});
 
 }  // namespace grainreel

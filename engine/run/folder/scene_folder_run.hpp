@@ -21,7 +21,8 @@ class SceneFolderRun : public FolderRun {
     // With as many threads as the scene says, or as are of use. Throws UserError for what scene, plan or
     // request get wrong; nothing is on disk then. The listener must outlive the run.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
-    // The run in the folder request.out, which is locked, goes on from that point. Throws UserError or
+    // The run in the folder request.out, which is locked, goes on from that point. A film's wishes are those
+    // of before, in scene.wishes. Throws UserError or
     // RunError; nothing in the folder has changed then.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
                    ResumePoint point, std::shared_ptr<FolderLock> lock);

@@ -62,10 +62,7 @@ fs::path place_in_ring(const fs::path& run, std::int64_t step) {
 
 CheckpointRing::CheckpointRing(const fs::path& run, std::int64_t most_bytes, std::int64_t first,
                                std::int64_t last)
-    : folder_(run / kFolder),
-      most_bytes_(static_cast<std::uintmax_t>(most_bytes)),
-      first_(first),
-      last_(last) {
+    : folder_(run / kFolder), most_bytes_(static_cast<std::uintmax_t>(most_bytes)), last_(last) {
     const std::error_code error = make_plain_folder(folder_);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
     kept_ = those_in(folder_);

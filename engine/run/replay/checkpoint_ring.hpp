@@ -46,7 +46,7 @@ class CheckpointRing {
 
     std::filesystem::path folder_;
     std::uintmax_t most_bytes_;
-    std::int64_t first_, last_;
+    std::int64_t last_;
     std::vector<KeptCheckpoint> kept_;
     bool none_fits_ = false;  // a single one is larger than all may be
 };

@@ -17,7 +17,8 @@ class TableReader;
 // relative start.file becomes absolute, counted from the scene's folder. Throws UserError at the first
 // mistake: keys that are unknown or of no use, values of the wrong kind, unit or size, and what does not go
 // together. measurable: what output.instruments may name (measurable_in() of engine/measure/columns.hpp);
-// without it, nothing. [film] and the species' colours are kept as text, whatever they say.
+// without it, nothing. [film], which must be a table, and the species' colours are kept as text,
+// whatever they say.
 Scene read_scene(const std::filesystem::path& file, const Assignments& sets = {},
                  const MeasurableIn& measurable = nullptr);
 

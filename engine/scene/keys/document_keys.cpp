@@ -157,8 +157,10 @@ std::string Document::take_out(const std::string& table) {
     const toml::node* const node = root_.get(table);
     if (node == nullptr) return "";
     if (!node->is_table()) fail(table, fmt::format("must be a table; write [{}] above its keys", table));
+    toml::table alone = *node->as_table();
+    alone.is_inline(false);  // it stands behind other tables
     std::ostringstream text;
-    text << toml::table{{table, *node->as_table()}};
+    text << toml::table{{table, std::move(alone)}};
     root_.erase(table);
     return "\n" + text.str() + "\n";
 }

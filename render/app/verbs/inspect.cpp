@@ -64,8 +64,8 @@ class Inspect final : public Verb {
     void add_options(CLI::App& parser) override {
         parser
             .add_option("RUN", run_,
-                        "Folder of a run, with its scene.toml and trajectory.nc; or a checkpoint, or "
-                        "a final.csv")
+                        "Folder of a run, with its scene.toml and trajectory.nc; or a checkpoint, a "
+                        "final.csv or a trajectory.nc alone")
             ->required()
             ->type_name("PATH");
         parser.option_defaults()->group("Moment");

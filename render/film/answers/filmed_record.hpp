@@ -18,7 +18,7 @@ struct FilmedRecord {
 
     std::unique_ptr<const RecordedRun> run;  // of a run's folder
     std::unique_ptr<const Record> state;     // of a single state
-    std::optional<FilmedScene> film;         // likewise
+    std::optional<FilmedScene> film;         // of a single state
 };
 
 // A run's folder. sets: as for a RecordedRun. Throws UserError likewise.

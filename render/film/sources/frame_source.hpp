@@ -58,7 +58,7 @@ class FrameSource {
     // Null for what is only being computed.
     virtual const FrameArchive* archive() const { return nullptr; }
 
-    // Of each picture the moment that it would show: a frame without grains.
+    // The moment that each picture would show: a frame without grains.
     virtual std::vector<Frame> moments(const Pictures& pictures) const = 0;
     // Says what next() is to yield. Once.
     virtual void start(const Pictures& pictures) = 0;

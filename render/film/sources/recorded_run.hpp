@@ -48,7 +48,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     Supply supply() const override;
     Span span() const override { return {moments().front().time, moments().back().time}; }
     const FrameArchive* archive() const override { return archive_.get(); }
-    // Of each picture the kept moment that is nearest in time.
+    // The kept moment nearest in time to each picture.
     std::vector<Frame> moments(const Pictures& pictures) const override;
     void start(const Pictures& pictures) override;
     std::optional<Taken> next(const GoOn& go_on) override;

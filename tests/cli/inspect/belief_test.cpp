@@ -248,5 +248,21 @@ TEST_F(Belief, AFinalTableThatWasCutAtARowsEndIsRefused) {
     EXPECT_EQ(run({"inspect", "run/final.csv"}).status, 0) << "a longer run has marked its table anew";
 }
 
+// A trajectory by itself, under another name, has the same grains; what only the run knew is not there.
+TEST_F(Belief, ATrajectoryAloneAnswersAsItsRunDoes) {
+    make("run", {"--set", "output.trajectory_interval=20 ms"});
+    fs::copy(here / "run/trajectory.nc", here / "moments");
+    const auto grain = [&](const char* record) {
+        const Ended ended =
+            run({"inspect", record, "--at", "0.06 s", "--no-replay", "--grain", "7", "--json"});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        constexpr int z = 4;  // column
+        return nlohmann::json::parse(ended.out)["tables"]["grain"]["rows"][0][z].get<double>();
+    };
+    EXPECT_EQ(grain("moments"), grain("run"));
+    EXPECT_EQ(run({"inspect", "moments", "--at", "0.05 s"}).status, 2)
+        << "which would have to be brought back";
+}
+
 }  // namespace
 }  // namespace grainreel

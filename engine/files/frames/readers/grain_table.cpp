@@ -36,7 +36,7 @@ Frame by_id(const Frame& table) {
     return frame;
 }
 
-// Of a table that lies alone.
+// Species of a table that lies alone.
 std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
     std::vector<WorldSpecies> types(static_cast<std::size_t>(last) + 1);
     for (std::size_t type = 0; type < types.size(); ++type)

@@ -2,6 +2,7 @@
 // also go on with a file that is there.
 #include <optional>
 
+#include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/trajectory_world.hpp"
 #include "engine/files/trajectory.hpp"
@@ -15,9 +16,15 @@ class Trajectory final : public FrameWriter {
     explicit Trajectory(std::filesystem::path path) : path_(std::move(path)) {}
 
     void begin(const World& world, const FrameSupply& supply) override {
+        if (!world.time_known)
+            throw RunError(path_.string() +
+                           ": a trajectory has times, and those of these frames are not known");
         writer_.emplace(path_, trajectory_info(world, supply));
     }
-    void frame(const Frame& frame) override { writer_->write(frame); }
+    void frame(const Frame& frame) override {
+        GRAINREEL_CHECK(writer_);
+        writer_->write(frame);
+    }
     void end() override { writer_.reset(); }
 
   private:
