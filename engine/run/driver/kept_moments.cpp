@@ -2,15 +2,12 @@
 
 #include <memory>
 
+#include "engine/files/frames/frame_archive.hpp"
+
 namespace grainreel {
 
 Frame places_of(const Frame& frame) {
-    Frame places;
-    places.step = frame.step;
-    places.time = frame.time;
-    places.cycles = frame.cycles;
-    places.phase = frame.phase;
-    places.bodies = frame.bodies;
+    Frame places = moment_of(frame);
     places.id = frame.id;
     places.position = frame.position;
     return places;

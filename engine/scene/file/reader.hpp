@@ -31,7 +31,7 @@ struct NamedText {
     std::string text;
     std::filesystem::path file;
 };
-// Of a file, or of the shipped scene of that name. Throws UserError where there is neither.
+// The text of a file, or of the shipped scene of that name. Throws UserError where there is neither.
 NamedText text_of_scene(const std::filesystem::path& file);
 
 // Likewise, and `further` reads what the engine does not know (render/scene/read_scene.hpp).

@@ -17,6 +17,7 @@
 #include "engine/questions/mean_answer.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/run/driver/stage_times.hpp"
+#include "engine/run/folder/replay_progress.hpp"
 #include "render/app/inspect/print_answer.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
@@ -315,18 +316,8 @@ class Inspect final : public Verb {
         return {std::move(snapshot), std::move(about)};
     }
 
-    // Shows progress once a replay has gone on for a second.
     static ReplayWatcher watcher_of(Reporter& reporter) {
-        return [&reporter, watch = Stopwatch()](double done) {
-            Progress progress;
-            progress.stage = Progress::Stage::replaying;
-            progress.done = done;
-            progress.elapsed = watch.seconds();
-            if (progress.elapsed < 1) return true;
-            if (done > 0) progress.remaining = progress.elapsed * (1 - done) / done;
-            reporter.progress(progress);
-            return true;
-        };
+        return replay_progress([&reporter](const Progress& progress) { reporter.progress(progress); });
     }
 
     // Over periods up to the moment.

@@ -27,8 +27,9 @@ class FolderFilm final : public SideWork {
     void use_threads(const ThreadPlan& threads) { threads_ = threads; }
     const ThreadPlan& threads() const { return threads_; }
 
-    // Of so many pictures. start: from which start heights are counted; null: from the film's first picture.
-    // draw: what makes pictures; none for the Renderer. Nothing happens where no pictures are wanted.
+    // pictures: how many come. start: from which start heights are counted; null: from the film's first
+    // picture. draw: what makes pictures; none for the Renderer. Nothing happens where no pictures are
+    // wanted.
     void open(const FilmedScene& scene, std::int64_t pictures, FramePtr start = nullptr,
               DrawerMaker draw = {});
     // Takes pictures while it is open.

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/run/driver/stage_times.hpp"
+#include "engine/run/folder/replay_progress.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/film_limits.hpp"
@@ -80,18 +81,8 @@ Chosen choose(double at, const RevisitedRun& source) {
     return chosen;
 }
 
-// Shows progress once it has gone on for a second.
 ReplayWatcher watcher_of(RunListener& listener) {
-    return [&listener, watch = Stopwatch()](double done) {
-        Progress progress;
-        progress.stage = Progress::Stage::replaying;
-        progress.done = done;
-        progress.elapsed = watch.seconds();
-        if (progress.elapsed < 1) return true;
-        if (done > 0) progress.remaining = progress.elapsed * (1 - done) / done;
-        listener.progress(progress);
-        return true;
-    };
+    return replay_progress([&listener](const Progress& progress) { listener.progress(progress); });
 }
 
 // The film's pictures that reach no further back than its trails do, less those that cannot be had.

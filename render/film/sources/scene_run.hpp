@@ -32,7 +32,7 @@ class SceneRun final : public FrameSource {
     // After packing. Pictures before the run's first step do not come.
     void start(const Pictures& pictures) override;
     std::optional<Taken> next(const GoOn& go_on) override;
-    // Of the driver, and what was found of the bed's periods so far.
+    // The driver's news, and what was found of the bed's periods so far.
     std::vector<std::string> news() const override;
 
     std::int64_t shots() const { return count_; }  // pictures that come, at most
