@@ -8,7 +8,8 @@
 
 namespace grainreel {
 
-// Tells `tell` once the replay has gone on for a second, with the time that is left. It never stops the replay.
+// Tells `tell` once the replay has gone on for a second, with the time that is left. It never stops the
+// replay.
 ReplayWatcher replay_progress(std::function<void(const Progress&)> tell);
 
 }  // namespace grainreel
