@@ -92,6 +92,7 @@ struct Plan {
     std::vector<PairPlan> grain;  // species x species, row-major
     std::vector<PairPlan> wall;   // one a species
     std::vector<PairPlan> glued;  // likewise, with grains glued to walls; empty where there are none
+    std::vector<PairPlan> mesh;   // mesh x species, row-major
 
     Clock clock;
     std::int64_t steps = 0;                                     // of vibration

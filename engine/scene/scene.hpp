@@ -5,13 +5,17 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/mesh/room.hpp"
 #include "engine/scene/field_output.hpp"
 #include "engine/scene/measure_columns.hpp"
+#include "engine/scene/motion/path.hpp"
+#include "engine/scene/motion/turn.hpp"
 
 namespace grainreel {
 
@@ -21,6 +25,18 @@ struct Location {
     std::string file;
     int line = 0;
     int column = 0;
+};
+
+// What a scene shares with its copies, because it is large. Two are equal when their hashes are.
+template <class T>
+struct Shared {
+    std::shared_ptr<const T> of;
+    const T* operator->() const { return of.get(); }
+    const T& operator*() const { return *of; }
+    explicit operator bool() const { return of != nullptr; }
+    bool operator==(const Shared& other) const {
+        return of == other.of || (of && other.of && of->hash() == other.of->hash());
+    }
 };
 
 // Diameters of one species, m. `uniform`: evenly between smallest and largest. `normal`: mean and deviation,
@@ -84,6 +100,7 @@ struct Contact {
     LeverArms arms = LeverArms::contact_plane;
     std::vector<PairContact> grain;  // species x species, symmetric, row-major
     std::vector<PairContact> wall;   // one a species
+    std::vector<PairContact> mesh;   // mesh x species, row-major
     bool rubs() const;               // any of them has friction
     bool operator==(const Contact&) const = default;
 };
@@ -117,24 +134,61 @@ struct WallGrains {
 };
 
 struct Container {
-    enum class Shape { wedge, box, cylinder, none };
+    enum class Shape { wedge, box, cylinder, mesh, none };
     Shape shape = Shape::wedge;  // none: empty space; the sizes then are those of what is looked at
-    double half_width = 0;       // m, along y: y_max, at and above the slanted part; the radius of a cylinder
-    double depth = 0;            // m, along x (front to back); unused by a cylinder
-    double height = 0;           // m, floor to lid or rim
-    double half_angle = 0;       // rad, slanted walls against the vertical; wedge only
-    double slant_height = 0;     // m, H: height of the slanted part; wedge only
+    // Of `mesh`: the vessel's name, and the room that it encloses. Half-width, depth and height then are
+    // those of the room, the height from z = 0 to lid or rim.
+    std::string mesh;
+    Shared<EnclosedRoom> room;
+    double half_width = 0;    // m, along y: y_max, at and above the slanted part; the radius of a cylinder
+    double depth = 0;         // m, along x (front to back); unused by a cylinder
+    double height = 0;        // m, floor to lid or rim
+    double half_angle = 0;    // rad, slanted walls against the vertical; wedge only
+    double slant_height = 0;  // m, H: height of the slanted part; wedge only
     bool lid = true;
     std::optional<Outlet> outlet;  // empty: a closed floor
     std::optional<Tray> tray;      // only below an outlet
     std::optional<WallGrains> wall_grains;
     bool periodic_depth = false;          // no front and back walls: what leaves at one enters at the other
+    std::optional<BodyTurn> turn;         // walls, floor and lid together
+    double base() const;                  // m, z of the lowest place: 0 but for a mesh
     double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
     double volume() const;                // m3, floor to height
     double volume_below(double z) const;  // m3, floor to z, z in [0, height]
     // m, the free half-width at height z above the floor.
     double half_width_at(double z) const;
     bool operator==(const Container&) const = default;
+};
+
+// A wall whose shape comes from a file.
+struct SceneMesh {
+    std::string name;
+    std::string file;  // path
+    std::string hash;  // of the file, as in load_mesh.hpp; written into a run's scene, and then checked
+    double scale = 1;
+    Vec3 position{0, 0, 0};                        // m
+    Quaternion rotation = Quaternion::Identity();  // before it is moved to its position
+    // Its motion; at most one of these.
+    bool driven = false;  // with the drive
+    std::optional<BodyTurn> turn;
+    Vec3 velocity{0, 0, 0};  // m/s, steady
+    std::string path_file, path_hash;
+    Shared<Surface> surface;  // in the scene at rest
+    Shared<MotionPath> path;
+    bool moves() const { return driven || turn || !path_file.empty() || !velocity.isZero(0); }
+    bool operator==(const SceneMesh&) const = default;
+};
+
+// A box in the lab. A grain whose centre is in it leaves the run.
+struct ExitBox {
+    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m
+    bool operator==(const ExitBox&) const = default;
+};
+
+// A box to fill.
+struct Region {
+    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m
+    bool operator==(const Region&) const = default;
 };
 
 // A plane anywhere, with the grains on one side of it.
@@ -211,6 +265,7 @@ struct Start {
     double settle_limit = 5;  // s, of settling at most
     double settle_damping = 10;       // 1/s, extra drag on every grain while settling only; 0 for none
     std::optional<double> rain_rate;  // 1/s; the plan chooses it when empty
+    std::optional<Region> region;     // to pack the grains in; the container's room when empty
     std::vector<ListedGrain> grains;  // with `grains`
     // Whether the grains are packed and settled before the drive starts.
     bool packs() const { return method == Method::layers || method == Method::rain; }
@@ -271,6 +326,8 @@ struct Scene {
     Contact contact;
     Container container;
     std::vector<FreeWall> walls;
+    std::vector<SceneMesh> meshes;
+    std::vector<ExitBox> exits;
     std::vector<Feed> feeds;
     Vec3 gravity{0, 0, -9.81};  // m/s2
     Drive drive;

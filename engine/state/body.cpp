@@ -13,6 +13,37 @@ std::vector<Body> bodies_of(const Drive& drive, const std::vector<FreeWall>& pla
     return bodies;
 }
 
+std::vector<Body> bodies_of(const Scene& scene) {
+    std::vector<Body> bodies = bodies_of(scene.drive, scene.walls);
+    bodies[kContainerBody].turn = bodies[kFloorBody].turn = scene.container.turn;
+    for (const SceneMesh& mesh : scene.meshes) {
+        const auto number = static_cast<std::int32_t>(bodies.size());
+        bodies.push_back({number, mesh.driven, mesh.velocity, mesh.turn, mesh.path.of});
+    }
+    return bodies;
+}
+
+// Before the motion starts (time 0) nothing has moved. A turn comes before the displacement.
+BodyPose Body::at(const Pose& drive) const {
+    BodyPose pose{place_at(drive), Quaternion::Identity(), velocity_at(drive), Vec3(0, 0, 0)};
+    if (turn) {
+        pose.rotation = Quaternion(Eigen::AngleAxisd(turn->angle_at(drive.time), turn->axis));
+        pose.spin = turn->rate_at(drive.time) * turn->axis;
+        const Vec3 arm =
+            pose.rotation * turn->through;  // from the axis' point to the origin, but for its sign
+        pose.place += turn->through - arm;
+        pose.velocity -= pose.spin.cross(arm);
+    }
+    if (path) {
+        const PathPose on_path = path->at(drive.time);
+        pose.place += on_path.place;
+        pose.rotation = on_path.rotation;
+        pose.velocity += on_path.velocity;
+        pose.spin = on_path.spin;
+    }
+    return pose;
+}
+
 std::vector<BodyPose> poses_of(const std::vector<Body>& bodies, const Pose& drive) {
     std::vector<BodyPose> poses;
     for (const Body& body : bodies) poses.push_back(body.at(drive));

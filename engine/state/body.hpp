@@ -1,9 +1,10 @@
-// Rigid bodies, to which faces belong: the container, its floor, and each plane of the scene. No body turns
-// yet. Frames and files have a rotation and a spin of each all the same. Drawing and faces move a body by its
-// place alone, so both have to learn it when a body turns.
+// Rigid bodies, to which faces and meshes belong: the container, its floor, each plane of the scene, each
+// mesh.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/base/vector.hpp"
@@ -19,34 +20,48 @@ struct BodyPose {
     Vec3 velocity{0, 0, 0};                        // m/s, of the origin
     Vec3 spin{0, 0, 0};                            // rad/s
 
+    // From the place at rest to the place now, and back; m. A point that goes with the body.
+    Vec3 moved(const Vec3& at_rest) const { return place + rotation * at_rest; }
+    Vec3 at_rest(const Vec3& now) const { return rotation.conjugate() * (now - place); }
+    Vec3 velocity_at(const Vec3& now) const { return velocity + spin.cross(now - place); }  // m/s
+
     bool operator==(const BodyPose& other) const {
         return place == other.place && rotation.coeffs() == other.rotation.coeffs() &&
                velocity == other.velocity && spin == other.spin;
     }
 };
 
-// The numbers of a scene's bodies: these two, whatever the container, then its planes in their order.
+// The numbers of a scene's bodies: these two, whatever the container, then its planes in their order, then
+// its meshes.
 constexpr std::int32_t kContainerBody = 0, kFloorBody = 1, kFirstPlaneBody = 2;
 // Of a tray, which stands still. It has no pose in files.
 constexpr std::int32_t kTrayBody = -1;
 
-// How a body moves: with the drive or not, and at a steady velocity on top of it.
+// How a body moves: with the drive or not, and by a motion of its own on top of it.
 struct Body {
     std::int32_t number = kContainerBody;
     bool driven = false;
     Vec3 velocity{0, 0, 0};  // m/s
+    std::optional<BodyTurn> turn = {};
+    std::shared_ptr<const MotionPath> path = {};
 
+    bool turns() const { return turn || (path && path->turns()); }
+    bool has_own_motion() const { return turn || path; }  // beside a steady velocity
+    BodyPose at(const Pose& drive) const;
+    // Of one that has no motion of its own but its velocity: the displacement and velocity of all its points.
     Vec3 place_at(const Pose& drive) const {
         return (driven ? drive.offset : Vec3(0, 0, 0)) + drive.time * velocity;
     }
     Vec3 velocity_at(const Pose& drive) const { return (driven ? drive.velocity : Vec3(0, 0, 0)) + velocity; }
-    BodyPose at(const Pose& drive) const {
-        return {place_at(drive), Quaternion::Identity(), velocity_at(drive), Vec3(0, 0, 0)};
-    }
 };
 
 // All bodies of a scene, by number.
+std::vector<Body> bodies_of(const Scene& scene);
+// The container, its floor and these planes, without a turn of the container.
 std::vector<Body> bodies_of(const Drive& drive, const std::vector<FreeWall>& planes);
+inline std::int32_t first_mesh_body(const Scene& scene) {
+    return kFirstPlaneBody + static_cast<std::int32_t>(scene.walls.size());
+}
 
 // The poses of all bodies.
 std::vector<BodyPose> poses_of(const std::vector<Body>& bodies, const Pose& drive);

@@ -9,8 +9,9 @@ namespace grainreel {
 
 struct ContactView {
     std::int32_t first;      // index of a grain
-    std::int32_t second;     // index of a grain, or -1 - face
+    std::int32_t second;     // index of a grain, or -1 - face; meshes are numbered behind the faces
     std::int32_t glued;      // which glued grain of that face; -1 for the face itself and for a grain
+    std::int32_t triangle;   // of a mesh: where it is touched; else -1
     Vec3 normal;             // unit, from first to second
     double overlap;          // m
     double smaller_radius;   // m

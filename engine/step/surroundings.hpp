@@ -1,8 +1,11 @@
 // The surroundings of the grains.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/traffic.hpp"
@@ -10,10 +13,19 @@
 
 namespace grainreel {
 
+// A mesh in the run. Where faces and meshes are numbered together, the meshes come behind the faces.
+struct MeshWall {
+    std::string name;
+    std::shared_ptr<const Surface> surface;
+    Body body;
+    Vec3 point{0, 0, 0};  // m, about which its moment counts, at rest
+};
+
 // The step loop reads them and never changes them.
 struct Surroundings {
     std::vector<Face> faces;
     GluedGrains glued;  // to these faces
+    std::vector<MeshWall> meshes;
     WallMotion motion;
     Vec3 gravity{0, 0, 0};    // m/s2
     double period = 0;        // m, of x; 0 for none

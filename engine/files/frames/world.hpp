@@ -12,6 +12,7 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/files/file_facts.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -26,17 +27,11 @@ struct WorldSpecies {
     std::int64_t count = 0;      // grains at the start; 0 where that is not known
 };
 
-// Triangles, each three places in the list of vertices (m).
-struct Mesh {
-    std::vector<Vec3> vertices;
-    std::vector<std::array<std::int32_t, 3>> triangles;
-};
-
 // A body by its shapes at rest. Where it is in a frame says the frame (Frame::bodies), by the body's number.
 struct WorldBody {
     std::string name;
     std::vector<Face> faces;
-    Mesh mesh;
+    TriangleMesh mesh;
 };
 
 // The box that the grains are in, which may be tilted. An edge of 0 m: nothing is known along it.

@@ -1,0 +1,41 @@
+// From a file to a mesh that can be used: read, placed, mended. STL (ASCII and binary), OBJ and PLY (ASCII and
+// binary, both byte orders). The content decides which it is, and never the suffix. Units are nowhere in these
+// files: `scale` brings them to m.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "engine/mesh/mesh_facts.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
+
+namespace grainreel {
+
+// How a mesh from a file stands in the scene: x = position + rotation (scale * x_file).
+struct MeshPlacement {
+    double scale = 1;
+    Vec3 position{0, 0, 0};  // m
+    Quaternion rotation = Quaternion::Identity();
+};
+
+struct LoadedMesh {
+    TriangleMesh mesh;  // m, in the scene at rest
+    MeshFacts facts;
+    std::string hash;  // of the file's bytes, XXH64 as 16 hexadecimal digits
+};
+
+// Throws UserError with file and line (text) or byte (binary): what is wrong and what to do. Nothing in the
+// file is trusted: a count is bounded by the file's size before memory is asked for, and every number must be
+// finite.
+LoadedMesh load_mesh(const std::filesystem::path& file, const MeshPlacement& placement = {});
+
+// The same hash of any file. Throws UserError where it cannot be read.
+std::string hash_of_file(const std::filesystem::path& file);
+
+// Joins equal vertices (closer than 1e-9 of the extent), drops triangles without area and doubled ones, and
+// makes the order of each connected part consistent (outwards where it is closed). Fills in all of `facts` but
+// format and read.
+void mend(TriangleMesh& mesh, MeshFacts& facts);
+
+}  // namespace grainreel
