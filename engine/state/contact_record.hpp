@@ -12,6 +12,7 @@ struct ContactRecord {
     double normal;               // N, >= 0
     Vec3 tangential;             // N, on `second`
     Vec3 point;                  // m
+    std::int32_t triangle = -1;  // of a mesh: where it is touched
     bool operator==(const ContactRecord&) const = default;
 };
 
