@@ -28,6 +28,7 @@
 #include "engine/measure/segregation/height_difference_observer.hpp"
 #include "engine/measure/segregation/mixing_observer.hpp"
 #include "engine/measure/segregation/unlike_neighbours_observer.hpp"
+#include "engine/measure/surface/drum_observer.hpp"
 #include "engine/measure/surface/surface_observer.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 
@@ -60,6 +61,7 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::Intruder,          //
                                   observers::Outflow,           //
                                   observers::WallForces,        //
+                                  observers::Drum,              //
                                   observers::CoarseGrainedFields>;
 
 }  // namespace grainreel

@@ -8,7 +8,7 @@
 namespace grainreel {
 
 struct ContactRecord {
-    std::int32_t first, second;  // ids; second is -1 - face for a wall
+    std::int32_t first, second;  // ids; second is -1 - wall for a wall: faces first, then meshes
     double normal;               // N, >= 0
     Vec3 tangential;             // N, on `second`
     Vec3 point;                  // m

@@ -15,9 +15,12 @@ SurfaceFrame surface_frame(const Scene& scene) {
     const Container& c = scene.container;
     if (c.shape == Container::Shape::none) return frame;
     frame.diameter = mean_diameter(scene);
-    frame.right = c.half_width_at(fill_height(scene, kSettled));
+    const double filled = fill_height(scene, kSettled);
+    frame.right = c.half_width_at(filled);
     frame.left = -frame.right;
-    frame.front = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
+    frame.front = c.shape == Container::Shape::cylinder ? c.half_width
+                  : c.shape == Container::Shape::mesh   ? c.room->half_depth_at(filled)
+                                                        : 0.5 * c.depth;
     frame.back = -frame.front;
     frame.period = period_of_depth(c);
     return frame;
