@@ -31,6 +31,7 @@
 #include "engine/measure/surface/drum_observer.hpp"
 #include "engine/measure/surface/surface_observer.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
+#include "engine/measure/walls/wear_observer.hpp"
 
 namespace grainreel {
 
@@ -62,6 +63,7 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::Outflow,           //
                                   observers::WallForces,        //
                                   observers::Drum,              //
+                                  observers::Wear,              //
                                   observers::CoarseGrainedFields>;
 
 }  // namespace grainreel
