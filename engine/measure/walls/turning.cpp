@@ -52,6 +52,15 @@ std::optional<std::size_t> vessel_of(const Scene& scene) {
     return std::nullopt;
 }
 
+bool turns_over(const Scene& scene) {
+    constexpr double kStands = 1 - 1e-6;  // cosine of the angle against the vertical
+    const auto lies = [&](const std::optional<BodyTurn>& turn) {
+        return turn && std::abs(turn->axis.normalized().z()) < kStands;
+    };
+    const std::optional<std::size_t> vessel = vessel_of(scene);
+    return lies(scene.container.turn) || (vessel && lies(scene.meshes[*vessel].turn));
+}
+
 Vec3 moment_point(const SceneMesh& mesh) {
     return mesh.turn ? mesh.turn->through : mesh.position;
 }

@@ -13,6 +13,9 @@ namespace grainreel {
 // Which of the scene's meshes is the container; empty where none is.
 std::optional<std::size_t> vessel_of(const Scene& scene);
 
+// Whether the container turns about an axis that does not stand, so that left, right and floor mean nothing.
+bool turns_over(const Scene& scene);
+
 // m, at rest: the moment of the grains on a mesh counts about it. It moves with the mesh.
 Vec3 moment_point(const SceneMesh& mesh);
 
