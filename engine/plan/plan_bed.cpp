@@ -42,12 +42,13 @@ double closing_speed(const Scene& scene) {
     };
     for (const ListedGrain& grain : scene.start.grains) take(grain.velocity);
     for (const FreeWall& wall : scene.walls) take(wall.velocity);
-    const bool no_walls = scene.walls.empty() && scene.meshes.empty() &&
-                          scene.container.shape == Container::Shape::none;
+    const bool no_walls =
+        scene.walls.empty() && scene.meshes.empty() && scene.container.shape == Container::Shape::none;
     return std::max(no_walls ? 0.0 : fastest, (high - low).norm());
 }
 
-// m: how far the highest grain falls while the bed settles. From a region grains fall down to the lowest wall.
+// m: how far the highest grain falls while the bed settles. From a region grains fall down to the lowest
+// wall.
 double start_drop(const Scene& scene, double bed_height) {
     const Container& c = scene.container;
     if (!scene.start.region || !scene.start.packs()) return c.height - c.base() - bed_height;

@@ -19,8 +19,8 @@ double fastest_own_speed(const Scene& scene);
 // empty space without meshes 0.
 double lowest_place(const Scene& scene);
 
-// Throws UserError where a wall moves by itself further within `step` (s) than a tenth of the smallest grain's
-// diameter.
+// Throws UserError where a wall moves by itself further within `step` (s) than a tenth of the smallest
+// grain's diameter.
 void check_rims(const Scene& scene, double step);
 
 }  // namespace grainreel

@@ -29,8 +29,8 @@ bool is_listed(const Scene& scene) {
     if (is_listed(scene))
         throw UserError(fmt::format("{}: the grain {}; move one of the two",
                                     scene.where(fmt::format("grain[{}]", id)), what));
-    throw UserError(fmt::format("{}: grain {} of '{}' {}; {}", scene.where("start.file"), id, scene.start.file,
-                                what, kOtherContainer));
+    throw UserError(fmt::format("{}: grain {} of '{}' {}; {}", scene.where("start.file"), id,
+                                scene.start.file, what, kOtherContainer));
 }
 
 void check_faces(const Scene& scene, const std::vector<Face>& faces, const Grains& grains, std::size_t i) {
@@ -90,8 +90,7 @@ void check_grains_clear(const Scene& scene, const Surroundings& around, const Gr
     const bool listed = is_listed(scene);
     const auto reject = [&](const std::string& what) {
         if (listed) throw UserError(fmt::format("{}: the list {}", scene.where("grain"), what));
-        throw UserError(
-            fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
+        throw UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
     };
     loop.visit_contacts(-1, [&](const ContactView& c) {
         if (c.overlap <= kTooDeep * c.smaller_radius) return;

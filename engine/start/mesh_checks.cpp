@@ -31,7 +31,9 @@ bool is_closed_in(const Scene& scene) {
 
 Extent box_of_grains(const Scene& scene) {
     std::vector<Vec3> corners;
-    const auto add = [&](const Vec3& low, const Vec3& high) { corners.push_back(low), corners.push_back(high); };
+    const auto add = [&](const Vec3& low, const Vec3& high) {
+        corners.push_back(low), corners.push_back(high);
+    };
     if (scene.start.packs() && scene.start.region) add(scene.start.region->low, scene.start.region->high);
     if (const SceneMesh* vessel = scene.vessel())
         add(vessel->surface->facts().low, vessel->surface->facts().high);
@@ -113,8 +115,10 @@ void check_meshes_near(const Scene& scene, const Plan& plan) {
         const MeshFacts& facts = mesh.surface->facts();
         const bool millimetres = mesh.scale == 1 && (facts.high - facts.low).maxCoeff() > reach.radius;
         throw UserError(fmt::format(
-            "{}: the mesh \"{}\" is far from all grains: it lies between ({:.4g}, {:.4g}, {:.4g}) and ({:.4g}, "
-            "{:.4g}, {:.4g}) m, and no grain comes further than {:.3g} m from ({:.4g}, {:.4g}, {:.4g}) m{}; {}",
+            "{}: the mesh \"{}\" is far from all grains: it lies between ({:.4g}, {:.4g}, {:.4g}) and "
+            "({:.4g}, "
+            "{:.4g}, {:.4g}) m, and no grain comes further than {:.3g} m from ({:.4g}, {:.4g}, {:.4g}) m{}; "
+            "{}",
             scene.where(fmt::format("mesh[{}].file", m)), mesh.name, facts.low.x(), facts.low.y(),
             facts.low.z(), facts.high.x(), facts.high.y(), facts.high.z(), reach.radius, reach.centre.x(),
             reach.centre.y(), reach.centre.z(), reach.fall > 0 ? ", or from below that" : "",
@@ -132,11 +136,11 @@ void check_feed_boxes(const Scene& scene) {
             if (&mesh == scene.vessel()) continue;
             const std::optional<Vec3> place = touching_place(feed, mesh, 0.5 * diameter);
             if (!place) continue;
-            throw UserError(
-                fmt::format("{}: the box of this feed reaches into the mesh \"{}\": at ({:.4g}, {:.4g}, {:.4g}) m "
-                            "a grain of {:.4g} m across would touch it; move 'low' and 'high' away from it",
-                            scene.where(fmt::format("feed[{}].low", k)), mesh.name, place->x(), place->y(),
-                            place->z(), diameter));
+            throw UserError(fmt::format(
+                "{}: the box of this feed reaches into the mesh \"{}\": at ({:.4g}, {:.4g}, {:.4g}) m "
+                "a grain of {:.4g} m across would touch it; move 'low' and 'high' away from it",
+                scene.where(fmt::format("feed[{}].low", k)), mesh.name, place->x(), place->y(), place->z(),
+                diameter));
         }
     }
 }

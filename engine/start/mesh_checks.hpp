@@ -7,7 +7,8 @@
 namespace grainreel {
 
 // Throws UserError, at the mesh's or the feed's place in the scene, where a mesh lies far from all grains,
-// moves into another wall, or a feed's box reaches into it. Adds to the plan's warnings what was not looked at.
+// moves into another wall, or a feed's box reaches into it. Adds to the plan's warnings what was not looked
+// at.
 void check_meshes(const Scene& scene, Plan& plan);
 
 // The parts of it; they throw likewise.

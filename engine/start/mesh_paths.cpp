@@ -15,8 +15,8 @@
 namespace grainreel {
 namespace {
 
-constexpr double kDeep = 0.01;         // of the smallest extent, from which on a crossing counts
-constexpr double kElsewhere = 0.1;     // of the smaller mesh's largest extent: farther from those at rest
+constexpr double kDeep = 0.01;      // of the smallest extent, from which on a crossing counts
+constexpr double kElsewhere = 0.1;  // of the smaller mesh's largest extent: farther from those at rest
 constexpr std::int64_t kMostTriangles = 200'000;  // of both meshes; nobody waits for more
 constexpr std::int64_t kMostLooks = 400'000;      // of edges, at all moments; then some are left out
 constexpr std::size_t kMostKept = 2'000;          // places where edges cross at rest
@@ -52,9 +52,7 @@ struct Paths {
     // The key of what moves the first of two, or else the second.
     std::string motion_key(std::size_t mesh) const {
         const SceneMesh& m = scene.meshes[mesh];
-        return fmt::format("mesh[{}]{}", mesh, m.turn   ? ".turn"
-                                               : m.path ? ".path"
-                                                        : "");
+        return fmt::format("mesh[{}]{}", mesh, m.turn ? ".turn" : m.path ? ".path" : "");
     }
 };
 
@@ -108,12 +106,13 @@ class BeforeFaces {
         }
         if (deepest <= kDeep * smallest_extent(*mesh_.surface)) return;
         const bool own = paths_.scene.meshes[number_].moves();
-        throw UserError(fmt::format(
-            "{}: the mesh \"{}\" {} the {}: {} it is {:.3g} m behind it; make it smaller, move it, or let both "
-            "move alike",
-            paths_.scene.where(own ? paths_.motion_key(number_) : "container.turn"), mesh_.name,
-            own ? "moves into" : "is in the way of", face.name,
-            moment_text(paths_, own ? mesh_.body : face.body, step), deepest));
+        throw UserError(
+            fmt::format("{}: the mesh \"{}\" {} the {}: {} it is {:.3g} m behind it; make it smaller, move "
+                        "it, or let both "
+                        "move alike",
+                        paths_.scene.where(own ? paths_.motion_key(number_) : "container.turn"), mesh_.name,
+                        own ? "moves into" : "is in the way of", face.name,
+                        moment_text(paths_, own ? mesh_.body : face.body, step), deepest));
     }
 
     const Paths& paths_;
@@ -215,8 +214,8 @@ class Crossings {
         const Surface& surface = *other_.surface;
         for (int e = 0; e < 3; ++e) {
             if (surface.neighbour(triangle, e).triangle >= 0) continue;
-            if (distance_to_segment(place, surface.corner(triangle, e), surface.corner(triangle, (e + 1) % 3)) <
-                deep_)
+            if (distance_to_segment(place, surface.corner(triangle, e),
+                                    surface.corner(triangle, (e + 1) % 3)) < deep_)
                 return true;
         }
         return false;
@@ -237,21 +236,23 @@ void check_pair(const Paths& paths, std::size_t one, std::size_t other, Plan& pl
     const std::size_t mover = first_moves ? one : other;
     const std::string place = paths.scene.where(paths.motion_key(mover));
     if (a.surface->size() + std::int64_t{b.surface->size()} > kMostTriangles) {
-        plan.warnings.push_back(fmt::format(
-            "{}: whether \"{}\" and \"{}\" move into each other was not looked at, for they have more than {} "
-            "triangles; look at the film",
-            place, a.name, b.name, kMostTriangles));
+        plan.warnings.push_back(
+            fmt::format("{}: whether \"{}\" and \"{}\" move into each other was not looked at, for they have "
+                        "more than {} "
+                        "triangles; look at the film",
+                        place, a.name, b.name, kMostTriangles));
         return;
     }
     for (const auto& [from, to] : {std::pair{one, other}, std::pair{other, one}}) {
         const auto found = Crossings(paths, from, to).first();
         if (!found) continue;
-        throw UserError(fmt::format(
-            "{}: the mesh \"{}\" moves into \"{}\": {} they cross at ({:.4g}, {:.4g}, {:.4g}) m; make one of them "
-            "smaller, move it, or let both move alike",
-            place, first_moves ? a.name : b.name, first_moves ? b.name : a.name,
-            moment_text(paths, paths.around.meshes[mover].body, found->step), found->place.x(),
-            found->place.y(), found->place.z()));
+        throw UserError(
+            fmt::format("{}: the mesh \"{}\" moves into \"{}\": {} they cross at ({:.4g}, {:.4g}, {:.4g}) m; "
+                        "make one of them "
+                        "smaller, move it, or let both move alike",
+                        place, first_moves ? a.name : b.name, first_moves ? b.name : a.name,
+                        moment_text(paths, paths.around.meshes[mover].body, found->step), found->place.x(),
+                        found->place.y(), found->place.z()));
     }
 }
 

@@ -11,7 +11,8 @@ namespace grainreel {
 inline std::string wall_name(const Surroundings& around, std::int32_t wall) {
     const auto number = static_cast<std::size_t>(wall);
     const std::size_t faces = around.faces.size();
-    return number < faces ? "the " + around.faces[number].name : "\"" + around.meshes[number - faces].name + "\"";
+    return number < faces ? "the " + around.faces[number].name
+                          : "\"" + around.meshes[number - faces].name + "\"";
 }
 
 }  // namespace grainreel
