@@ -69,8 +69,8 @@ class Reader {
             const std::vector<std::int64_t> changes = planes(mesh.vertices, 2);
             for (std::size_t i = 0; i < changes.size(); ++i) {
                 number = (number + changes[i]) & 0xffff;
-                read.vertices[i][axis] = mesh.low[axis] + static_cast<double>(number) / 65535 *
-                                                              (mesh.high[axis] - mesh.low[axis]);
+                read.vertices[i][axis] =
+                    mesh.low[axis] + static_cast<double>(number) / 65535 * (mesh.high[axis] - mesh.low[axis]);
             }
         }
         read.triangles = corners<3>(mesh.triangles);

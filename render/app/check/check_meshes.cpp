@@ -25,10 +25,11 @@ std::string counted(std::int64_t count, const char* one, const char* many) {
 std::string shape_text(const SceneMesh& mesh) {
     const MeshFacts& facts = mesh.surface->facts();
     const Vec3 size = facts.high - facts.low;
-    std::string text = fmt::format(
-        "{}: {}, {}, {}, {} x {} x {} from {} to {} m", mesh.name, std::filesystem::path(mesh.file).filename().string(),
-        facts.format, counted(facts.triangles, "triangle", "triangles"), metres_text(size.x()),
-        metres_text(size.y()), metres_text(size.z()), vector_text(facts.low), vector_text(facts.high));
+    std::string text = fmt::format("{}: {}, {}, {}, {} x {} x {} from {} to {} m", mesh.name,
+                                   std::filesystem::path(mesh.file).filename().string(), facts.format,
+                                   counted(facts.triangles, "triangle", "triangles"), metres_text(size.x()),
+                                   metres_text(size.y()), metres_text(size.z()), vector_text(facts.low),
+                                   vector_text(facts.high));
     if (mesh.scale != 1) text += fmt::format(", scaled by {:.4g}", mesh.scale);
     return text;
 }
@@ -37,11 +38,13 @@ std::string shape_text(const SceneMesh& mesh) {
 std::string edges_text(const MeshFacts& facts) {
     std::string text = counted(facts.solids, "solid", "solids");
     if (facts.closed()) text += ", closed";
-    if (facts.open_edges > 0) text += ", open: " + counted(facts.open_edges, "edge", "edges") + " of one triangle alone";
+    if (facts.open_edges > 0)
+        text += ", open: " + counted(facts.open_edges, "edge", "edges") + " of one triangle alone";
     if (facts.crowded_edges > 0)
         text += ", " + counted(facts.crowded_edges, "edge", "edges") + " of more than two triangles";
     if (facts.slender > 0)
-        text += ", " + counted(facts.slender, "triangle", "triangles") + " slender (height below a thousandth of the longest side)";
+        text += ", " + counted(facts.slender, "triangle", "triangles") +
+                " slender (height below a thousandth of the longest side)";
     return text;
 }
 
@@ -61,13 +64,13 @@ std::string motion_text(const SceneMesh& mesh) {
     std::vector<std::string> parts;
     if (mesh.driven) parts.emplace_back("moves with the drive");
     if (mesh.turn) parts.push_back(turn_text(*mesh.turn));
-    if (mesh.velocity.norm() > 0)
-        parts.push_back(fmt::format("moves at {} m/s", vector_text(mesh.velocity)));
+    if (mesh.velocity.norm() > 0) parts.push_back(fmt::format("moves at {} m/s", vector_text(mesh.velocity)));
     if (mesh.path)
-        parts.push_back(fmt::format("follows {} from {:.4g} to {:.4g} s, at up to {:.3g} m/s{}",
-                                    std::filesystem::path(mesh.path_file).filename().string(), mesh.path->first(),
-                                    mesh.path->last(), mesh.path->top_speed(),
-                                    mesh.path->turns() ? fmt::format(" and {:.3g} rad/s", mesh.path->top_spin()) : ""));
+        parts.push_back(
+            fmt::format("follows {} from {:.4g} to {:.4g} s, at up to {:.3g} m/s{}",
+                        std::filesystem::path(mesh.path_file).filename().string(), mesh.path->first(),
+                        mesh.path->last(), mesh.path->top_speed(),
+                        mesh.path->turns() ? fmt::format(" and {:.3g} rad/s", mesh.path->top_spin()) : ""));
     return parts.empty() ? "stands still" : fmt::format("{}", fmt::join(parts, "; "));
 }
 

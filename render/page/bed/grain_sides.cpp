@@ -29,7 +29,8 @@ std::vector<Patch> patches_of(const Surface& surface) {
         for (std::size_t at = 0; at < patch.size(); ++at)
             for (int edge = 0; edge < 3; ++edge) {
                 const Neighbour& next = surface.neighbour(patch[at], edge);
-                if (next.triangle < 0 || next.flips || seen[static_cast<std::size_t>(next.triangle)]) continue;
+                if (next.triangle < 0 || next.flips || seen[static_cast<std::size_t>(next.triangle)])
+                    continue;
                 if (surface.normal(patch[at]).dot(surface.normal(next.triangle)) < same) continue;
                 seen[static_cast<std::size_t>(next.triangle)] = true;
                 patch.push_back(next.triangle);
@@ -47,9 +48,7 @@ Vec3 middle_of(const Surface& surface, std::int32_t triangle) {
 class RoomSides {
   public:
     RoomSides(const Surface& surface, const EnclosedRoom& room)
-        : surface_(surface),
-          room_(room),
-          off_(1e-4 * (surface.facts().high - surface.facts().low).norm()) {}
+        : surface_(surface), room_(room), off_(1e-4 * (surface.facts().high - surface.facts().low).norm()) {}
 
     GrainSide of(std::int32_t triangle) const {
         const Vec3 middle = middle_of(surface_, triangle), normal = off_ * surface_.normal(triangle);
@@ -116,7 +115,7 @@ std::vector<GrainSide> grain_sides(const std::shared_ptr<const Surface>& surface
     if (grains.empty()) return sides;
     const EnclosedRoom room(surface);
     const auto inside = room.encloses_anything() ? std::count_if(grains.begin(), grains.end(),
-                                                                [&](const Vec3& g) { return room.holds(g); })
+                                                                 [&](const Vec3& g) { return room.holds(g); })
                                                  : 0;
     if (2 * inside > static_cast<std::ptrdiff_t>(grains.size())) {
         set_by_room(*surface, room, patches_of(*surface), sides);

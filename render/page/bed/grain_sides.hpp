@@ -1,5 +1,5 @@
-// On which side of each triangle of a mesh the grains are. A wall looks solid from that side and is glass from
-// the other one, as the film has it.
+// On which side of each triangle of a mesh the grains are. A wall looks solid from that side and is glass
+// from the other one, as the film has it.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,9 @@ namespace {
 
 using Edge = std::array<std::int32_t, 2>;
 
-constexpr double steps = 65535;               // of 16 bits
-constexpr std::size_t least_triangles = 200;  // a mesh of fewer than these after thinning is nothing to look at
+constexpr double steps = 65535;  // of 16 bits
+constexpr std::size_t least_triangles =
+    200;  // a mesh of fewer than these after thinning is nothing to look at
 constexpr std::size_t most_grains_asked = 64;
 
 // What is known of a mesh before it is thinned.
@@ -32,7 +33,8 @@ struct Shape {
 std::vector<Vec3> places_in(const BodyPose& body, const Frame& grains) {
     std::vector<Vec3> places;
     const std::size_t stride = std::max<std::size_t>(1, grains.size() / most_grains_asked);
-    for (std::size_t i = 0; i < grains.size(); i += stride) places.push_back(body.at_rest(grains.position[i]));
+    for (std::size_t i = 0; i < grains.size(); i += stride)
+        places.push_back(body.at_rest(grains.position[i]));
     return places;
 }
 
@@ -42,7 +44,8 @@ std::vector<Shape> shapes_of(const Scene& scene, const Frame& grains) {
     for (const SceneMesh& mesh : scene.meshes) {
         const bool tumbles = mesh.path && mesh.path->turns();
         const BodyPose pose = grains.body(static_cast<std::size_t>(body));
-        shapes.push_back({&mesh, body, grain_sides(mesh.surface.of, places_in(pose, grains), mesh.turn, tumbles),
+        shapes.push_back({&mesh, body,
+                          grain_sides(mesh.surface.of, places_in(pose, grains), mesh.turn, tumbles),
                           feature_edges(*mesh.surface)});
         ++body;
     }
@@ -53,8 +56,11 @@ std::vector<Shape> shapes_of(const Scene& scene, const Frame& grains) {
 std::vector<std::size_t> shares(const std::vector<Shape>& shapes, std::size_t most) {
     std::vector<std::size_t> order(shapes.size()), share(shapes.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    const auto size = [&](std::size_t i) { return static_cast<std::size_t>(shapes[i].mesh->surface->size()); };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
+    const auto size = [&](std::size_t i) {
+        return static_cast<std::size_t>(shapes[i].mesh->surface->size());
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
     for (std::size_t k = 0; k < order.size(); ++k) {
         share[order[k]] = std::min(size(order[k]), most / (order.size() - k));
         most -= share[order[k]];
@@ -87,7 +93,8 @@ void append_corners(std::vector<std::uint8_t>& bytes,
     }
 }
 
-void append_vertices(std::vector<std::uint8_t>& bytes, const std::vector<Vec3>& vertices, const PageMesh& page) {
+void append_vertices(std::vector<std::uint8_t>& bytes, const std::vector<Vec3>& vertices,
+                     const PageMesh& page) {
     for (int axis = 0; axis < 3; ++axis) {
         const double low = page.low[axis], size = page.high[axis] - low;
         std::vector<std::uint32_t> changes;
@@ -127,7 +134,8 @@ std::vector<Edge> edges_of(const Shape& shape, const ThinnedMesh& thin, std::siz
 }
 
 // Those that are solid from both sides, and behind them the others, whose normals then point to the grains.
-std::vector<TriangleMesh::Triangle> triangles_of(const Shape& shape, const ThinnedMesh& thin, std::size_t& sided) {
+std::vector<TriangleMesh::Triangle> triangles_of(const Shape& shape, const ThinnedMesh& thin,
+                                                 std::size_t& sided) {
     std::vector<TriangleMesh::Triangle> both, one;
     for (std::size_t t = 0; t < thin.mesh.triangles.size(); ++t) {
         TriangleMesh::Triangle corners = thin.mesh.triangles[t];
@@ -166,11 +174,12 @@ std::vector<std::string> PageMeshes::notes() const {
     std::vector<std::string> notes;
     for (const PageMesh& mesh : meshes) {
         if (mesh.whole()) continue;
-        notes.push_back(mesh.triangles == 0
-                            ? fmt::format("the mesh \"{}\" is not drawn; the page has no room for its {} triangles",
-                                          mesh.name, mesh.all_triangles)
-                            : fmt::format("the mesh \"{}\" is drawn with {} triangles that stand for its {}",
-                                          mesh.name, mesh.triangles, mesh.all_triangles));
+        notes.push_back(
+            mesh.triangles == 0
+                ? fmt::format("the mesh \"{}\" is not drawn; the page has no room for its {} triangles",
+                              mesh.name, mesh.all_triangles)
+                : fmt::format("the mesh \"{}\" is drawn with {} triangles that stand for its {}", mesh.name,
+                              mesh.triangles, mesh.all_triangles));
     }
     return notes;
 }

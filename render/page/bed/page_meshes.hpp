@@ -1,5 +1,5 @@
-// Meshes of a scene as the page carries them: each shape once, at rest. Where it is at a moment say the bodies of
-// the frames.
+// Meshes of a scene as the page carries them: each shape once, at rest. Where it is at a moment say the
+// bodies of the frames.
 //
 // The bytes, before they are packed, are for each mesh of V vertices, T triangles and E edges, little-endian:
 //   x, y and z of the vertices, each as V low bytes and V high bytes of a zigzag difference from the vertex
@@ -25,8 +25,8 @@ struct PageMesh {
     std::int32_t body = 0;  // engine/state/body.hpp
     std::string name;
     std::size_t vertices = 0, triangles = 0, sided = 0, edges = 0;
-    std::size_t all_triangles = 0;           // of the scene's mesh
-    Vec3 low{0, 0, 0}, high{0, 0, 0};        // m, the box that 16 bits span
+    std::size_t all_triangles = 0;     // of the scene's mesh
+    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, the box that 16 bits span
     bool whole() const { return triangles == all_triangles; }
 };
 
@@ -39,8 +39,8 @@ struct PageMeshes {
 
 constexpr std::size_t kMostTrianglesOnPage = 60000;
 
-// In so many packed bytes at most, all together. grains: of any moment; where they are tells on which side of a
-// mesh the grains are.
+// In so many packed bytes at most, all together. grains: of any moment; where they are tells on which side of
+// a mesh the grains are.
 PageMeshes page_meshes(const Scene& scene, const Frame& grains, std::size_t most_bytes,
                        std::size_t most_triangles = kMostTrianglesOnPage);
 
