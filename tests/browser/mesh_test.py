@@ -92,7 +92,7 @@ def box(low, high):
     return triangles
 
 
-PADDLE = box((-0.012, -0.002, -0.016), (0.012, 0.002, 0.016))
+PADDLE = box((-0.012, -0.016, -0.002), (0.012, 0.016, 0.002))
 
 
 def make_run(program, folder):
