@@ -17,6 +17,8 @@ World world_of(const Scene& scene) {
     }
     world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
     for (const FreeWall& wall : scene.walls) world.bodies.push_back({wall.name, {}, {}});
+    for (const SceneMesh& mesh : scene.meshes) world.bodies.push_back({mesh.name, {}, mesh.surface->mesh()});
+    world.container_turns = scene.container.turn.has_value();
     for (const Face& face : faces_of(scene))
         if (face.body.number >= 0)
             world.bodies.at(static_cast<std::size_t>(face.body.number)).faces.push_back(face);

@@ -49,6 +49,7 @@ struct World {
     std::vector<WorldBody> bodies;  // by number; container and floor first, or none where nothing is known
     std::size_t most_grains = 0;    // that a frame can have, all that ever come counted
     bool traffic = false;           // grains come and go
+    bool container_turns = false;   // with its floor: their poses have a rotation
     bool time_known = true;
     FileFacts facts = {};  // words for whoever reads the file
 };

@@ -118,14 +118,14 @@ TEST(Trajectory, ReadsBackWhatWasWritten) {
 TEST(Trajectory, SaysWhereAllBodiesAre) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
-    info.planes = {"paddle", "sieve"};
+    info.bodies = {"paddle", "sieve"};
     Frame frame = made_frame(2, 1);
     for (const double seed : {5.1, 6.2})
         frame.bodies.push_back({vector_of(seed), Quaternion(seed, 1, -2, 0.3).normalized(),
                                 vector_of(2 * seed), vector_of(3 * seed)});
     TrajectoryWriter(here / "t.nc", info).write(frame);
     const TrajectoryReader reader(here / "t.nc");
-    EXPECT_EQ(reader.info().planes, info.planes);
+    EXPECT_EQ(reader.info().bodies, info.bodies);
     expect_same(reader.read(0), frame);
     EXPECT_EQ(reader.read_moment(0).bodies, frame.bodies);
 }
@@ -133,7 +133,7 @@ TEST(Trajectory, SaysWhereAllBodiesAre) {
 TEST(Trajectory, ABodyThatNoRunHasIsDamage) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
-    info.planes = {"paddle"};
+    info.bodies = {"paddle"};
     const auto writes = [&](const BodyPose& pose) {
         Frame frame = made_frame(2, 1);
         frame.bodies.push_back(pose);
