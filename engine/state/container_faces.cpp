@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/state/face_reach.hpp"
 #include "engine/state/tray_faces.hpp"
 
 namespace grainreel {
@@ -93,6 +94,7 @@ std::vector<Face> free_faces(const std::vector<FreeWall>& walls) {
 std::vector<Face> faces_of(const Scene& scene) {
     std::vector<Face> faces = container_faces(scene.container, scene.drive);
     for (Face& face : faces) face.body.turn = scene.container.turn;
+    set_reach(scene.container, faces);
     for (const std::vector<Face>& more : {free_faces(scene.walls), tray_faces(scene)})
         faces.insert(faces.end(), more.begin(), more.end());
     return faces;

@@ -28,6 +28,9 @@ struct Face {
     double gap = 0;       // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
     bool round_gap = false;
 
+    // Of a face whose body turns; see set_reach() (face_reach.hpp).
+    double reach = 0;  // m, of its farthest point from the axis
+
     // Of a face whose body does not turn (Body::has_own_motion); else see distance_at() and velocity_of().
     Vec3 displacement(const Pose& drive) const { return body.place_at(drive); }
     Vec3 velocity_at(const Pose& drive) const { return body.velocity_at(drive); }
