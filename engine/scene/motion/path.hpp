@@ -25,8 +25,8 @@ struct PathPose {
 
 class MotionPath {
   public:
-    // Throws UserError with file and line: no numbers, times that do not rise, fewer than 4 rows, a quaternion
-    // that is no rotation.
+    // Throws UserError with file and line: no numbers, times that do not rise, fewer than 4 rows, a
+    // quaternion that is no rotation.
     static std::shared_ptr<const MotionPath> read(const std::filesystem::path& file);
 
     PathPose at(double time) const;  // s; velocity and spin are the exact derivatives of place and rotation
