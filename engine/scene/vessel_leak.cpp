@@ -93,7 +93,7 @@ class Flood {
 
     // Some that lie in the room.
     std::vector<int> seeds() {
-        constexpr int apart = 101;  // shares no factor with kSteps
+        constexpr int apart = 37;  // shares no factor with kSteps
         constexpr std::size_t enough = 8;
         std::vector<int> found;
         for (int k = 0; k < kSteps * kSteps * kSteps && found.size() < enough; k += apart) {
