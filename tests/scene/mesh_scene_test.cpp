@@ -36,11 +36,13 @@ class MeshScene : public testing::Test {
     }
     // The mesh of a ball on a plate, with these keys more.
     SceneMesh mesh(const std::string& keys, const std::string& more = "") const {
-        return files.read(with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\n" + keys) + more)
+        return files
+            .read(with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\n" + keys) + more)
             .meshes.at(0);
     }
     std::string complaint(const std::string& keys, const std::string& more = "") const {
-        return files.complaint(with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\n" + keys) + more);
+        return files.complaint(
+            with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\n" + keys) + more);
     }
     MeshScenes files;
 };
@@ -61,16 +63,17 @@ TEST_F(MeshScene, HasDefaults) {
 
 // x = position + rotation (scale * x_file).
 TEST_F(MeshScene, IsPlaced) {
-    const SceneMesh one =
-        mesh("scale = 0.5\nposition = [0.1, \"2 cm\", 0]\nrotation = { axis = [2, 0, 0], angle = \"90 deg\" }\n");
+    const SceneMesh one = mesh(
+        "scale = 0.5\nposition = [0.1, \"2 cm\", 0]\nrotation = { axis = [2, 0, 0], angle = \"90 deg\" }\n");
     EXPECT_LT((one.surface->facts().low - Vec3(0.05, 0.02, -0.05)).norm(), 1e-15);
     EXPECT_LT((one.surface->facts().high - Vec3(0.15, 0.02, 0.05)).norm(), 1e-15);
 }
 
 TEST_F(MeshScene, HasOneMotion) {
     EXPECT_TRUE(mesh("driven = true\n", driven).driven);
-    const SceneMesh turning = mesh("turn = { axis = [0, 2, 0], through = [0, 0, \"1 cm\"], rate = \"30 rpm\", from = 1, over "
-                                   "= 0.5, until = 4 }\n");
+    const SceneMesh turning = mesh(
+        "turn = { axis = [0, 2, 0], through = [0, 0, \"1 cm\"], rate = \"30 rpm\", from = 1, over "
+        "= 0.5, until = 4 }\n");
     ASSERT_TRUE(turning.turn);
     EXPECT_DOUBLE_EQ(turning.turn->rate, pi);
     EXPECT_EQ(turning.turn->axis, Vec3(0, 1, 0));
@@ -120,27 +123,32 @@ TEST_F(MeshScene, AVesselSaysTheContainersSizes) {
     EXPECT_NEAR(FreeSpace(scene).height_of_share(0.25), 0.02, 1e-6);
     EXPECT_LT((extent_of(scene).high - Vec3(0.05, 0.05, 0.08)).norm(), 1e-12);
     EXPECT_FALSE(files.read(in_vessel).meshes[0].driven);
-    EXPECT_FALSE(files.read(with(in_vessel, "file = \"tank.stl\"\n", "file = \"tank.stl\"\ndriven = false\n") + driven)
-                     .meshes[0]
-                     .driven);
-    EXPECT_FALSE(files.read(with(in_vessel, "file = \"tank.stl\"\n",
-                                 "file = \"tank.stl\"\nturn = { axis = [0, 0, 1], rate = 1 }\n") +
-                            driven)
+    EXPECT_FALSE(
+        files.read(with(in_vessel, "file = \"tank.stl\"\n", "file = \"tank.stl\"\ndriven = false\n") + driven)
+            .meshes[0]
+            .driven);
+    EXPECT_FALSE(files
+                     .read(with(in_vessel, "file = \"tank.stl\"\n",
+                                "file = \"tank.stl\"\nturn = { axis = [0, 0, 1], rate = 1 }\n") +
+                           driven)
                      .meshes[0]
                      .driven);
 }
 
 TEST_F(MeshScene, AVesselMayLieBelowTheOrigin) {
     const Container c =
-        files.read(with(in_vessel, "file = \"tank.stl\"\n", "file = \"tank.stl\"\nposition = [0, 0, -0.03]\n")).container;
+        files
+            .read(with(in_vessel, "file = \"tank.stl\"\n", "file = \"tank.stl\"\nposition = [0, 0, -0.03]\n"))
+            .container;
     EXPECT_NEAR(c.base(), -0.03, 1e-9);
     EXPECT_NEAR(c.height, 0.05, 1e-9);
     EXPECT_NEAR(c.volume(), 8e-4, 1e-9);
 }
 
 TEST_F(MeshScene, MeshesAreCutOutOfTheRoom) {
-    const Scene scene = files.read(in_vessel + "[[mesh]]\nname = \"block\"\nfile = \"block.stl\"\n",
-                                   {{"mesh.block.file=" + files.put("block.stl", box_of_sheets(0.04, 0.04, true)).string()}});
+    const Scene scene =
+        files.read(in_vessel + "[[mesh]]\nname = \"block\"\nfile = \"block.stl\"\n",
+                   {{"mesh.block.file=" + files.put("block.stl", box_of_sheets(0.04, 0.04, true)).string()}});
     EXPECT_NEAR(FreeSpace(scene).volume(), 8e-4 - 0.04 * 0.04 * 0.04, 1e-5);
     EXPECT_FALSE(FreeSpace(scene).holds({0, 0, 0.02}, 0));
     EXPECT_FALSE(FreeSpace(scene).holds({0, 0, 0.044}, 0.005));
@@ -148,15 +156,15 @@ TEST_F(MeshScene, MeshesAreCutOutOfTheRoom) {
 }
 
 TEST_F(MeshScene, ARegionIsPackedAlsoWithoutAContainer) {
-    const std::string text = with(with(ball_on_plate, "[[grain]]\nposition = [0, 0, \"7 mm\"]\n",
-                                       "[start]\nregion = { low = [-0.05, -0.05, 0], high = [0.05, 0.05, \"10 cm\"] }\n"),
-                                  "density = 2500\n", "density = 2500\ncount = 50\n");
+    const std::string text =
+        with(with(ball_on_plate, "[[grain]]\nposition = [0, 0, \"7 mm\"]\n",
+                  "[start]\nregion = { low = [-0.05, -0.05, 0], high = [0.05, 0.05, \"10 cm\"] }\n"),
+             "density = 2500\n", "density = 2500\ncount = 50\n");
     const Scene scene = files.read(text);
     ASSERT_TRUE(scene.start.region);
     EXPECT_EQ(scene.start.method, Start::Method::layers);
     EXPECT_NEAR(FreeSpace(scene).volume(), 1e-3, 1e-12);
     EXPECT_NEAR(FreeSpace(scene).height_of_share(0.3), 0.03, 1e-3);
-    EXPECT_THAT(files.complaint(text + "rain_rate = 3\n"), HasSubstr("'rain_rate' is of no use here"));
 }
 
 TEST_F(MeshScene, ExitsTakeWhatIsInThemOrOutside) {
@@ -175,11 +183,12 @@ TEST_F(MeshScene, ExtentsHoldMeshesAsTheyMove) {
     const Extent still = extent_of(files.read(ball_on_plate));
     EXPECT_LE(still.low.x(), -0.1);
     EXPECT_NEAR(still.high.x(), 0.1, 1e-12);
-    const Scene turning = files.read(with(ball_on_plate, "file = \"plate.stl\"\n",
-                                          "file = \"plate.stl\"\nturn = { axis = [0, 0, 1], rate = \"600 rpm\" }\n"));
+    const Scene turning =
+        files.read(with(ball_on_plate, "file = \"plate.stl\"\n",
+                        "file = \"plate.stl\"\nturn = { axis = [0, 0, 1], rate = \"600 rpm\" }\n"));
     EXPECT_NEAR(extent_of(turning).high.x(), 0.1 * std::sqrt(2.0), 1e-9);
-    const Scene going =
-        files.read(with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\nvelocity = [0, 1, 0]\n"));
+    const Scene going = files.read(
+        with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\nvelocity = [0, 1, 0]\n"));
     EXPECT_NEAR(extent_of(going).high.y(), 0.1 + 0.2, 1e-9);
     // A ground of 200 m is not looked at as a whole.
     files.put("plate.stl", plate(200));
@@ -221,11 +230,11 @@ TEST_F(MeshScene, ScenesReadBackAsTheyWere) {
 // As a run's folder has it: the files beside the scene, their hashes in it.
 TEST_F(MeshScene, RunsNameTheirCopies) {
     const MeshScenes other;
-    const Scene scene =
-        files.read(ball_on_plate +
-                   "[[mesh]]\nfile = \"plate.stl\"\nposition = [0, 0, 1]\n"
-                   "[[mesh]]\nfile = \"shipped/../deep/plate.stl\"\npath = \"path.csv\"\nposition = [0, 0, 2]\n",
-                   {{"mesh[2].file=" + files.put("deep/plate.stl", plate(0.3)).string()}});
+    const Scene scene = files.read(
+        ball_on_plate +
+            "[[mesh]]\nfile = \"plate.stl\"\nposition = [0, 0, 1]\n"
+            "[[mesh]]\nfile = \"shipped/../deep/plate.stl\"\npath = \"path.csv\"\nposition = [0, 0, 2]\n",
+        {{"mesh[2].file=" + files.put("deep/plate.stl", plate(0.3)).string()}});
     const std::vector<KeptFile> kept = kept_files(scene);
     ASSERT_EQ(kept.size(), 3u);
     EXPECT_EQ(kept[0].name, "meshes/plate.stl");
@@ -264,11 +273,13 @@ TEST_F(MeshScene, RefusesFilesThatAreNone) {
     files.put("empty.stl", "");
     EXPECT_THAT(files.complaint(with(ball_on_plate, "plate.stl", "empty.stl")),
                 HasSubstr("scene.toml:12:1: 'file' names a file that cannot be used: empty.stl"));
-    EXPECT_THAT(files.complaint(with(ball_on_plate, "file = \"plate.stl\"\n", "")), HasSubstr("[[mesh]] lacks 'file'"));
+    EXPECT_THAT(files.complaint(with(ball_on_plate, "file = \"plate.stl\"\n", "")),
+                HasSubstr("[[mesh]] lacks 'file'"));
     EXPECT_THAT(complaint("path = \"none.csv\"\n"), HasSubstr("'path' names none.csv, which does not exist"));
     files.put("back.csv", "t,x,y,z\n0,0,0,0\n1,0,0,0\n0.5,0,0,0\n");
-    EXPECT_THAT(complaint("path = \"back.csv\"\n"),
-                HasSubstr("scene.toml:13:1: 'path' names a file that cannot be used: back.csv:4: the time is 0.5 s"));
+    EXPECT_THAT(
+        complaint("path = \"back.csv\"\n"),
+        HasSubstr("scene.toml:13:1: 'path' names a file that cannot be used: back.csv:4: the time is 0.5 s"));
     EXPECT_THAT(complaint("hash = \"0123456789abcdef\"\n"), HasSubstr("but it was 0123456789abcdef;"));
 }
 
@@ -298,10 +309,12 @@ TEST_F(MeshScene, RefusesWhatDoesNotGoTogether) {
              {"", "[[mesh]]\nname = \"plate\"\nfile = \"plate.stl\"\n",
               "'name' \"plate\" is the name of another mesh; choose another"},
              {"", "[[mesh]]\nname = \"ball\"\nfile = \"plate.stl\"\n", "\"ball\" is the name of a species"},
-             {"", "[[mesh]]\nname = \"left_wall\"\nfile = \"plate.stl\"\n", "\"left_wall\" is the name of a face"},
+             {"", "[[mesh]]\nname = \"left_wall\"\nfile = \"plate.stl\"\n",
+              "\"left_wall\" is the name of a face"},
              {"", "[[mesh]]\nname = \"wall\"\nfile = \"plate.stl\"\n", "\"wall\" is the name of a face"},
-             {"", "[[mesh]]\nname = \"chute\"\nfile = \"plate.stl\"\n[[wall]]\nname = \"chute\"\npoint = [0, 0, "
-                  "-1]\nnormal = [0, 0, 1]\n",
+             {"",
+              "[[mesh]]\nname = \"chute\"\nfile = \"plate.stl\"\n[[wall]]\nname = \"chute\"\npoint = [0, 0, "
+              "-1]\nnormal = [0, 0, 1]\n",
               "\"chute\" is the name of a plane"},
              {"", "[[mesh]]\nname = \" \"\nfile = \"plate.stl\"\n", "'name' must not be empty"},
              {"", "[[contact.pair]]\nbetween = [\"plate\", \"wall\"]\n", "'between' names two walls"},
@@ -309,18 +322,21 @@ TEST_F(MeshScene, RefusesWhatDoesNotGoTogether) {
               "names \"disc\", which is no species and no mesh; there are ball, plate, and wall"},
              {"", "[[exit]]\nlow = [0, 0, 0]\nhigh = [1, 1, 0]\n", "'low' must lie below 'high'"},
              {"", "[[exit]]\nlow = [0, 0, 0]\n", "[[exit]] lacks 'high'"},
-             {"", "[exit]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n", "'exit' must be a list of tables; write [[exit]]"},
+             {"", "[exit]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n",
+              "'exit' must be a list of tables; write [[exit]]"},
              {"", "[start]\nregion = { low = [0, 0, 0], high = [1, 1, 1] }\n", "'region' is of no use here"},
          }) {
         EXPECT_THAT(complaint(keys, more), HasSubstr(says)) << keys << more;
     }
     files.put("path.csv", "t,x,y,z\n0,0,0,0\n0.01,0,0,0\n0.02,0,0,0\n0.1,0,0,0\n");
-    EXPECT_THAT(complaint("path = \"path.csv\"\n"),
-                HasSubstr("'path' ends at 0.1 s, but the run ends at 0.2 s (run.duration); add rows to path.csv"));
-    EXPECT_THAT(files.complaint(with(ball_on_plate, "[[grain]]\nposition = [0, 0, \"7 mm\"]\n", ""),
-                                {{"species.ball.count=3"}}),
-                HasSubstr("so nothing holds layers; list the grains or start from a file, or say where to put them "
-                          "by start.region"));
+    EXPECT_THAT(
+        complaint("path = \"path.csv\"\n"),
+        HasSubstr("'path' ends at 0.1 s, but the run ends at 0.2 s (run.duration); add rows to path.csv"));
+    EXPECT_THAT(
+        files.complaint(with(ball_on_plate, "[[grain]]\nposition = [0, 0, \"7 mm\"]\n", ""),
+                        {{"species.ball.count=3"}}),
+        HasSubstr("so nothing holds layers; list the grains or start from a file, or say where to put them "
+                  "by start.region"));
 }
 
 TEST_F(MeshScene, RefusesWhatAVesselHasNot) {
@@ -328,22 +344,26 @@ TEST_F(MeshScene, RefusesWhatAVesselHasNot) {
         const char *keys, *says;
     };
     for (const auto& [keys, says] : std::initializer_list<Case>{
-             {"height = 1\n", "'height' is of no use here: the mesh that 'mesh' names says the container's whole shape"},
+             {"height = 1\n",
+              "'height' is of no use here: the mesh that 'mesh' names says the container's whole shape"},
              {"width = 1\n", "'width' is of no use here"},
              {"diameter = 1\n", "'diameter' is of no use here"},
              {"half_angle = 1\n", "'half_angle' is of no use here"},
              {"top = \"lid\"\n", "'top' is of no use here"},
              {"outlet = { width = 0.01 }\n", "'outlet' is of no use here: a mesh has no floor of its own"},
              {"tray = { depth = 0.01 }\n", "'tray' is of no use here"},
-             {"wall_grains = { faces = [\"floor\"] }\n", "'wall_grains' is of no use here: grains can be glued to no mesh"},
+             {"wall_grains = { faces = [\"floor\"] }\n",
+              "'wall_grains' is of no use here: grains can be glued to no mesh"},
              {"periodic_depth = true\n", "'periodic_depth' is of no use here"},
              {"turn = { axis = [0, 0, 1], rate = 1 }\n",
               "'turn' is of no use here: a mesh is turned by the 'turn' of its own [[mesh]]"},
          })
-        EXPECT_THAT(files.complaint(with(in_vessel, "mesh = \"tank\"\n", std::string("mesh = \"tank\"\n") + keys)),
-                    HasSubstr(says))
+        EXPECT_THAT(
+            files.complaint(with(in_vessel, "mesh = \"tank\"\n", std::string("mesh = \"tank\"\n") + keys)),
+            HasSubstr(says))
             << keys;
-    EXPECT_THAT(files.complaint(with(in_vessel, "mesh = \"tank\"\n", "")), HasSubstr("[container] lacks 'mesh'"));
+    EXPECT_THAT(files.complaint(with(in_vessel, "mesh = \"tank\"\n", "")),
+                HasSubstr("[container] lacks 'mesh'"));
     EXPECT_THAT(files.complaint(with(in_vessel, "mesh = \"tank\"\n", "mesh = \"tub\"\n")),
                 HasSubstr("'mesh' names \"tub\", which is no [[mesh]]; there is \"tank\""));
     EXPECT_THAT(files.complaint(with(in_vessel, "tank.stl", "plate.stl")),
@@ -352,19 +372,22 @@ TEST_F(MeshScene, RefusesWhatAVesselHasNot) {
                 HasSubstr("'moves' is \"floor\", but a mesh has no floor of its own"));
     EXPECT_THAT(files.complaint(with(in_vessel, "diameter = \"10 mm\"", "diameter = \"9 cm\"")),
                 HasSubstr("of 0.09 m does not fit in the container, the mesh \"tank\""));
-    EXPECT_THAT(files.complaint(in_vessel, {{"species.small.count=30000"}}), HasSubstr("of the container's 0.0008 m3"));
-    EXPECT_THAT(files.complaint(with(in_vessel, "file = \"tank.stl\"\n", "file = \"tank.stl\"\nposition = [0, 0, -1]\n")),
+    EXPECT_THAT(files.complaint(in_vessel, {{"species.small.count=30000"}}),
+                HasSubstr("of the container's 0.0008 m3"));
+    EXPECT_THAT(files.complaint(
+                    with(in_vessel, "file = \"tank.stl\"\n", "file = \"tank.stl\"\nposition = [0, 0, -1]\n")),
                 HasSubstr("which lies below z = 0"));
     EXPECT_THAT(files.complaint(in_vessel + "[start]\nregion = { low = [1, 1, 1], high = [2, 2, 2] }\n"),
                 HasSubstr("'region' has no room to pack grains in"));
 }
 
-const std::string in_box = with(in_vessel, "shape = \"mesh\"\nmesh = \"tank\"\n[[mesh]]\nname = \"tank\"\nfile = \"tank.stl\"\n",
-                                "shape = \"box\"\nwidth = 0.1\ndepth = 0.1\nheight = 0.1\n#more\n");
+const std::string in_box =
+    with(in_vessel, "shape = \"mesh\"\nmesh = \"tank\"\n[[mesh]]\nname = \"tank\"\nfile = \"tank.stl\"\n",
+         "shape = \"box\"\nwidth = 0.1\ndepth = 0.1\nheight = 0.1\n#more\n");
 const std::string turning_box = with(in_box, "#more\n", "turn = { axis = [0, 1, 0], rate = 1 }\n#more\n");
-const std::string turning_cylinder =
-    with(with(turning_box, "shape = \"box\"\nwidth = 0.1\ndepth = 0.1\n", "shape = \"cylinder\"\ndiameter = 0.1\n"),
-         "axis = [0, 1, 0]", "axis = [0, 0, 2]");
+const std::string turning_cylinder = with(with(turning_box, "shape = \"box\"\nwidth = 0.1\ndepth = 0.1\n",
+                                               "shape = \"cylinder\"\ndiameter = 0.1\n"),
+                                          "axis = [0, 1, 0]", "axis = [0, 0, 2]");
 
 TEST_F(MeshScene, ContainersTurn) {
     EXPECT_EQ(files.read(turning_box).container.turn->axis, Vec3(0, 1, 0));
@@ -377,9 +400,11 @@ TEST_F(MeshScene, ContainersTurn) {
         EXPECT_THAT(files.complaint(with(turning_box, "#more\n", keys)), HasSubstr(says));
     EXPECT_THAT(files.complaint(turning_box + driven + "moves = \"floor\"\n"),
                 HasSubstr("'turn' cannot stand beside drive.moves = \"floor\""));
-    EXPECT_THAT(files.complaint(with(turning_cylinder, "axis = [0, 0, 2]", "axis = [1, 0, 0]")),
-                HasSubstr("'axis' must be the cylinder's own axis, z through its middle; lay a drum on its side"));
-    EXPECT_THAT(files.complaint(with(turning_cylinder, "axis = [0, 0, 2]", "axis = [0, 0, 1], through = [0.01, 0, 0]")),
+    EXPECT_THAT(
+        files.complaint(with(turning_cylinder, "axis = [0, 0, 2]", "axis = [1, 0, 0]")),
+        HasSubstr("'axis' must be the cylinder's own axis, z through its middle; lay a drum on its side"));
+    EXPECT_THAT(files.complaint(
+                    with(turning_cylinder, "axis = [0, 0, 2]", "axis = [0, 0, 1], through = [0.01, 0, 0]")),
                 HasSubstr("'through' must be the cylinder's own axis"));
     EXPECT_THAT(files.complaint(with(in_box, "#more\n", "periodic_depth = true\n") +
                                 "[[mesh]]\nfile = \"plate.stl\"\nscale = 0.1\n"),
@@ -392,8 +417,9 @@ TEST_F(MeshScene, HintsAtMillimetres) {
     files.put("plate.stl", plate(200));
     const Scene scene = files.read(ball_on_plate);
     ASSERT_EQ(scene.notes.size(), 1u);
-    EXPECT_THAT(scene.notes[0], HasSubstr("the mesh \"plate\" is 200 m large, beside grains of 0.01 m; where its file is "
-                                          "in mm, write scale = 0.001"));
+    EXPECT_THAT(scene.notes[0],
+                HasSubstr("the mesh \"plate\" is 200 m large, beside grains of 0.01 m; where its file is "
+                          "in mm, write scale = 0.001"));
     files.put("plate.stl", plate(0.002));
     EXPECT_THAT(files.read(ball_on_plate).notes.at(0), HasSubstr("smaller than the smallest grain"));
 }

@@ -32,8 +32,8 @@ inline MeshByHand plate(double side) {
     return mesh;
 }
 
-// Sheets around a box that stands on z = 0, open above unless there is a lid. hole: m, the side of a square hole in
-// the middle of the floor, 0 for none.
+// Sheets around a box that stands on z = 0, open above unless there is a lid. hole: m, the side of a square
+// hole in the middle of the floor, 0 for none.
 inline MeshByHand box_of_sheets(double side, double height, bool lid = false, double hole = 0) {
     const double h = 0.5 * side, o = 0.5 * hole;
     const std::array<Vec3, 4> low{Vec3(-h, -h, 0), Vec3(h, -h, 0), Vec3(h, h, 0), Vec3(-h, h, 0)};
@@ -94,7 +94,8 @@ class MeshScenes {
         } catch (const UserError& error) {
             std::string what = error.what();
             const std::string folder = path_.string() + "/";
-            for (std::size_t at; (at = what.find(folder)) != std::string::npos;) what.erase(at, folder.size());
+            for (std::size_t at; (at = what.find(folder)) != std::string::npos;)
+                what.erase(at, folder.size());
             return what;
         }
         return "none";

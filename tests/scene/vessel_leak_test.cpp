@@ -17,7 +17,8 @@ using std::numbers::pi;
 std::optional<Vec3> leak_in(const MeshByHand& mesh, double diameter = 0.002) {
     const MeshScenes files;
     LoadedMesh loaded = load_mesh(files.put("vessel.stl", mesh));
-    const auto surface = std::make_shared<const Surface>(std::move(loaded.mesh), std::move(loaded.facts), "vessel");
+    const auto surface =
+        std::make_shared<const Surface>(std::move(loaded.mesh), std::move(loaded.facts), "vessel");
     return leak_of(*surface, EnclosedRoom(surface), diameter);
 }
 
@@ -33,7 +34,8 @@ MeshByHand cone(double low, double low_z, double high, double high_z, int facets
         return Vec3(r * std::cos(angle), r * std::sin(angle), z);
     };
     for (int k = 0; k < facets; ++k)
-        add_quad(mesh, at(low, low_z, k), at(low, low_z, k + 1), at(high, high_z, k + 1), at(high, high_z, k));
+        add_quad(mesh, at(low, low_z, k), at(low, low_z, k + 1), at(high, high_z, k + 1),
+                 at(high, high_z, k));
     return mesh;
 }
 
