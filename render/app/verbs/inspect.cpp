@@ -162,10 +162,11 @@ class Inspect final : public Verb {
                             "This grain: place, velocity, contacts, what pushes it, neighbours")
                 ->type_name("ID"),
             parser
-                .add_option("--wall", wall_,
-                            "This wall, as in floor or \"left slant\" (the overview lists them): force and "
-                            "moment on it, "
-                            "pressure by height, who touches it, how many of each species")
+                .add_option(
+                    "--wall", wall_,
+                    "This wall or mesh, as in floor, \"left slant\" or drum (the overview lists them): "
+                    "force and moment on it, "
+                    "pressure by height, who touches it, how many of each species")
                 ->type_name("NAME"),
             parser.add_flag("--largest-overlap", largest_overlap_, "The contacts that overlap most"),
             parser.add_option("--where", where_, "Grains for which this holds: count, statistics, list")
