@@ -1,9 +1,9 @@
 // The room that a surface encloses, where grains can be: in a closed vessel, in an open one, in a hopper
 // without a bottom, and in one whose walls have a thickness.
 //
-// A place is enclosed when rays to all sides (sixteen, level) meet the surface. In walls with a thickness a
-// ray crosses another number of faces than in the room. So a place counts when it is enclosed and its level
-// ray crosses the surface an even or odd number of times, as it does at the widest enclosed place.
+// A place is enclosed when rays to all sides (sixteen, level) meet the surface. In walls with a thickness a ray
+// crosses another number of faces than in the room. So a place counts when it is enclosed and its level ray
+// crosses the surface an even or odd number of times, as it does at the widest enclosed place.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,5 @@
-// A mesh that grains can touch: its triangles with their neighbours, and a tree of boxes to find those that
-// are near. It is made once and never changes. All lengths are in the body's frame, which is the scene at
-// rest.
+// A mesh that grains can touch: its triangles with their neighbours, and a tree of boxes to find those that are
+// near. It is made once and never changes. All lengths are in the body's frame, which is the scene at rest.
 #pragma once
 
 #include <array>
@@ -15,8 +14,8 @@
 
 namespace grainreel {
 
-// Where a point is nearest to a triangle: on its face, on one of its edges (edge e runs from corner e to
-// corner e + 1), or at a corner.
+// Where a point is nearest to a triangle: on its face, on one of its edges (edge e runs from corner e to corner
+// e + 1), or at a corner.
 enum class Feature : std::uint8_t { face, edge0, edge1, edge2, corner0, corner1, corner2 };
 struct NearestPoint {
     Vec3 at;         // m
@@ -28,8 +27,8 @@ struct NearestPoint {
 struct Neighbour {
     enum class Turn : std::uint8_t { flat, smooth, convex, concave };
     std::int32_t triangle = -1;  // -1: an open edge, or an edge of more than two triangles
-    // flat: the planes differ by less than 1e-6. smooth: by less than kSmoothAngle. Else seen from the side
-    // of the normal; a smooth edge says nothing of convex or concave.
+    // flat: the planes differ by less than 1e-6. smooth: by less than kSmoothAngle. Else seen from the side of
+    // the normal; a smooth edge says nothing of convex or concave.
     Turn turn = Turn::flat;
     bool flips = false;  // the neighbour's normal points to the other side (surfaces that cannot be oriented)
 };
@@ -47,8 +46,7 @@ class Surface {
     std::int32_t size() const { return static_cast<std::int32_t>(mesh_.triangles.size()); }
 
     const Vec3& corner(std::int32_t triangle, int k) const {
-        return mesh_
-            .vertices[static_cast<std::size_t>(mesh_.triangles[static_cast<std::size_t>(triangle)][k])];
+        return mesh_.vertices[static_cast<std::size_t>(mesh_.triangles[static_cast<std::size_t>(triangle)][k])];
     }
     const Vec3& normal(std::int32_t triangle) const { return normals_[static_cast<std::size_t>(triangle)]; }
     double area(std::int32_t triangle) const;  // m2
