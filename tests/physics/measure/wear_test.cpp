@@ -9,7 +9,8 @@
 namespace grainreel {
 namespace {
 
-// The square of side 2 in the plane z = 0, of two triangles, that moves along x; a grain of radius 1 lies on it.
+// The square of side 2 in the plane z = 0, of two triangles, that moves along x; a grain of radius 1 lies on
+// it.
 struct GrainOnSquare {
     test::BedByHand bed{"wear"};
     ContactView contact{};
@@ -55,8 +56,8 @@ TEST(WearInstrument, TellsTriangles) {
     const auto contacts = one.bed.contacts;
     observers.start(one.bed.moment(0), contacts);
     observers.gather(one.bed.moment(6), contacts);
-    const std::vector<MeshWear> wear = wear_among(one.bed.scene, observers.fields(),
-                                                  observers.look_at_fields(one.bed.moment(6), contacts));
+    const std::vector<MeshWear> wear =
+        wear_among(one.bed.scene, observers.fields(), observers.look_at_fields(one.bed.moment(6), contacts));
     ASSERT_EQ(wear.size(), 1u);
     EXPECT_EQ(wear[0].pressure[0], 0);
     EXPECT_NEAR(wear[0].pressure[1], 3 / 2.0, 1e-12);  // 3 N on half of the square
