@@ -8,7 +8,7 @@ hopper  a round hopper with a cone of 45 degrees empties through its orifice: ma
 
 The state is that of grainreel's grains at rest (drum still, a gate below the orifice). Both programs then have linear
 springs and dashpots with friction, without pull and without tangential dashpot (LIGGGHTS: hooke/stiffness, tangential
-history). Printed are means over blocks of 0.25 s with their standard errors, the difference over its error, and
+history). Printed are means over blocks of time with their standard errors, the difference over its error, and
 grain-steps a second on one thread each. A run that is there already is used again. Needs `liggghts` (Debian:
 liggghts). With --only liggghts the grains begin on a lattice, to try the deck where there is no PROGRAM.
 Exit status: 0 alike within three standard errors, 1 not, 2 a mistake, 77 no liggghts.
@@ -28,7 +28,6 @@ MAKER = Path(__file__).resolve().parents[2] / "scenes" / "meshes" / "make_meshes
 D, SOLID = 0.003, 2500.0  # m, kg/m3
 STIFFNESS, DAMPING, FRICTION = 2000.0, 4250.0, 0.5  # N/m; 1/s, times the effective mass
 STEP, EVERY = 1e-5, 100  # s; steps between two looks
-BLOCK = 0.25  # s
 RATE = 2.0  # rad/s
 BELOW = -0.02  # m; grains are counted as flowed out there
 
@@ -100,7 +99,7 @@ def make_mesh(name, file, *numbers):
 
 
 class Drum:
-    grains, until, after = 2500, 4.0, 1.0
+    grains, until, after, block = 2500, 4.0, 1.0, 0.25  # s
     names = ("mean y, mm", "mean z, mm", "torque, mN m")
 
     def mesh(self, folder, facets):
@@ -123,7 +122,7 @@ class Drum:
 
 
 class Hopper:
-    grains, until, after = 9000, 0.8, 0.2
+    grains, until, after, block = 9000, 0.8, 0.2, 0.1  # s
     names = ("mass flow, kg/s",)
 
     def mesh(self, folder, facets):
@@ -167,7 +166,7 @@ def lattice(count, half_x, half_y, bottom, holds):
 
 def write_data(path, grains):
     """LIGGGHTS' data file, in a box not much larger than what there is: its bins fill it."""
-    low, high = -0.06, max(float(g["z"]) for g in grains) + 0.02
+    low, high = -0.06, max(0.16, max(float(g["z"]) for g in grains) + 0.02)
     velocities = ("vx", "vy", "vz", "wx", "wy", "wz")
     with open(path, "w") as file:
         file.write(f"grains\n\n{len(grains)} atoms\n1 atom types\n\n-0.06 0.06 xlo xhi\n-0.06 0.06 ylo yhi\n{low} {high} zlo zhi\n\n"
@@ -210,18 +209,18 @@ def liggghts(folder, case, until):
             sys.exit(f"liggghts ended with {done.returncode}; see {folder}/liggghts.part")
         (folder / "liggghts.part").rename(folder / "liggghts.out")
     text = (folder / "liggghts.out").read_text()
-    loop = re.search(r"Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms", text)
+    loop = re.search(r"Loop time of (\S+) on \d+ procs for (\d+) steps", text)
     rows = [list(map(float, line.split())) for line in (folder / "looks.txt").read_text().splitlines()
             if not line.startswith("#")]
-    return rows, float(loop[3]) * float(loop[2]) / float(loop[1])
+    return rows, statistics.fmean(row[5] for row in rows) * float(loop[2]) / float(loop[1])
 
 
-def blocks(rows, after, column):
+def blocks(rows, case, column):
     """Mean over blocks of time, and its standard error."""
-    by_block = {}
+    by_block, after = {}, case.after
     for row in rows:
         if row[0] > after and math.isfinite(row[column]):
-            by_block.setdefault(int((row[0] - after) / BLOCK), []).append(row[column])
+            by_block.setdefault(int((row[0] - after) / case.block), []).append(row[column])
     full = max(map(len, by_block.values()))
     means = [statistics.fmean(values) for values in by_block.values() if len(values) > full / 2]
     return statistics.fmean(means), statistics.stdev(means) / math.sqrt(len(means)) if len(means) > 1 else math.nan
@@ -257,14 +256,14 @@ def main():
     theirs = case.theirs(looks)
     if options.only:
         for i, name in enumerate(case.names, 1):
-            print(f"{name}: LIGGGHTS {'%.5g +- %.2g' % blocks(theirs, case.after, i)}")
+            print(f"{name}: LIGGGHTS {'%.5g +- %.2g' % blocks(theirs, case, i)}")
         print(f"{their_speed / 1e6:.2f} million grain-steps a second")
         return 0
     start = "method = \"file\"\nfile = \"state.csv\""
     run = grainreel(options.program.resolve(), folder, "run", case, count, start, case.flow, until)
     ours, alike = case.ours(numbers_of(run / "measures.csv")), True
     for i, name in enumerate(case.names, 1):
-        (a, a_error), (b, b_error) = blocks(ours, case.after, i), blocks(theirs, case.after, i)
+        (a, a_error), (b, b_error) = blocks(ours, case, i), blocks(theirs, case, i)
         off = (a - b) / math.hypot(a_error, b_error)
         alike &= abs(off) <= 3
         print(f"{name}: grainreel {a:.5g} +- {a_error:.2g}, LIGGGHTS {b:.5g} +- {b_error:.2g}; {off:+.1f} standard errors")
