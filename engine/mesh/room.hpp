@@ -1,11 +1,6 @@
 // The room that a surface encloses, where grains can be: in a closed vessel, in an open one, in a hopper
 // without a bottom, and in one whose walls have a thickness.
 //
-<<<<<<< HEAD
-// A place is enclosed when rays to all sides (sixteen, level) meet the surface. In walls with a thickness a ray
-// crosses another number of faces than in the room. So a place counts when it is enclosed and its level ray
-// crosses the surface an even or odd number of times, as it does at the widest enclosed place.
-=======
 // A place is enclosed when rays to all sides (sixteen, level) meet the surface. What is enclosed is told
 // apart by how many closed parts of the surface are around it (its winding number): the room of a cup with
 // thick walls is inside none, the wall inside one; the room of a closed drum is inside one, a solid lifter in
@@ -15,7 +10,6 @@
 //
 // Sizes come from sections at 256 heights and more, each exact for its polygon: two in each slice, between
 // all heights at which the surface has level faces. Volumes of boxes and prisms are exact, of cones to 1e-4.
->>>>>>> hub/main
 #pragma once
 
 #include <memory>

@@ -133,8 +133,7 @@ std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const 
 }
 
 Picture ContactSheet::draw(const Picture& last) const {
-    const Canvas page =
-        make_surface(columns_ * (width_ + gap) + gap, rows_ * (height_ + label_ + gap) + gap);
+    const Canvas page = make_surface(columns_ * (width_ + gap) + gap, rows_ * (height_ + label_ + gap) + gap);
     const Context on(cairo_create(page.get()));
     set_colour(on.get(), background_);
     cairo_paint(on.get());
