@@ -515,7 +515,7 @@ CHECKS = [
         scene="conveyor",
         runs=(("run.duration=1 s", DRAFT),),
         control=["drive.direction=[0, 0, 1]"],
-        what="speed of the grains from 0.4 to 1 s over that of the block, 0.23 m/s",
+        what="speed of the grains from 0.4 to 1 s over that of the block, 0.25 m/s",
         number=lambda run: slope(run, "centre_y", 0.4, 1) / thrown_speed(2.5, math.radians(30), 25),
         least=0.6,
         most=1.2,
