@@ -14,8 +14,8 @@ std::string vector_text(const Vec3& v) {
 }
 
 std::string turn_text(const BodyTurn& turn) {
-    return fmt::format("at {:.9g} rad s-1 about the axis {} through {} m{}", turn.rate, vector_text(turn.axis),
-                       vector_text(turn.through),
+    return fmt::format("at {:.9g} rad s-1 about the axis {} through {} m{}", turn.rate,
+                       vector_text(turn.axis), vector_text(turn.through),
                        turn.from > 0 || turn.over > 0 || std::isfinite(turn.until)
                            ? "; it begins or ends smoothly, see scene.toml"
                            : "");
@@ -34,8 +34,9 @@ std::string container_text(const Container& c) {
         case Container::Shape::none:
             return "none: empty space";
         case Container::Shape::mesh:
-            text = fmt::format("the mesh {}, room of {:.9g} m (x), {:.9g} m (y), from {:.9g} m to {:.9g} m (z)",
-                               c.mesh, c.depth, 2 * c.half_width, c.base(), c.height);
+            text =
+                fmt::format("the mesh {}, room of {:.9g} m (x), {:.9g} m (y), from {:.9g} m to {:.9g} m (z)",
+                            c.mesh, c.depth, 2 * c.half_width, c.base(), c.height);
             break;
         case Container::Shape::cylinder:
             text = fmt::format("cylinder, {:.9g} m in diameter, {:.9g} m high", 2 * c.half_width, c.height);

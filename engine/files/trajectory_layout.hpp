@@ -98,7 +98,11 @@ static_assert(body_variables_with_meshes.size() == body_variables.size());
 
 // The shapes of the meshes, once a file, in the order in which `mesh_checksum` takes them.
 inline constexpr TrajectoryVariable mesh_body_variable{
-    "mesh_body", NC_INT, nullptr, "1", "body whose shape the mesh is",
+    "mesh_body",
+    NC_INT,
+    nullptr,
+    "1",
+    "body whose shape the mesh is",
     "0: the walls, 1: the floor, 2: the first of those that `body_place` names"};
 inline constexpr TrajectoryVariable mesh_vertices_variable{"mesh_vertices", NC_INT, nullptr, "1",
                                                            "vertices of each mesh"};
@@ -107,7 +111,11 @@ inline constexpr TrajectoryVariable mesh_triangles_variable{"mesh_triangles", NC
 inline constexpr TrajectoryVariable vertex_variable{
     "vertices", NC_DOUBLE, "spatial", "m", "places of the meshes' vertices at rest", "mesh after mesh"};
 inline constexpr TrajectoryVariable triangle_variable{
-    "triangles", NC_INT, "corner", "1", "the three vertices of each triangle",
+    "triangles",
+    NC_INT,
+    "corner",
+    "1",
+    "the three vertices of each triangle",
     "mesh after mesh; from 0, of the mesh's own vertices; counter-clockwise seen from outside"};
 inline constexpr const char *mesh_checksum = "mesh_checksum",
                             *mesh_checksum_about = "XXH64 of the shapes of the meshes";

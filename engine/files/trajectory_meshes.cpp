@@ -16,8 +16,7 @@ namespace grainreel {
 namespace {
 
 constexpr double farthest = 1e6;  // m, as frame_faults.cpp has it
-constexpr const char *mesh_dimension = "mesh", *vertex_dimension = "vertex",
-                     *triangle_dimension = "triangle";
+constexpr const char *mesh_dimension = "mesh", *vertex_dimension = "vertex", *triangle_dimension = "triangle";
 
 // As they lie in the file: one mesh after the other.
 struct Flat {
@@ -106,8 +105,7 @@ void check(const Flat& all, const std::filesystem::path& path, std::size_t bodie
     if (3 * vertices != all.vertices.size() || 3 * triangle != all.triangles.size())
         damaged(path, "their counts do not add up");
     const auto far = [](double x) { return !(std::abs(x) <= farthest); };
-    if (std::any_of(all.vertices.begin(), all.vertices.end(), far))
-        damaged(path, "a vertex is no place");
+    if (std::any_of(all.vertices.begin(), all.vertices.end(), far)) damaged(path, "a vertex is no place");
 }
 
 }  // namespace

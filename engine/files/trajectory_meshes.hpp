@@ -14,8 +14,8 @@ namespace grainreel {
 void define_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes, int spatial, int checksum);
 void write_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes);
 
-// None of a file without meshes. path: the file's; bodies: how many it has, container and floor counted. Throws
-// UserError when they are damaged.
+// None of a file without meshes. path: the file's; bodies: how many it has, container and floor counted.
+// Throws UserError when they are damaged.
 std::vector<TrajectoryMesh> read_meshes(const NetcdfFile& file, const std::filesystem::path& path,
                                         std::size_t bodies);
 

@@ -81,8 +81,7 @@ void TrajectoryWriter::Impl::define() {
     if (info.container_turns)
         for (const TrajectoryVariable& variable : turn_variables) define_variable(variable, nullptr);
     if (!info.bodies.empty()) define_bodies();
-    if (!info.meshes.empty())
-        define_meshes(file, info.meshes, dimensions["spatial"], dimensions["checksum"]);
+    if (!info.meshes.empty()) define_meshes(file, info.meshes, dimensions["spatial"], dimensions["checksum"]);
     for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
     if (info.orientation) define_variable(orientation_variable, "atom");
     if (info.contact_numbers) define_variable(contact_number_variable, "atom");

@@ -20,12 +20,13 @@ struct WearReader::Impl {
             meshes.push_back({names.at(names.size() - scene.meshes.size() + m),
                               static_cast<std::size_t>(scene.meshes[m].surface->size())});
         for (const Mesh& mesh : meshes) check(mesh);
-        const std::size_t counted = file.length("time"), records = std::min(counted, file.records_on_disk(counted));
+        const std::size_t counted = file.length("time"),
+                          records = std::min(counted, file.records_on_disk(counted));
         bounds.resize(2 * records);
         if (records > 0) file.get(file.find_variable("time_bounds"), {0, 0}, {records, 2}, bounds.data());
         if (!std::is_sorted(bounds.begin(), bounds.end()))
-            throw UserError(fmt::format("{}: is damaged: its records do not follow each other; copy it again",
-                                        name));
+            throw UserError(
+                fmt::format("{}: is damaged: its records do not follow each other; copy it again", name));
     }
 
     struct Mesh {
@@ -35,14 +36,16 @@ struct WearReader::Impl {
 
     void check(const Mesh& mesh) const {
         if (!file.has_variable(wear_field(mesh.name)))
-            throw UserError(fmt::format("{}: has no wear of {}; run the scene with output.instruments = "
-                                        "[\"wear\"]",
-                                        name, mesh.name));
+            throw UserError(
+                fmt::format("{}: has no wear of {}; run the scene with output.instruments = "
+                            "[\"wear\"]",
+                            name, mesh.name));
         const std::size_t there = file.length("triangle_of_" + mesh.name);
         if (there != mesh.triangles)
-            throw UserError(fmt::format("{}: has {} triangles of {}, but scene.toml beside it has {}; they are "
-                                        "of two runs",
-                                        name, there, mesh.name, mesh.triangles));
+            throw UserError(
+                fmt::format("{}: has {} triangles of {}, but scene.toml beside it has {}; they are "
+                            "of two runs",
+                            name, there, mesh.name, mesh.triangles));
     }
 
     std::vector<double> values(const std::string& field, std::size_t record, std::size_t count) const {

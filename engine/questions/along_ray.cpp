@@ -22,17 +22,16 @@ AnswerTable table_of(const Snapshot& s, const Frame& shown, const Ray& ray, cons
     const double length = ray.direction.norm();
     bool covered = false;
     const auto add = [&](AnswerCell id, const std::string& what, bool seen, double at) {
-        table.rows.push_back(
-            {std::move(id), what, seen ? "yes" : "no", at * length, (ray.at(at) - floor_offset(s.scene, shown)).z()});
+        table.rows.push_back({std::move(id), what, seen ? "yes" : "no", at * length,
+                              (ray.at(at) - floor_offset(s.scene, shown)).z()});
     };
     const std::vector<MeshOnRay> meshes = meshes_on(ray, s.scene, shown, along.kept);
     auto mesh = meshes.begin();
     // Meshes are glass: they hide nothing.
     const auto add_meshes = [&](double before) {
         for (; mesh != meshes.end() && mesh->at < before && (!covered || through); ++mesh)
-            add(AnswerCell(),
-                fmt::format("{}, triangle {}", s.scene.meshes[mesh->mesh].name, mesh->triangle), !covered,
-                mesh->at);
+            add(AnswerCell(), fmt::format("{}, triangle {}", s.scene.meshes[mesh->mesh].name, mesh->triangle),
+                !covered, mesh->at);
     };
     for (const GrainOnRay& one : grains_on(ray, shown, along.kept)) {
         add_meshes(one.from);

@@ -48,8 +48,9 @@ AnswerTable sum_table(const Snapshot& s, std::int32_t wall, const Forces& on_wal
              {"force_y", Dimension::force, ""},
              {"force_z", Dimension::force, ""},
              {"normal_force", Dimension::force, "sum of all normal forces"},
-             {"moment_x", Dimension::moment, mesh_of_wall(s.scene, wall) ? "about a point of its axis, or its position"
-                                                                     : "about the container's origin"},
+             {"moment_x", Dimension::moment,
+              mesh_of_wall(s.scene, wall) ? "about a point of its axis, or its position"
+                                          : "about the container's origin"},
              {"moment_y", Dimension::moment, ""},
              {"moment_z", Dimension::moment, ""},
              {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"},
@@ -119,8 +120,7 @@ AnswerTable height_table(const Snapshot& s, std::int32_t wall, const Forces& on_
     }
     for (const auto& [bin, sums] : bins) {
         const double low = static_cast<double>(bin) * width, high = static_cast<double>(bin + 1) * width;
-        const double area =
-            stands ? area_between(s.scene.container, name_of_body(s, wall), low, high) : 0;
+        const double area = stands ? area_between(s.scene.container, name_of_body(s, wall), low, high) : 0;
         AnswerCell pressure;
         if (area > 0) pressure = sums.second / area;
         table.rows.push_back({low, high, sums.first, sums.second, pressure});
@@ -145,12 +145,13 @@ AnswerTable touching_table(const Snapshot& s, std::int32_t wall, Forces on_wall,
                        {"slides", Dimension::number, ""}},
                       {}};
     const bool mesh = mesh_of_wall(s.scene, wall).has_value();
-    if (mesh) table.columns.push_back({"triangle", Dimension::number, "of the mesh, as trajectory.nc has them"});
+    if (mesh)
+        table.columns.push_back({"triangle", Dimension::number, "of the mesh, as trajectory.nc has them"});
     on_wall.resize(std::min(on_wall.size(), most));
     for (const ContactForce* one : on_wall) {
         table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first),
-                              (one->point - floor_offset(s.scene, s.frame)).z(), one->overlap, one->normal_force,
-                              one->tangential.norm(), one->slides() ? "yes" : "no"});
+                              (one->point - floor_offset(s.scene, s.frame)).z(), one->overlap,
+                              one->normal_force, one->tangential.norm(), one->slides() ? "yes" : "no"});
         if (mesh) table.rows.back().emplace_back(static_cast<std::int64_t>(one->triangle));
     }
     return table;

@@ -160,18 +160,19 @@ AnswerTable walls_table(const Snapshot& s) {
 
 // Where the meshes are, and the container where it turns.
 AnswerTable bodies_table(const Snapshot& s) {
-    AnswerTable table{"bodies",
-                      "Bodies that have a shape of their own, or turn",
-                      {{"body", Dimension::number, "", AnswerColumn::kKey},
-                       {"triangles", Dimension::number, "empty of a container of faces", AnswerColumn::kThere},
-                       {"moved_x", Dimension::length, "of its origin, from rest", AnswerColumn::kThere},
-                       {"moved_y", Dimension::length, "", AnswerColumn::kThere},
-                       {"moved_z", Dimension::length, "", AnswerColumn::kThere},
-                       {"turned", Dimension::degrees, "from rest, up to half a turn", AnswerColumn::kThere},
-                       {"speed", Dimension::speed, "of its origin", AnswerColumn::kThere},
-                       {"spin", Dimension::spin, "magnitude", AnswerColumn::kThere}},
-                      {},
-                      true};
+    AnswerTable table{
+        "bodies",
+        "Bodies that have a shape of their own, or turn",
+        {{"body", Dimension::number, "", AnswerColumn::kKey},
+         {"triangles", Dimension::number, "empty of a container of faces", AnswerColumn::kThere},
+         {"moved_x", Dimension::length, "of its origin, from rest", AnswerColumn::kThere},
+         {"moved_y", Dimension::length, "", AnswerColumn::kThere},
+         {"moved_z", Dimension::length, "", AnswerColumn::kThere},
+         {"turned", Dimension::degrees, "from rest, up to half a turn", AnswerColumn::kThere},
+         {"speed", Dimension::speed, "of its origin", AnswerColumn::kThere},
+         {"spin", Dimension::spin, "magnitude", AnswerColumn::kThere}},
+        {},
+        true};
     const auto add = [&](const std::string& name, AnswerCell triangles, const BodyPose& pose) {
         table.rows.push_back({name, std::move(triangles), pose.place.x(), pose.place.y(), pose.place.z(),
                               pose.rotation.angularDistance(Quaternion::Identity()) * 180 / std::numbers::pi,

@@ -50,9 +50,8 @@ void keep_cylinder(const Ray& ray, const Face& face, const Vec3& offset, Stretch
 }
 
 bool is_kept(const Vec3& point, const std::vector<KeptHalf>& kept) {
-    return std::all_of(kept.begin(), kept.end(), [&](const KeptHalf& half) {
-        return half.normal.dot(point) >= half.distance;
-    });
+    return std::all_of(kept.begin(), kept.end(),
+                       [&](const KeptHalf& half) { return half.normal.dot(point) >= half.distance; });
 }
 
 }  // namespace

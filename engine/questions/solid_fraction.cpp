@@ -22,7 +22,8 @@ std::vector<double> solid_fractions(const Snapshot& s, double low, double height
     };
     std::vector<double> solid(count, 0);
     for (std::size_t i = 0; i < s.frame.size(); ++i) {
-        const double z = (s.frame.position[i] - container_offset(s.scene, s.frame)).z(), r = s.frame.radius[i];
+        const double z = (s.frame.position[i] - container_offset(s.scene, s.frame)).z(),
+                     r = s.frame.radius[i];
         const double first = std::floor((z - r - low) / height), last = std::floor((z + r - low) / height);
         const double most = static_cast<double>(count) - 1;
         if (!(last >= 0 && first <= most)) continue;

@@ -112,7 +112,7 @@ std::size_t RunPart::taken() const {
 void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
     if (!run_.run) return;
     constexpr std::size_t share_of_meshes = 4;
-    meshes_ = page_meshes(scene(), run_.run->frames().first_whole(), most_bytes / share_of_meshes);
+    meshes_ = page_meshes(scene(), most_bytes / share_of_meshes);
     most_bytes -= meshes_.packed.size();
     const double start = times_.times.empty() ? run_.run->span().from : times_.times.front();
     const auto coloured = [&](const FrameArchive& moments) {

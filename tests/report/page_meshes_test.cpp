@@ -21,8 +21,8 @@ using testing::IsEmpty;
 
 constexpr std::size_t plenty = 10'000'000;  // bytes
 
-Scene scene_with(std::vector<TriangleMesh> meshes) {
-    Scene scene;
+FilmedScene scene_with(std::vector<TriangleMesh> meshes) {
+    FilmedScene scene;
     scene.container.shape = Container::Shape::none;
     for (TriangleMesh& mesh : meshes) {
         SceneMesh one;
@@ -31,13 +31,6 @@ Scene scene_with(std::vector<TriangleMesh> meshes) {
         scene.meshes.push_back(one);
     }
     return scene;
-}
-
-Frame grain_at(const Vec3& place) {
-    Frame frame;
-    frame.id = {0};
-    frame.position = {place};
-    return frame;
 }
 
 struct Read {
@@ -101,12 +94,14 @@ class Reader {
     std::size_t at_ = 0;
 };
 
-TEST(PageMeshes, ComeBackWithinHalfAStepTurnedToTheGrains) {
+TEST(PageMeshes, ComeBackWithinHalfAStepTheVesselSolidInside) {
     TriangleMesh box, blade;
     test::add_box(box, {-0.05, -0.04, 0}, {0.05, 0.04, 0.06});
     test::add_box(blade, {-0.03, 0.01, 0.01}, {0.03, 0.011, 0.03});
-    const Scene scene = scene_with({box, blade});
-    const PageMeshes page = page_meshes(scene, grain_at({0, 0, 0.005}), plenty);
+    FilmedScene scene = scene_with({box, blade});
+    scene.container.shape = Container::Shape::mesh;
+    scene.container.mesh = "part 1";
+    const PageMeshes page = page_meshes(scene, plenty);
     ASSERT_EQ(page.meshes.size(), 2u);
     Reader reader(page);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -115,7 +110,8 @@ TEST(PageMeshes, ComeBackWithinHalfAStepTurnedToTheGrains) {
         EXPECT_EQ(mesh.name, scene.meshes[k].name);
         EXPECT_EQ(mesh.triangles, 12u);
         EXPECT_EQ(mesh.edges, 12u);
-        EXPECT_EQ(mesh.sided, k == 0 ? 12u : 0u) << "grains are in the box, and all round the blade";
+        EXPECT_EQ(mesh.sided, k == 0 ? 12u : 0u) << "glass from outside; solid all round";
+        EXPECT_EQ(mesh.glass, 0u);
         const Read read = reader.next(mesh);
         const std::vector<Vec3>& exact = scene.meshes[k].surface->mesh().vertices;
         ASSERT_EQ(read.vertices.size(), exact.size());
@@ -166,8 +162,8 @@ TEST(ThinnedMesh, KeepsTheShapeWithinACell) {
 TEST(PageMeshes, LargeOnesAreThinnedAndSmallOnesStayWhole) {
     TriangleMesh box;
     test::add_box(box, {2, 2, 2}, {3, 3, 3});
-    const Scene scene = scene_with({ball(60), box});
-    const PageMeshes page = page_meshes(scene, grain_at({0, 0, 5}), plenty, 3000);
+    const FilmedScene scene = scene_with({ball(60), box});
+    const PageMeshes page = page_meshes(scene, plenty, 3000);
     EXPECT_LE(page.meshes[0].triangles + page.meshes[1].triangles, 3000u);
     EXPECT_GE(page.meshes[0].triangles, 700u);
     EXPECT_EQ(page.meshes[1].triangles, 12u);
@@ -180,11 +176,11 @@ TEST(PageMeshes, LargeOnesAreThinnedAndSmallOnesStayWhole) {
 }
 
 TEST(PageMeshes, WhatThePageHasNoRoomForIsLeftOutWithALine) {
-    const Scene scene = scene_with({ball(60)});
-    const PageMeshes small = page_meshes(scene, grain_at({0, 0, 0}), 6000);
+    const FilmedScene scene = scene_with({ball(60)});
+    const PageMeshes small = page_meshes(scene, 6000);
     EXPECT_LE(small.packed.size(), 6000u);
     EXPECT_GT(small.meshes[0].triangles, 0u);
-    const PageMeshes none = page_meshes(scene, grain_at({0, 0, 0}), 100);
+    const PageMeshes none = page_meshes(scene, 100);
     EXPECT_EQ(none.meshes[0].triangles, 0u);
     EXPECT_THAT(none.packed, IsEmpty());
     EXPECT_THAT(none.notes(), ElementsAre(HasSubstr("the page has no room")));
@@ -193,7 +189,7 @@ TEST(PageMeshes, WhatThePageHasNoRoomForIsLeftOutWithALine) {
 TEST(PageMeshes, TheBoxHasThemAtAllMoments) {
     TriangleMesh box;
     test::add_box(box, {0, -1, 0}, {4, 1, 1});
-    const Scene scene = scene_with({box});
+    const FilmedScene scene = scene_with({box});
     Frame turned;
     turned.bodies.resize(3);
     turned.bodies[2].rotation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3(0, 0, 1)));

@@ -102,15 +102,14 @@ void check_meshes(const Scene& scene, const World& said, const std::string& traj
         const TriangleMesh& here = mesh.surface->mesh();
         const std::size_t body = static_cast<std::size_t>(first_mesh_body(scene)) + m;
         if (body >= said.bodies.size())
-            of_two_runs(fmt::format("{}: has no mesh '{}', but scene.toml beside it has", trajectory,
-                                    mesh.name));
+            of_two_runs(
+                fmt::format("{}: has no mesh '{}', but scene.toml beside it has", trajectory, mesh.name));
         const TriangleMesh& there = said.bodies[body].mesh;
         const double room = same_shape * mesh.surface->farthest_from(Vec3(0, 0, 0));
         const bool alike = there.triangles == here.triangles &&
                            std::equal(there.vertices.begin(), there.vertices.end(), here.vertices.begin(),
-                                      here.vertices.end(), [&](const Vec3& a, const Vec3& b) {
-                                          return (a - b).norm() <= room;
-                                      });
+                                      here.vertices.end(),
+                                      [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= room; });
         if (!alike)
             of_two_runs(fmt::format(
                 "{}: its mesh '{}' ({} triangles) has another shape than that of scene.toml beside it ({})",

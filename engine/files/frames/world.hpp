@@ -54,10 +54,11 @@ struct World {
     FileFacts facts = {};  // words for whoever reads the file
 };
 
-// Container, floor, planes and species of a scene.
+// Container, floor, planes, meshes and species of a scene.
 World world_of(const Scene& scene);
 
-// For those who need a scene of a world that has none: its species, in no container.
+// For those who need a scene of a world that has none: its species, in no container, and its meshes where it
+// has no planes.
 Scene scene_of(const World& world);
 
 }  // namespace grainreel

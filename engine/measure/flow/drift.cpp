@@ -20,7 +20,8 @@ VelocityGrid cells_of(const Scene& scene) {
     const double cell = kCell * mean_diameter(scene);
     const double half = std::clamp(std::round((2 * c.half_width / cell - 1) / 2), 1.0, (kMostCells - 1) / 2);
     grid.across = static_cast<std::size_t>(2 * half + 1);
-    grid.high = static_cast<std::size_t>(std::clamp(std::ceil((c.height - c.base()) / cell), 2.0, kMostCells));
+    grid.high =
+        static_cast<std::size_t>(std::clamp(std::ceil((c.height - c.base()) / cell), 2.0, kMostCells));
     grid.left = -c.half_width;
     grid.bottom = c.base();
     grid.width = 2 * c.half_width / static_cast<double>(grid.across);

@@ -20,16 +20,19 @@ class Drum final : public Observer {
         return {
             {{{"revolutions", "revolutions"}},
              "1",
-             "of what turns since it began: of the container, or of the mesh that is the container, or of the "
+             "of what turns since it began: of the container, or of the mesh that is the container, or of "
+             "the "
              "first mesh that turns; NaN without one. Whatever else is measured can be drawn against it"},
             {{{"repose_angle_deg", "dynamic angle of repose", Dimension::degrees}},
              "degrees",
              "of the bed's surface against the horizontal, seen along the axis: of the line of least squares "
-             "through the middle third of it, above 0 where the drum carries the bed up (Yamane et al. 1998); "
+             "through the middle third of it, above 0 where the drum carries the bed up (Yamane et al. "
+             "1998); "
              "NaN where the axis stands"},
             {{{"froude_number", "Froude number"}},
              "1",
-             "square of the rate times the drum's radius over gravity, now; below 1e-4 the bed slumps, then it "
+             "square of the rate times the drum's radius over gravity, now; below 1e-4 the bed slumps, then "
+             "it "
              "rolls and cascades, from about 0.1 on it cataracts, and at 1 it goes round with the drum "
              "(Mellmann 2001)"}};
     }
@@ -40,9 +43,9 @@ class Drum final : public Observer {
         const BodyTurn& turn = drum_->turn;
         const auto axes = drum_axes(turn, m.gravity);
         const double angle = axes ? angle_of_repose(m.grains.place, *axes, diameter_) : kNoValue;
-        row.insert(row.end(),
-                   {std::abs(turn.angle_at(m.pose.time)) / (2 * std::numbers::pi), angle * 180 / std::numbers::pi,
-                    froude_number(turn.rate_at(m.pose.time), drum_->radius, m.gravity.norm())});
+        row.insert(row.end(), {std::abs(turn.angle_at(m.pose.time)) / (2 * std::numbers::pi),
+                               angle * 180 / std::numbers::pi,
+                               froude_number(turn.rate_at(m.pose.time), drum_->radius, m.gravity.norm())});
     }
 
   private:

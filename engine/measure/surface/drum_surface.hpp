@@ -16,8 +16,8 @@
 
 namespace grainreel {
 
-// Three unit directions at right angles: along the axis, across it to the side where the drum carries the bed up,
-// and upwards.
+// Three unit directions at right angles: along the axis, across it to the side where the drum carries the bed
+// up, and upwards.
 struct DrumAxes {
     Vec3 along, across, up;
 };
@@ -29,8 +29,8 @@ std::optional<DrumAxes> drum_axes(const BodyTurn& turn, const Vec3& gravity);
 // two diameters wide.
 double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, double diameter);
 
-// w^2 R / g. Below 1e-4 a bed slips or slumps, it rolls and cascades up to about 0.1, then cataracts, and at 1
-// it goes round with the drum (Mellmann 2001, Powder Technol. 118, 251).
+// w^2 R / g. Below 1e-4 a bed slips or slumps, it rolls and cascades up to about 0.1, then cataracts, and at
+// 1 it goes round with the drum (Mellmann 2001, Powder Technol. 118, 251).
 double froude_number(double rate, double radius, double gravity);
 
 }  // namespace grainreel

@@ -18,7 +18,8 @@ WearTally::WearTally(const Scene& scene)
 }
 
 void WearTally::contact(const Moment& m, const ContactView& c) {
-    const std::int64_t mesh = -1 - static_cast<std::int64_t>(c.second) - static_cast<std::int64_t>(m.faces.size());
+    const std::int64_t mesh =
+        -1 - static_cast<std::int64_t>(c.second) - static_cast<std::int64_t>(m.faces.size());
     if (c.second >= 0 || c.triangle < 0 || mesh < 0) return;
     const Body& body = bodies_[first_ + static_cast<std::size_t>(mesh)];
     const Motion& grain = m.grains.motion[c.first];
@@ -32,7 +33,8 @@ void WearTally::contact(const Moment& m, const ContactView& c) {
 
 void WearTally::add(double time) {
     std::sort(seen_.begin(), seen_.end(), [](const Seen& a, const Seen& b) {
-        return std::tie(a.mesh, a.triangle, a.grain, a.press) < std::tie(b.mesh, b.triangle, b.grain, b.press);
+        return std::tie(a.mesh, a.triangle, a.grain, a.press) <
+               std::tie(b.mesh, b.triangle, b.grain, b.press);
     });
     for (const Seen& one : seen_) {
         WearSums& sums = sums_[one.mesh];

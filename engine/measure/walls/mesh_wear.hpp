@@ -2,12 +2,12 @@
 // that of rubbing.
 //
 // Of a contact with the normal force N and the tangential force T on the mesh, and the velocity u of the
-// grain's surface against the mesh there: it presses with N; impacts do the work N max(0, u . n) dt, n into the
-// mesh, which is what compresses the two; rubbing does T . u dt. All are looked at every kLookSteps steps,
-// which is ten times or more in any collision (a step is a fiftieth of one or less), and each look counts
-// for the steps since the one before. The work of rubbing over the area is what Archard's law of wear is
-// proportional to (J. F. Archard 1953, J. Appl. Phys. 24, 981, at a constant coefficient of friction), that of
-// impacts what erodes (I. Finnie 1960, Wear 3, 87).
+// grain's surface against the mesh there: it presses with N; impacts do the work N max(0, u . n) dt, n into
+// the mesh, which is what compresses the two; rubbing does T . u dt. All are looked at every kLookSteps
+// steps, which is ten times or more in any collision (a step is a fiftieth of one or less), and each look
+// counts for the steps since the one before. The work of rubbing over the area is what Archard's law of wear
+// is proportional to (J. F. Archard 1953, J. Appl. Phys. 24, 981, at a constant coefficient of friction),
+// that of impacts what erodes (I. Finnie 1960, Wear 3, 87).
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ class WearTally {
   private:
     struct Seen {
         std::size_t mesh, triangle;
-        std::int32_t grain;            // its id
+        std::int32_t grain;           // its id
         double press, impact, shear;  // N, W, W
     };
     std::vector<Body> bodies_;
@@ -56,8 +56,9 @@ class WearTally {
 
 // As it is drawn, and as fields.nc has it: a number for each triangle of one mesh.
 struct MeshWear {
-    std::vector<double> pressure;  // Pa, mean normal force over area since the last record began; NaN: not known
-    std::vector<double> wear;      // J/m2, work of rubbing over area since the drive started
+    std::vector<double>
+        pressure;              // Pa, mean normal force over area since the last record began; NaN: not known
+    std::vector<double> wear;  // J/m2, work of rubbing over area since the drive started
 };
 // The names of its fields. name: of the mesh, as face_names() has it.
 std::string pressure_field(const std::string& name);

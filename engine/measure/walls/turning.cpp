@@ -19,8 +19,8 @@ double circle_from_axis(const BodyTurn& turn, double radius, double z) {
     double farthest = 0;
     for (int k = 0; k < kPoints; ++k) {
         const double angle = 2 * std::numbers::pi * k / kPoints;
-        farthest = std::max(farthest,
-                            from_axis(turn, Vec3(radius * std::cos(angle), radius * std::sin(angle), z)));
+        farthest =
+            std::max(farthest, from_axis(turn, Vec3(radius * std::cos(angle), radius * std::sin(angle), z)));
     }
     return farthest;
 }
@@ -68,8 +68,7 @@ Vec3 moment_point(const SceneMesh& mesh) {
 std::optional<TurningBody> turning_body(const Scene& scene) {
     const Container& container = scene.container;
     if (container.turn && container.shape != Container::Shape::mesh)
-        return TurningBody{kContainerBody, *container.turn,
-                           container_from_axis(container, *container.turn)};
+        return TurningBody{kContainerBody, *container.turn, container_from_axis(container, *container.turn)};
     const auto mesh = [&](std::size_t m) {
         const SceneMesh& one = scene.meshes[m];
         return TurningBody{first_mesh_body(scene) + static_cast<std::int32_t>(m), *one.turn,

@@ -1,7 +1,7 @@
 // What each wall takes: the mean force on it and its moment, the weight that it carries, and the pressure
-// against height; of walls that turn or move by themselves also the torque about their axis and the power that
-// they give (walls/wall_work.hpp). The forces are summed at every step, so that no impact is missed. Forces are means between
-// two rows of measures.csv, pressures between two ends of records of fields.nc.
+// against height; of walls that turn or move by themselves also the torque about their axis and the power
+// that they give (walls/wall_work.hpp). The forces are summed at every step, so that no impact is missed.
+// Forces are means between two rows of measures.csv, pressures between two ends of records of fields.nc.
 //
 // Between the steps n1 < n2 the impulse on a face is dt (C(n2) - C(n1)) with C(n) = F_1 + ... + F_n - (1 - s)
 // F_n, where s is the share of a step's force that the grains have felt by its end: 1/2 with velocity Verlet.
@@ -47,16 +47,21 @@ class WallForces final : public Observer {
                                   "of a wall that turns: the part of that moment along its axis; below 0 "
                                   "where the grains brake"});
             if (!body.fixed)
-                groups.push_back({{{face + "_power_W", "power of " + face}},
-                                  "W",
-                                  "of a wall that turns or moves by itself: the work that it gives the grains "
-                                  "over time, by the impulses of every step since the row before"});
+                groups.push_back(
+                    {{{face + "_power_W", "power of " + face}},
+                     "W",
+                     "of a wall that turns or moves by itself: the work that it gives the grains "
+                     "over time, by the impulses of every step since the row before"});
         }
         return groups;
     }
 
     WallForces(const Scene& scene, const Plan& plan)
-        : rows_(plan), records_(plan.fields), profile_(scene), walls_(wall_bodies(scene)), work_(scene, plan) {}
+        : rows_(plan),
+          records_(plan.fields),
+          profile_(scene),
+          walls_(wall_bodies(scene)),
+          work_(scene, plan) {}
 
     bool needs_wall_sums() const override { return true; }
     const FieldSet* fields() const override { return &profile_.fields(); }
@@ -84,18 +89,14 @@ class WallForces final : public Observer {
     }
     void look(const Moment& m, std::vector<double>& row) override {
         const Noted& from = last_.step < m.step ? last_ : before_;
-        const WallScale& unit = m.wall_sums->scale;
         const auto steps = static_cast<double>(m.step - from.step);
         const double weight = mass_of(m.grains) * m.gravity.squaredNorm();
         const std::vector<double> work = work_.until(m);
         for (std::size_t f = 0; f < from.faces.size(); ++f) {
-            const FaceSums &then = from.faces[f], &now = m.wall_sums->faces[f];
-            const double felt = m.wall_sums->felt;
+            const WallSum all = sum_between(from.faces[f], m.wall_sums->faces[f], *m.wall_sums);
             // NaN as long as there is no step to take the mean of.
-            const Vec3 force =
-                sum(then.force, now.force, felt, then.last_force, now.last_force) * unit.force / steps;
-            Vec3 moment = sum(then.moment, now.moment, felt, then.last_moment, now.last_moment) * unit.force *
-                          unit.length / steps;
+            const Vec3 force = all.force / steps;
+            Vec3 moment = all.moment / steps;
             const WallBody& wall = walls_.at(f);
             if (!wall.mesh && !wall.turns && m.faces[f].body.number < kFirstPlaneBody)
                 moment += m.faces[f].point.cross(force);
@@ -163,16 +164,6 @@ class WallForces final : public Observer {
         double mass = 0;
         for (std::size_t i = 0; i < grains.size(); ++i) mass += grains.mass(i);
         return mass;
-    }
-    // In counts. What was counted is subtracted as whole numbers, so that nothing is lost late in a run.
-    using Three = std::array<WideInt, 3>;
-    static Vec3 sum(const Three& then, const Three& now, double felt, const Three& last_then,
-                    const Three& last_now) {
-        Vec3 counts;
-        for (int a = 0; a < 3; ++a)
-            counts[a] = static_cast<double>(now[a] - then[a]) +
-                        felt * static_cast<double>(last_now[a] - last_then[a]);
-        return counts;
     }
 
     const Rows rows_;

@@ -12,12 +12,14 @@ constexpr double kLooksAPeriod = 128, kLooksARow = 64;
 
 // Whether its velocity changes, or its rate.
 bool is_unsteady(const Body& body, const Drive& drive) {
-    const bool ramps = body.turn && (body.turn->from > 0 || body.turn->over > 0 || std::isfinite(body.turn->until));
+    const bool ramps =
+        body.turn && (body.turn->from > 0 || body.turn->over > 0 || std::isfinite(body.turn->until));
     return (body.driven && drive.present) || body.path || ramps;
 }
 
-Vec3 counted(const std::array<WideInt, 3>& then, const std::array<WideInt, 3>& now,
-             const std::array<WideInt, 3>& last_then, const std::array<WideInt, 3>& last_now, double felt) {
+// In counts. What was counted is subtracted as whole numbers, so that nothing is lost late in a run.
+using Three = std::array<WideInt, 3>;
+Vec3 sum(const Three& then, const Three& now, double felt, const Three& last_then, const Three& last_now) {
     Vec3 counts;
     for (int a = 0; a < 3; ++a)
         counts[a] =
@@ -33,10 +35,11 @@ std::vector<double> angles_at(const std::vector<Body>& bodies, double time) {
 
 }  // namespace
 
-WallImpulse impulse_between(const FaceSums& then, const FaceSums& now, const WallSums& sums, double step) {
-    const double force = sums.scale.force * step, moment = force * sums.scale.length;
-    return {counted(then.force, now.force, then.last_force, now.last_force, sums.felt) * force,
-            counted(then.moment, now.moment, then.last_moment, now.last_moment, sums.felt) * moment};
+WallSum sum_between(const FaceSums& then, const FaceSums& now, const WallSums& sums) {
+    const WallScale& unit = sums.scale;
+    return {sum(then.force, now.force, sums.felt, then.last_force, now.last_force) * unit.force,
+            sum(then.moment, now.moment, sums.felt, then.last_moment, now.last_moment) * unit.force *
+                unit.length};
 }
 
 WallWork::WallWork(const Scene& scene, const Plan& plan)
@@ -83,8 +86,8 @@ std::vector<double> WallWork::until(const Moment& m) const {
         const Vec3 way = now.moved(wall.point) - poses_[wall.body].moved(wall.point);
         const Vec3 spin = wall.turns ? Vec3((turned[wall.body] - turned_[wall.body]) / time * wall.axis)
                                      : Vec3(0.5 * (now.spin + poses_[wall.body].spin));
-        const WallImpulse on_wall = impulse_between(sums_[w], m.wall_sums->faces[w], *m.wall_sums, length);
-        work[w] -= on_wall.force.dot(way) / time + on_wall.moment.dot(spin);
+        const WallSum on_wall = sum_between(sums_[w], m.wall_sums->faces[w], *m.wall_sums);
+        work[w] -= length * (on_wall.force.dot(way) / time + on_wall.moment.dot(spin));
     }
     return work;
 }

@@ -2,10 +2,10 @@
 // that turns.
 //
 // A rigid wall on which the grains have the force F and about a point P of it the moment M gives them the
-// power -(F . v + M . w), v the velocity of P and w the wall's spin. Between two steps the impulses of F and M
-// are those of every step (walls/wall_forces_observer.hpp). They are multiplied by the means of v and w, so
-// the work is exact as long as these are steady. A wall whose velocity changes is looked at 128 times a period
-// of the drive, or 64 times a row of measures.csv; the error then is of second order in that time.
+// power -(F . v + M . w), v the velocity of P and w the wall's spin. Between two steps the impulses of F and
+// M are those of every step (walls/wall_forces_observer.hpp). They are multiplied by the means of v and w, so
+// the work is exact as long as these are steady. A wall whose velocity changes is looked at 128 times a
+// period of the drive, or 64 times a row of measures.csv; the error then is of second order in that time.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,12 @@
 
 namespace grainreel {
 
-// The impulses of the grains on a wall between two steps: N s and N m s. step: s.
-struct WallImpulse {
+// What the grains did to a wall between two moments, summed over the steps: N and N m. Times the step these
+// are impulses.
+struct WallSum {
     Vec3 force{0, 0, 0}, moment{0, 0, 0};
 };
-WallImpulse impulse_between(const FaceSums& then, const FaceSums& now, const WallSums& sums, double step);
+WallSum sum_between(const FaceSums& then, const FaceSums& now, const WallSums& sums);
 
 class WallWork {
   public:

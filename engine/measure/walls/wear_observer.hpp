@@ -1,5 +1,5 @@
-// What grains do to the surfaces of meshes: the work of impacts and of rubbing on each mesh, and on each of its
-// triangles how hard they press and how they wear it.
+// What grains do to the surfaces of meshes: the work of impacts and of rubbing on each mesh, and on each of
+// its triangles how hard they press and how they wear it.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,11 @@ class Wear final : public Observer {
     static std::vector<ColumnGroup> columns(const Scene& scene) {
         std::vector<ColumnGroup> groups;
         for (const std::string& name : mesh_names(scene)) {
-            groups.push_back({{{name + "_impact_work_J", "impact work on " + name, Dimension::energy}},
-                              "J",
-                              "of a mesh: work of the normal forces while grains come nearer to it, since the "
-                              "drive started"});
+            groups.push_back(
+                {{{name + "_impact_work_J", "impact work on " + name, Dimension::energy}},
+                 "J",
+                 "of a mesh: work of the normal forces while grains come nearer to it, since the "
+                 "drive started"});
             groups.push_back({{{name + "_shear_work_J", "shear work on " + name, Dimension::energy}},
                               "J",
                               "of a mesh: work of the tangential forces, since the drive started"});
@@ -129,9 +130,14 @@ class Wear final : public Observer {
             areas_.back().push_back(surface.area(t));
         }
         set_.axes.push_back(axis);
-        set_.fields.push_back({pressure_field(name), "pressure on " + scene.meshes[k].name, "Pa",
-                               "mean normal force over area, of the record", {axis.name}});
-        set_.fields.push_back({wear_field(name), "wear of " + scene.meshes[k].name, "J m-2",
+        set_.fields.push_back({pressure_field(name),
+                               "pressure on " + scene.meshes[k].name,
+                               "Pa",
+                               "mean normal force over area, of the record",
+                               {axis.name}});
+        set_.fields.push_back({wear_field(name),
+                               "wear of " + scene.meshes[k].name,
+                               "J m-2",
                                "work of the tangential forces over area, since the drive started until the "
                                "end of the record",
                                {axis.name}});

@@ -60,8 +60,7 @@ std::string mesh_bytes(const fs::path& file) {
         refuse_mesh(file, "cannot be read; check its permissions");
     const auto size = static_cast<std::uint64_t>(about.st_size);
     if (size == 0) refuse_mesh(file, fmt::format("is empty; {}", what_to_give));
-    if (size > largest_mesh_file)
-        refuse_mesh(file, "is larger than 2 GiB; give a mesh of fewer triangles");
+    if (size > largest_mesh_file) refuse_mesh(file, "is larger than 2 GiB; give a mesh of fewer triangles");
     std::string bytes(size, '\0');
     std::size_t done = 0;
     while (done < bytes.size()) {

@@ -25,9 +25,10 @@ std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, co
         double least = std::numeric_limits<double>::infinity();
         for (const Face& face : faces) {
             const BodyPose pose = s.frame.body(static_cast<std::size_t>(face.body.number));
-            const double gap = face.body.turns()
-                                   ? distance_to(face, Vec3(0, 0, 0), pose.at_rest(s.frame.position[i])).distance
-                                   : distance_to(face, pose.place, s.frame.position[i]).distance;
+            const double gap =
+                face.body.turns()
+                    ? distance_to(face, Vec3(0, 0, 0), pose.at_rest(s.frame.position[i])).distance
+                    : distance_to(face, pose.place, s.frame.position[i]).distance;
             least = std::min(least, gap);
         }
         gaps.push_back(std::isfinite(least) ? least - s.frame.radius[i] : none);

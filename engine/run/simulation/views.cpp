@@ -100,10 +100,11 @@ std::vector<ContactForce> Simulation::contact_forces() const {
     m.loop->visit_contacts(m.step, [&](const ContactView& c) {
         const bool pair = c.second >= 0;
         const std::int32_t mesh = -1 - c.second - static_cast<std::int32_t>(m.around.faces.size());
-        const PairPlan& law = pair        ? m.plan.between(species(c.first), species(c.second))
-                              : mesh >= 0 ? m.plan.mesh[static_cast<std::size_t>(mesh) * m.scene.species.size() +
-                                                        species(c.first)]
-                                          : m.plan.wall[species(c.first)];
+        const PairPlan& law =
+            pair ? m.plan.between(species(c.first), species(c.second))
+            : mesh >= 0
+                ? m.plan.mesh[static_cast<std::size_t>(mesh) * m.scene.species.size() + species(c.first)]
+                : m.plan.wall[species(c.first)];
         forces.push_back({m.grains.id[c.first], pair ? m.grains.id[c.second] : c.second, c.normal, c.overlap,
                           c.normal_force, c.tangential, c.torque_on_first,
                           pair ? c.torque_on_second : Vec3::Zero(), law.friction, c.point, c.smaller_radius,

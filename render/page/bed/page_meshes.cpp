@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
-#include "render/page/bed/feature_edges.hpp"
-#include "render/page/bed/grain_sides.hpp"
 #include "render/page/bed/thin_mesh.hpp"
 #include "render/page/embed/zlib_pack.hpp"
+#include "render/picture/mesh/mesh_shape.hpp"
 
 namespace grainreel {
 namespace {
@@ -19,36 +19,25 @@ using Edge = std::array<std::int32_t, 2>;
 constexpr double steps = 65535;  // of 16 bits
 constexpr std::size_t least_triangles =
     200;  // a mesh of fewer than these after thinning is nothing to look at
-constexpr std::size_t most_grains_asked = 64;
 
 // What is known of a mesh before it is thinned.
 struct Shape {
     const SceneMesh* mesh;
     std::int32_t body;
-    std::vector<GrainSide> sides;
-    std::vector<Edge> edges;
+    std::shared_ptr<const MeshShape> drawn;
 };
 
-// Of some grains, in the frame of the body.
-std::vector<Vec3> places_in(const BodyPose& body, const Frame& grains) {
-    std::vector<Vec3> places;
-    const std::size_t stride = std::max<std::size_t>(1, grains.size() / most_grains_asked);
-    for (std::size_t i = 0; i < grains.size(); i += stride)
-        places.push_back(body.at_rest(grains.position[i]));
-    return places;
+MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh) {
+    const bool vessel = scene.container.shape == Container::Shape::mesh && scene.container.mesh == mesh.name;
+    return vessel ? MeshLook::vessel : MeshLook::automatic;
 }
 
-std::vector<Shape> shapes_of(const Scene& scene, const Frame& grains) {
+std::vector<Shape> shapes_of(const FilmedScene& scene) {
+    constexpr double edge_angle = 30 * std::numbers::pi / 180;
     std::vector<Shape> shapes;
     std::int32_t body = first_mesh_body(scene);
-    for (const SceneMesh& mesh : scene.meshes) {
-        const bool tumbles = mesh.path && mesh.path->turns();
-        const BodyPose pose = grains.body(static_cast<std::size_t>(body));
-        shapes.push_back({&mesh, body,
-                          grain_sides(mesh.surface.of, places_in(pose, grains), mesh.turn, tumbles),
-                          feature_edges(*mesh.surface)});
-        ++body;
-    }
+    for (const SceneMesh& mesh : scene.meshes)
+        shapes.push_back({&mesh, body++, mesh_shape(*mesh.surface, edge_angle, look_of(scene, mesh))});
     return shapes;
 }
 
@@ -111,11 +100,12 @@ void append_vertices(std::vector<std::uint8_t>& bytes, const std::vector<Vec3>& 
 }
 
 // Those of the whole mesh, where they have not shrunk to a point. The longest, if they are too many.
-std::vector<Edge> edges_of(const Shape& shape, const ThinnedMesh& thin, std::size_t most) {
+std::vector<Edge> edges_of(const MeshShape& shape, const ThinnedMesh& thin, std::size_t most) {
     std::vector<Edge> edges;
-    for (const Edge& edge : shape.edges) {
-        const std::int32_t a = thin.vertex_into[static_cast<std::size_t>(edge[0])],
-                           b = thin.vertex_into[static_cast<std::size_t>(edge[1])];
+    for (const MeshShape::Edge& edge : shape.edges) {
+        if (!edge.feature) continue;
+        const std::int32_t a = thin.vertex_into[static_cast<std::size_t>(edge.from)],
+                           b = thin.vertex_into[static_cast<std::size_t>(edge.to)];
         if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
     }
     std::sort(edges.begin(), edges.end());
@@ -133,19 +123,28 @@ std::vector<Edge> edges_of(const Shape& shape, const ThinnedMesh& thin, std::siz
     return edges;
 }
 
-// Those that are solid from both sides, and behind them the others, whose normals then point to the grains.
-std::vector<TriangleMesh::Triangle> triangles_of(const Shape& shape, const ThinnedMesh& thin,
-                                                 std::size_t& sided) {
-    std::vector<TriangleMesh::Triangle> both, one;
+// Solid ones, glass ones, and those that differ from side to side, the solid one on the side of the normal.
+std::vector<TriangleMesh::Triangle> triangles_of(const MeshShape& shape, const ThinnedMesh& thin,
+                                                 PageMesh& page) {
+    using Face = MeshShape::Face;
+    std::vector<TriangleMesh::Triangle> solid, glass, sided;
     for (std::size_t t = 0; t < thin.mesh.triangles.size(); ++t) {
         TriangleMesh::Triangle corners = thin.mesh.triangles[t];
-        const GrainSide side = shape.sides[static_cast<std::size_t>(thin.triangle_from[t])];
-        if (side == GrainSide::back) std::swap(corners[1], corners[2]);
-        (side == GrainSide::both ? both : one).push_back(corners);
+        const auto [front, back] = shape.sides[static_cast<std::size_t>(thin.triangle_from[t])];
+        if (front != Face::glass && back != Face::glass)
+            solid.push_back(corners);
+        else if (front == Face::glass && back == Face::glass)
+            glass.push_back(corners);
+        else {
+            if (front == Face::glass) std::swap(corners[1], corners[2]);
+            sided.push_back(corners);
+        }
     }
-    sided = one.size();
-    both.insert(both.end(), one.begin(), one.end());
-    return both;
+    page.glass = glass.size();
+    page.sided = sided.size();
+    solid.insert(solid.end(), glass.begin(), glass.end());
+    solid.insert(solid.end(), sided.begin(), sided.end());
+    return solid;
 }
 
 PageMesh append_mesh(std::vector<std::uint8_t>& bytes, const Shape& shape, std::size_t most) {
@@ -157,8 +156,8 @@ PageMesh append_mesh(std::vector<std::uint8_t>& bytes, const Shape& shape, std::
     page.high = shape.mesh->surface->facts().high;
     if (most < std::min(page.all_triangles, least_triangles)) return page;
     const ThinnedMesh thin = thinned(shape.mesh->surface->mesh(), most);
-    const std::vector<TriangleMesh::Triangle> triangles = triangles_of(shape, thin, page.sided);
-    const std::vector<Edge> edges = edges_of(shape, thin, 1000 + triangles.size());
+    const std::vector<TriangleMesh::Triangle> triangles = triangles_of(*shape.drawn, thin, page);
+    const std::vector<Edge> edges = edges_of(*shape.drawn, thin, 1000 + triangles.size());
     page.vertices = thin.mesh.vertices.size();
     page.triangles = triangles.size();
     page.edges = edges.size();
@@ -184,10 +183,9 @@ std::vector<std::string> PageMeshes::notes() const {
     return notes;
 }
 
-PageMeshes page_meshes(const Scene& scene, const Frame& grains, std::size_t most_bytes,
-                       std::size_t most_triangles) {
+PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes, std::size_t most_triangles) {
     if (scene.meshes.empty()) return {};
-    const std::vector<Shape> shapes = shapes_of(scene, grains);
+    const std::vector<Shape> shapes = shapes_of(scene);
     while (true) {
         PageMeshes page;
         std::vector<std::uint8_t> bytes;

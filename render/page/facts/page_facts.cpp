@@ -77,6 +77,7 @@ Json meshes_json(const PageMeshes& meshes) {
                             {"name", mesh.name},
                             {"vertices", mesh.vertices},
                             {"triangles", mesh.triangles},
+                            {"glass", mesh.glass},
                             {"sided", mesh.sided},
                             {"edges", mesh.edges},
                             {"low", of_vector(mesh.low)},

@@ -4,10 +4,10 @@
 // high bytes of a zigzag difference from the vertex before, in 65535ths of the mesh's box; the three corners of triangles
 // and the two ends of edges, each as low, middle and high bytes of a zigzag difference from the one before.
 //
-// The first triangles are solid from both sides. Behind them are those with grains on the side of their normal: solid from
-// there, and glass from the other side, so that the grains behind them are seen.
+// The first triangles are solid wherever they are seen from. Then come those that are glass, and last those that are solid on
+// the side of their normal and glass on the other one, so that the grains behind them are seen.
 
-/** facts: [{body, name, vertices, triangles, sided, edges, low, high}]. Gives what is drawn of each. */
+/** facts: [{body, name, vertices, triangles, glass, sided, edges, low, high}]. Gives what is drawn of each. */
 function unpackMeshes(facts, bytes) {
     let at = 0;
     const planes = (count, each) => {
@@ -39,7 +39,7 @@ function unpackMeshes(facts, bytes) {
     });
 }
 
-/** Of each edge: its two ends, and the sum of the normals towards the grains that meet there; 9 numbers, m. */
+/** Of each edge: its two ends, and the sum of the normals of its triangles where these are glass on the other side; 9 numbers, m. */
 function edgesWithSides(mesh) {
     const {places, corners, ends} = mesh, vertices = places.length / 3;
     const key = (a, b) => Math.min(a, b) * vertices + Math.max(a, b);
@@ -50,6 +50,7 @@ function edgesWithSides(mesh) {
         found.set(key(ends[2 * k], ends[2 * k + 1]), k);
     }
     const solidToo = new Set(); // edges of a triangle that is solid from both sides
+    const solid = mesh.triangles - mesh.glass - mesh.sided;
     for (let t = 0; t < mesh.triangles; ++t) {
         const three = corners.subarray(3 * t, 3 * t + 3);
         const mine = [0, 1, 2].map((e) => found.get(key(three[e], three[(e + 1) % 3]))).filter((k) => k !== undefined);
@@ -58,7 +59,7 @@ function edgesWithSides(mesh) {
         const normal = cross(b.map((value, axis) => value - a[axis]), c.map((value, axis) => value - a[axis]));
         const length = Math.hypot(...normal) || 1;
         for (const k of mine) {
-            if (t < mesh.triangles - mesh.sided) solidToo.add(k);
+            if (t < solid) solidToo.add(k);
             for (let axis = 0; axis < 3; ++axis) numbers[9 * k + 6 + axis] += normal[axis] / length;
         }
     }
@@ -93,8 +94,8 @@ class Meshes {
             gl.vertexAttribDivisor(location, 1);
         }
         gl.bindVertexArray(null);
-        const {body, name, triangles, sided, edges} = mesh;
-        return {body, name, faces, lines, edges, sided, both: triangles - sided};
+        const {body, name, triangles, glass, sided, edges} = mesh;
+        return {body, name, faces, lines, edges, solid: triangles - glass - sided, glass, sided};
     }
 
     /** What hides what is behind it, and the lines. view: {eye, view, projection, height, pen} of the viewer. */
@@ -102,10 +103,10 @@ class Meshes {
         const gl = this.gl;
         gl.enable(gl.POLYGON_OFFSET_FILL);
         gl.polygonOffset(1, 1);
-        this.drawFaces(poses, view, {paint: colours.outer, ...opaque}, (mesh) => [0, mesh.both]);
+        this.drawFaces(poses, view, {paint: colours.outer, ...opaque}, (mesh) => [0, mesh.solid]);
         gl.enable(gl.CULL_FACE);
         gl.cullFace(gl.BACK);
-        this.drawFaces(poses, view, {paint: colours.inner, ...opaque}, (mesh) => [mesh.both, mesh.sided]);
+        this.drawFaces(poses, view, {paint: colours.inner, ...opaque}, (mesh) => [mesh.solid + mesh.glass, mesh.sided]);
         gl.disable(gl.CULL_FACE);
         gl.disable(gl.POLYGON_OFFSET_FILL);
         this.drawLines(poses, view, colours);
@@ -114,15 +115,16 @@ class Meshes {
     /** What stands before the grains, when all that is solid has been drawn. */
     drawGlass(poses, view, colours) {
         const gl = this.gl;
-        gl.enable(gl.CULL_FACE);
-        gl.cullFace(gl.FRONT);
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
         gl.depthMask(false);
-        this.drawFaces(poses, view, {paint: colours.glass, ...glass}, (mesh) => [mesh.both, mesh.sided]);
+        this.drawFaces(poses, view, {paint: colours.glass, ...glass}, (mesh) => [mesh.solid, mesh.glass]);
+        gl.enable(gl.CULL_FACE);
+        gl.cullFace(gl.FRONT);
+        this.drawFaces(poses, view, {paint: colours.glass, ...glass}, (mesh) => [mesh.solid + mesh.glass, mesh.sided]);
+        gl.disable(gl.CULL_FACE);
         gl.depthMask(true);
         gl.disable(gl.BLEND);
-        gl.disable(gl.CULL_FACE);
     }
 
     // part: of a mesh, the first triangle and how many.

@@ -155,7 +155,7 @@ const meshEdgeVertexShader = `#version 300 es
 precision highp float;
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
-layout(location = 2) in vec3 towardsGrains; // sum of the normals that meet here; 0: it is solid from all sides
+layout(location = 2) in vec3 solidSide;   // sum of the normals that meet here; 0: it is solid from all sides
 uniform mat4 pose, view, projection;
 uniform vec3 eye;                         // m, in the body's frame
 uniform float height, wide;               // of the canvas and of the line, pixels
@@ -169,7 +169,7 @@ void main() {
     vec3 aside = cross(b - a, here);
     aside = length(aside) > 0.0 ? normalize(aside) : vec3(1, 0, 0);
     float pixel = 2.0 * max(-here.z, 1e-6) / (projection[1][1] * height); // m
-    paint = dot(towardsGrains, eye - from) < 0.0 ? glass : solid;
+    paint = dot(solidSide, eye - from) < 0.0 ? glass : solid;
     roundness = 0.0;
     across = (gl_VertexID & 1) == 0 ? 1.0 : -1.0;
     gl_Position = projection * vec4(here + 0.5 * across * wide * pixel * aside, 1.0);

@@ -144,7 +144,7 @@ void LiveRun::read_bed_again() {
         BedContacts beside;
         beside.film = film ? &*film : nullptr;
         const BedFrames bed = bed_frames_of(run.frames(), shown_of(moments.size()), kNoPageProgress, beside);
-        make_meshes(run);
+        make_meshes(run.scene());
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;
         auto bytes = shared(with_length(bed_facts_json(run.scene(), bed, *meshes_), bed.packed));
@@ -157,10 +157,10 @@ void LiveRun::read_bed_again() {
 }
 
 // Shapes never change, so they are made once.
-void LiveRun::make_meshes(const RecordedRun& run) {
+void LiveRun::make_meshes(const FilmedScene& scene) {
     if (meshes_) return;
     constexpr std::size_t most_bytes = 2'000'000;
-    meshes_ = page_meshes(run.scene(), run.frames().first_whole(), most_bytes);
+    meshes_ = page_meshes(scene, most_bytes);
     auto bytes = shared(std::string(meshes_->packed.begin(), meshes_->packed.end()));
     const std::scoped_lock lock(mutex_);
     now_.meshes = std::move(bytes);

@@ -56,7 +56,7 @@ class LiveRun {
     void read_measures_again();
     void read_bed_again();
     void read_picture_again();
-    void make_meshes(const RecordedRun& run);
+    void make_meshes(const FilmedScene& scene);
     void make_page();
     void make_state();
     double remaining(double time, double end) const;

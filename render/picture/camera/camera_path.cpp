@@ -118,7 +118,7 @@ double CameraPath::least_depth(const std::vector<Vec3>& points) const {
         return least;
     }
     for (const Pose& here : samples()) {
-        View view = looking(here.azimuth, here.elevation);
+        View view = looking(here.azimuth, here.elevation, camera_.up);
         view.eye = target_ + shift_ * view.up - distance_ * view.forward;
         take(view);
     }
@@ -169,8 +169,13 @@ CameraPath::Pose CameraPath::pose(double film_time) const {
 }
 
 void CameraPath::look_from_position() {
-    const Vec3 back = *camera_.position - target_;
-    distance_ = back.norm();
+    const Vec3 from_target = *camera_.position - target_;
+    distance_ = from_target.norm();
+    Vec3 back = from_target;
+    if (camera_.up != Vec3(0, 0, 1)) {
+        const Vec3 front = front_of(camera_.up);
+        back = {from_target.dot(front), from_target.dot(camera_.up.cross(front)), from_target.dot(camera_.up)};
+    }
     if (std::hypot(back.x(), back.y()) > 1e-9 * distance_)
         camera_.azimuth = std::atan2(back.y(), back.x()) / degrees;
     camera_.elevation = std::asin(std::clamp(back.z() / distance_, -1.0, 1.0)) / degrees;
@@ -197,7 +202,7 @@ void CameraPath::keep_distance(const FilmedScene& scene, const FramedPart& part)
     Framing framing(camera_, port_, margin_, picture_height_);
     const Vec3 middle = framed_middle(scene);
     for (const Pose& here : samples()) {
-        const View view = looking(here.azimuth, here.elevation);
+        const View view = looking(here.azimuth, here.elevation, camera_.up);
         for (const Vec3& point : framing_points(scene, here.azimuth, part))
             framing.take(view, point - middle);
     }
@@ -210,7 +215,7 @@ void CameraPath::keep_distance(const FilmedScene& scene, const FramedPart& part)
 View CameraPath::at(double film_time) const {
     if (still_) return *still_;
     const Pose here = pose(film_time);
-    View view = looking(here.azimuth, here.elevation);
+    View view = looking(here.azimuth, here.elevation, camera_.up);
     view.port = port_;
     view.orthographic = camera_.field_of_view <= 0;
     view.focal = focal_ * here.zoom;

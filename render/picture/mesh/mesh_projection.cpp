@@ -38,7 +38,7 @@ void MeshProjection::take(const View& view, const Sight& sight, const Cut& cut,
     solid_.clear(), glass_.clear(), planes_.clear(), lines_.clear();
     Eigen::Matrix3d axes;
     axes << view.right.transpose(), view.up.transpose(), view.forward.transpose();
-    up_ = (axes * Vec3::UnitZ()).cast<float>();
+    up_ = (axes * paints.up).cast<float>();
     for (const DrawnMesh& mesh : meshes) {
         const Eigen::Matrix3d turn = axes * mesh.pose.rotation.toRotationMatrix();
         const Vec3 place = axes * (mesh.pose.place - view.eye);

@@ -24,6 +24,7 @@ struct DrawnMesh {
 // sRGB, 0 to 255.
 struct MeshPaints {
     std::array<float, 3> dark, lit;  // of solid walls, turned away from the light and towards it
+    Vec3 up{0, 0, 1};                // unit, where the light of the sky comes from
     float pen = 1;                   // pixels, the width of a main line
 };
 

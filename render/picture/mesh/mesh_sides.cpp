@@ -93,7 +93,7 @@ class SideFinder {
             part_of_patch_[p] = static_cast<std::size_t>(part[at]);
             patch_seen_[p].area += surface_.area(t);
             for (int e = 0; e < 3; ++e)
-                if (surface_.neighbour(t, e).triangle < 0 || surface_.neighbour(t, e).flips)
+                if (surface_.facts().open_edges > 0 && surface_.neighbour(t, e).triangle < 0)
                     part_closed_[static_cast<std::size_t>(part[at])] = 0;
         }
         patches_.resize(part_seen_.size());
