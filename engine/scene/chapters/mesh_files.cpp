@@ -97,8 +97,7 @@ void load_surface(const Document& document, const std::string& table, SceneMesh&
     check_hash(document, key, mesh.file, said, mesh.hash);
     mesh.surface.of = surfaces.with(hash_with_placement(mesh), [&] {
         return at_key(document, key, [&] {
-            LoadedMesh loaded =
-                load_mesh(mesh.file, {mesh.scale, mesh.position, mesh.rotation.quaternion()});
+            LoadedMesh loaded = load_mesh(mesh.file, {mesh.scale, mesh.position, mesh.rotation.quaternion()});
             return std::make_shared<const Surface>(std::move(loaded.mesh), std::move(loaded.facts),
                                                    hash_with_placement(mesh));
         });

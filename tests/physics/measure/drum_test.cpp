@@ -152,7 +152,8 @@ TEST(WallPower, OfAMeshThatMovesIsForceTimesVelocity) {
 TEST(WallPower, IsThatOfTheLastRow) {
     MeshInSpace drum(turning(turn_about({0, 1, 0}, 2)));
     drum.after(125, {0, 0, 0}, {0, -3, 0}, "drum_power_W");
-    EXPECT_NEAR(drum.after(250, {0, 0, 0}, {0, -2, 0}, "drum_power_W"), 2 * (2 * 250 - 3 * 125) / 125.0, 1e-9);
+    EXPECT_NEAR(drum.after(250, {0, 0, 0}, {0, -2, 0}, "drum_power_W"), 2 * (2 * 250 - 3 * 125) / 125.0,
+                1e-9);
 }
 
 }  // namespace
