@@ -10,7 +10,9 @@ namespace grainreel {
 
 class DisjointSets {
   public:
-    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+    explicit DisjointSets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
 
     // The lowest number of the set.
     std::int32_t root(std::int32_t i) {

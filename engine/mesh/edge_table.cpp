@@ -28,7 +28,8 @@ void sort_few(EdgeSide* first, EdgeSide* end) {
 
 EdgeTable::EdgeTable(const TriangleMesh& mesh) : begins_(mesh.vertices.size() + 1, 0) {
     for (const TriangleMesh::Triangle& t : mesh.triangles)
-        for (std::size_t e = 0; e < 3; ++e) ++begins_[static_cast<std::size_t>(std::min(t[e], t[(e + 1) % 3])) + 1];
+        for (std::size_t e = 0; e < 3; ++e)
+            ++begins_[static_cast<std::size_t>(std::min(t[e], t[(e + 1) % 3])) + 1];
     for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
     sides_.resize(3 * mesh.triangles.size());
     std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
@@ -39,7 +40,8 @@ EdgeTable::EdgeTable(const TriangleMesh& mesh) : begins_(mesh.vertices.size() + 
             sides_[next[static_cast<std::size_t>(std::min(a, b))]++] = {std::max(a, b), side};
         }
     for (std::size_t i = 0; i + 1 < begins_.size(); ++i)
-        if (begins_[i + 1] - begins_[i] > 1) sort_few(sides_.data() + begins_[i], sides_.data() + begins_[i + 1]);
+        if (begins_[i + 1] - begins_[i] > 1)
+            sort_few(sides_.data() + begins_[i], sides_.data() + begins_[i + 1]);
 }
 
 }  // namespace grainreel

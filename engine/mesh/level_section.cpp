@@ -26,7 +26,8 @@ Vec3 level_direction(int i) {
     static const std::array<Vec3, 4> quarter = [] {
         const double diagonal = std::numbers::sqrt2 / 2, far = std::cos(std::numbers::pi / 8),
                      near = std::sin(std::numbers::pi / 8);
-        return std::array<Vec3, 4>{Vec3(1, 0, 0), Vec3(far, near, 0), Vec3(diagonal, diagonal, 0), Vec3(near, far, 0)};
+        return std::array<Vec3, 4>{Vec3(1, 0, 0), Vec3(far, near, 0), Vec3(diagonal, diagonal, 0),
+                                   Vec3(near, far, 0)};
     }();
     Vec3 direction = quarter[static_cast<std::size_t>(i % 4)];
     for (int turns = i / 4; turns > 0; --turns) direction = Vec3(-direction.y(), direction.x(), 0);
@@ -41,8 +42,8 @@ LevelSection::LevelSection(const Surface& surface, const std::vector<char>& clos
     for (int i = 0; i < kLevelAxes; ++i) sort_across(axes_[static_cast<std::size_t>(i)], i);
 }
 
-// The triangle runs up through the level on one side and down on another. Seen from above, its normal is to the right
-// of the way from there to here.
+// The triangle runs up through the level on one side and down on another. Seen from above, its normal is to
+// the right of the way from there to here.
 void LevelSection::cut(const Surface& surface, std::int32_t triangle, bool closed, double z) {
     const TriangleMesh::Triangle& numbers = surface.mesh().triangles[static_cast<std::size_t>(triangle)];
     Segment segment{{}, {}, closed};
@@ -61,12 +62,15 @@ void LevelSection::sort_across(Axis& axis, int number) {
     axis.along = level_direction(number).head<2>();
     axis.across = Vec2(-axis.along.y(), axis.along.x());
     if (segments_.empty()) return;
+    std::vector<std::pair<double, double>> spans;  // of the segments
+    spans.reserve(segments_.size());
     double low = axis.across.dot(segments_[0].a), high = low;
-    for (const Segment& s : segments_)
-        for (const Vec2& end : {s.a, s.b}) {
-            low = std::min(low, axis.across.dot(end));
-            high = std::max(high, axis.across.dot(end));
-        }
+    for (const Segment& s : segments_) {
+        const double u = axis.across.dot(s.a), v = axis.across.dot(s.b);
+        spans.push_back({std::min(u, v), std::max(u, v)});
+        low = std::min(low, spans.back().first);
+        high = std::max(high, spans.back().second);
+    }
     const std::size_t bins = std::clamp<std::size_t>(segments_.size(), 8, most_bins);
     axis.first = low;
     axis.per_width = high > low ? static_cast<double>(bins) / (high - low) : 0;
@@ -76,15 +80,13 @@ void LevelSection::sort_across(Axis& axis, int number) {
     axis.begins.assign(bins + 1, 0);
     std::vector<std::uint32_t> next;
     for (const bool counting : {true, false}) {
-        for (std::size_t i = 0; i < segments_.size(); ++i) {
-            const double u = axis.across.dot(segments_[i].a), v = axis.across.dot(segments_[i].b);
-            for (std::size_t b = bin(std::min(u, v)); b <= bin(std::max(u, v)); ++b) {
+        for (std::size_t i = 0; i < spans.size(); ++i)
+            for (std::size_t b = bin(spans[i].first); b <= bin(spans[i].second); ++b) {
                 if (counting)
                     ++axis.begins[b + 1];
                 else
                     axis.segments[next[b]++] = static_cast<std::int32_t>(i);
             }
-        }
         if (!counting) break;
         std::partial_sum(axis.begins.begin(), axis.begins.end(), axis.begins.begin());
         next.assign(axis.begins.begin(), axis.begins.end() - 1);
@@ -123,7 +125,8 @@ std::vector<double> LevelSection::borders() const {
     }
     std::sort(all.begin(), all.end());
     const double alike = all.empty() ? 0 : same_border * (all.back() - all.front());
-    all.erase(std::unique(all.begin(), all.end(), [&](double x, double y) { return y - x <= alike; }), all.end());
+    all.erase(std::unique(all.begin(), all.end(), [&](double x, double y) { return y - x <= alike; }),
+              all.end());
     if (all.size() <= most_borders) return all;
     std::vector<double> some(most_borders);
     for (std::size_t i = 0; i < most_borders; ++i) some[i] = all[i * (all.size() - 1) / (most_borders - 1)];
@@ -140,7 +143,8 @@ std::vector<LevelPiece> LevelSection::enclosed_pieces() const {
     const std::vector<double> edges = borders();
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
         const double x = 0.5 * (edges[i] + edges[i + 1]);
-        for (; !waiting.empty() && first_x(waiting.back()) <= x; waiting.pop_back()) active.push_back(waiting.back());
+        for (; !waiting.empty() && first_x(waiting.back()) <= x; waiting.pop_back())
+            active.push_back(waiting.back());
         std::erase_if(active, [x](const Segment* s) { return std::max(s->a.x(), s->b.x()) <= x; });
         crossed.assign(active.begin(), active.end());
         add_pieces(edges[i], edges[i + 1], crossed, pieces);
@@ -151,7 +155,8 @@ std::vector<LevelPiece> LevelSection::enclosed_pieces() const {
 void LevelSection::add_pieces(double x0, double x1, std::vector<const Segment*>& crossed,
                               std::vector<LevelPiece>& pieces) const {
     const double x = 0.5 * (x0 + x1);
-    std::sort(crossed.begin(), crossed.end(), [x](const Segment* s, const Segment* t) { return s->at(x) < t->at(x); });
+    std::sort(crossed.begin(), crossed.end(),
+              [x](const Segment* s, const Segment* t) { return s->at(x) < t->at(x); });
     int winding = 0;
     for (std::size_t i = 0; i + 1 < crossed.size(); ++i) {
         const Segment &low = *crossed[i], &high = *crossed[i + 1];

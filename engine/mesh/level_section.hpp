@@ -53,7 +53,8 @@ class LevelSection {
     void cut(const Surface& surface, std::int32_t triangle, bool closed, double z);
     void sort_across(Axis& axis, int number);
     std::vector<double> borders() const;
-    void add_pieces(double x0, double x1, std::vector<const Segment*>& crossed, std::vector<LevelPiece>& pieces) const;
+    void add_pieces(double x0, double x1, std::vector<const Segment*>& crossed,
+                    std::vector<LevelPiece>& pieces) const;
 
     std::vector<Segment> segments_;
     std::array<Axis, kLevelAxes> axes_;

@@ -40,8 +40,10 @@ void place(TriangleMesh& mesh, const MeshPlacement& placement, const fs::path& f
         if (turned) vertex = turn * vertex;
         vertex += placement.position;
         if (!(vertex.cwiseAbs().maxCoeff() <= largest_coordinate))
-            refuse_mesh(file, fmt::format("a corner would stand {:g} m from the origin; give another scale or position",
-                                          vertex.norm()));
+            refuse_mesh(
+                file,
+                fmt::format("a corner would stand {:g} m from the origin; give another scale or position",
+                            vertex.norm()));
     }
 }
 

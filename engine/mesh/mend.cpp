@@ -15,7 +15,7 @@ namespace grainreel {
 namespace {
 
 constexpr double same_place = 1e-9;  // of the extent
-constexpr double crack = 1e-6;       // of the extent, between open edges; floats are exact to 6e-8
+constexpr double crack = 1e-5;       // of the extent, between open edges; floats are exact to 6e-8
 constexpr double crack_room = 0.01;  // of the shortest open edge at a vertex
 constexpr double slender = 1e-3;     // height over longest edge
 
@@ -47,7 +47,8 @@ struct Size {
 };
 
 Size size_of(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle) {
-    const Vec3 ab = at(mesh, triangle[1]) - at(mesh, triangle[0]), ac = at(mesh, triangle[2]) - at(mesh, triangle[0]);
+    const Vec3 ab = at(mesh, triangle[1]) - at(mesh, triangle[0]),
+               ac = at(mesh, triangle[2]) - at(mesh, triangle[0]);
     const double longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
     return {longest, longest > 0 ? ab.cross(ac).norm() / longest : 0};
 }
@@ -123,10 +124,11 @@ void tell(MeshFacts& facts, std::int64_t cracks) {
     };
     line(facts.welded - cracks, "vertex was joined with one in its place",
          "vertices were joined with others in their place");
-    line(cracks, "vertex of an open edge was joined with one a millionth of the extent away",
-         "vertices of open edges were joined with others a millionth of the extent away");
+    line(cracks, "vertex of an open edge was joined with one a hair (1e-5 of the extent) away",
+         "vertices of open edges were joined with others a hair (1e-5 of the extent) away");
     line(facts.dropped, "triangle without area was left out", "triangles without area were left out");
-    line(facts.doubled, "triangle that was there twice counts once", "triangles that were there twice count once");
+    line(facts.doubled, "triangle that was there twice counts once",
+         "triangles that were there twice count once");
     line(facts.flipped, "triangle was turned round, to face as its neighbours do",
          "triangles were turned round, to face as their neighbours do");
 }

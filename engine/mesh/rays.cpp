@@ -1,8 +1,8 @@
-// Rays through a surface. The triangles are sheared so that the ray is the axis of z, as S. Woop, C. Benthin and
-// I. Wald, Watertight Ray/Triangle Intersection, J. Computer Graphics Techniques 2, 65 (2013) do; a vertex has the
-// same place then for all its triangles. On which side of an edge the axis passes is decided without rounding. On
-// the edge itself it counts as passing at (d, d^2) for an endlessly small d (H. Edelsbrunner and E. Muecke,
-// Simulation of Simplicity, ACM Trans. Graphics 9, 66, 1990).
+// Rays through a surface. The triangles are sheared so that the ray is the axis of z, as S. Woop, C. Benthin
+// and I. Wald, Watertight Ray/Triangle Intersection, J. Computer Graphics Techniques 2, 65 (2013) do; a
+// vertex has the same place then for all its triangles. On which side of an edge the axis passes is decided
+// without rounding. On the edge itself it counts as passing at (d, d^2) for an endlessly small d (H.
+// Edelsbrunner and E. Muecke, Simulation of Simplicity, ACM Trans. Graphics 9, 66, 1990).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +30,8 @@ int side_of(const Sheared& a, const Sheared& b) {
 
 class Ray {
   public:
-    Ray(const Vec3& from, const Vec3& direction, const Eigen::AlignedBox3d& all) : from_(from), direction_(direction) {
+    Ray(const Vec3& from, const Vec3& direction, const Eigen::AlignedBox3d& all)
+        : from_(from), direction_(direction) {
         direction.cwiseAbs().maxCoeff(&z_);
         x_ = (z_ + 1) % 3;
         y_ = (z_ + 2) % 3;

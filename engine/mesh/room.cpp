@@ -51,7 +51,8 @@ double EnclosedRoom::value_at(double z, Line Slice::*line) const {
     const Slice* const slice = slice_at(z);
     if (slice == nullptr) return 0;
     const Line& values = slice->*line;
-    const double middle = 0.5 * (slice->low + slice->high), apart = (slice->high - slice->low) / std::sqrt(3.0);
+    const double middle = 0.5 * (slice->low + slice->high),
+                 apart = (slice->high - slice->low) / std::sqrt(3.0);
     const double slope = (values.at_second - values.at_first) / apart;
     return std::max(0.0, 0.5 * (values.at_first + values.at_second) + slope * (z - middle));
 }

@@ -43,7 +43,7 @@ class EnclosedRoom {
     // A ray upwards (downwards) from the widest place meets nothing.
     bool open_above() const { return open_above_; }
     bool open_below() const { return open_below_; }
-    // m, the middle of the largest piece of the widest level section.
+    // m, in it, and far from the surface.
     const Vec3& widest_place() const { return widest_; }
 
   private:

@@ -50,16 +50,17 @@ void Surface::find_neighbours() {
         if (cosine > 0 && n.cross(m).squaredNorm() < flat_angle * flat_angle) return Neighbour::Turn::flat;
         if (cosine > smooth_cosine) return Neighbour::Turn::smooth;
         const Vec3 beyond = corner(there, (other + 2) % 3) - corner(there, other % 3);
-        return n.dot(beyond) > flat_angle * beyond.norm() ? Neighbour::Turn::concave : Neighbour::Turn::convex;
+        return n.dot(beyond) > flat_angle * beyond.norm() ? Neighbour::Turn::concave
+                                                          : Neighbour::Turn::convex;
     };
     EdgeTable(mesh_).each([&](std::int32_t, std::span<const EdgeSide> sides) {
         if (sides.size() != 2) return;
         const std::int32_t a = sides[0].side, b = sides[1].side;
         const bool flips = begin_of(mesh_, a) == begin_of(mesh_, b);
-        neighbours_[static_cast<std::size_t>(a / 3)][static_cast<std::size_t>(a % 3)] = {b / 3, turn(a, b, flips),
-                                                                                         flips};
-        neighbours_[static_cast<std::size_t>(b / 3)][static_cast<std::size_t>(b % 3)] = {a / 3, turn(b, a, flips),
-                                                                                         flips};
+        neighbours_[static_cast<std::size_t>(a / 3)][static_cast<std::size_t>(a % 3)] = {
+            b / 3, turn(a, b, flips), flips};
+        neighbours_[static_cast<std::size_t>(b / 3)][static_cast<std::size_t>(b % 3)] = {
+            a / 3, turn(b, a, flips), flips};
     });
 }
 

@@ -40,7 +40,8 @@ void Surface::build_tree() {
         const std::int32_t half = size / 2;
         const auto begin = items.begin() + first;
         std::nth_element(begin, begin + half, begin + size, [axis](const Item& a, const Item& b) {
-            return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.triangle < b.triangle;
+            return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis]
+                                                    : a.triangle < b.triangle;
         });
         nodes_[n] = {{}, static_cast<std::int32_t>(nodes_.size()), 0};
         nodes_.push_back({{}, first, half});
@@ -65,12 +66,13 @@ NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     for (std::size_t k = 0; k < 3; ++k) corners[k] = &mesh_.vertices[static_cast<std::size_t>(numbers[k])];
     const Vec3& n = normal(triangle);
     NearestPoint best{point, -1, Feature::face};
-    // Where the foot of the perpendicular is outside, the nearest point lies on an edge that the foot is outside
-    // of. No quotient of areas is formed: they say nothing on slender triangles.
+    // Where the foot of the perpendicular is outside, the nearest point lies on an edge that the foot is
+    // outside of. No quotient of areas is formed: they say nothing on slender triangles.
     for (std::size_t e = 0; e < 3; ++e) {
         const std::size_t f = e == 2 ? 0 : e + 1;
         if (!(n.dot((*corners[f] - *corners[e]).cross(point - *corners[e])) < 0)) continue;
-        const bool back = numbers[e] > numbers[f];  // from the lower number, so that both neighbours find the same
+        const bool back =
+            numbers[e] > numbers[f];  // from the lower number, so that both neighbours find the same
         const Vec3 &begin = *corners[back ? f : e], &end = *corners[back ? e : f];
         const Vec3 along = end - begin;
         const double t = along.dot(point - begin) / along.squaredNorm();
@@ -92,8 +94,8 @@ NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     return {point - distance * n, distance * distance, Feature::face};
 }
 
-// Calls within(triangle, its nearest point) for all triangles not farther than the reach, which it may shorten by
-// what it returns: the new square of the reach (m2); below zero it ends.
+// Calls within(triangle, its nearest point) for all triangles not farther than the reach, which it may
+// shorten by what it returns: the new square of the reach (m2); below zero it ends.
 template <class Within>
 void Surface::visit(const Vec3& point, double squared_reach, Within&& within) const {
     if (nodes_.empty() || !(nodes_[0].box.squaredExteriorDistance(point) <= squared_reach)) return;
@@ -115,7 +117,8 @@ void Surface::visit(const Vec3& point, double squared_reach, Within&& within) co
             if (squared_reach < 0) return;
         }
         if (node.count > 0) continue;
-        Waiting near{node.first, nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point)};
+        Waiting near{node.first,
+                     nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point)};
         Waiting far{node.first + 1,
                     nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(point)};
         if (far.squared < near.squared) std::swap(near, far);

@@ -6,8 +6,8 @@
 namespace grainreel {
 namespace {
 
-// Vertices by cells, hashed. A cell is eight reaches wide: most vertices look into one or two of them, and no cell
-// can have many that are not joined.
+// Vertices by cells, hashed. A cell is eight reaches wide: most vertices look into one or two of them, and no
+// cell can have many that are not joined.
 class Cells {
   public:
     Cells(const Welding& welding, std::size_t count)
@@ -29,7 +29,8 @@ class Cells {
         for (std::int64_t x = low[0]; x <= high[0]; ++x)
             for (std::int64_t y = low[1]; y <= high[1]; ++y)
                 for (std::int64_t z = low[2]; z <= high[2]; ++z)
-                    for (std::int32_t i = heads_[slot(x, y, z)]; i >= 0; i = next_[static_cast<std::size_t>(i)])
+                    for (std::int32_t i = heads_[slot(x, y, z)]; i >= 0;
+                         i = next_[static_cast<std::size_t>(i)])
                         if ((found < 0 || i < found) && fits(i, vertex)) found = i;
         return found;
     }

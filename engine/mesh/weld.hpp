@@ -8,9 +8,9 @@
 
 namespace grainreel {
 
-// Of `vertices`, those named in `which` (all different, rising) that lie within `reach` (m) of an earlier one,
-// and within `fraction` times room[i] of both, are joined with the first such. Gives for each vertex the one
-// that takes its place, itself as a rule. `room` may be empty: then only `reach` counts.
+// Of `vertices`, those named in `which` (all different, rising) that lie within `reach` (m) of an earlier
+// one, and within `fraction` times room[i] of both, are joined with the first such. Gives for each vertex the
+// one that takes its place, itself as a rule. `room` may be empty: then only `reach` counts.
 struct Welding {
     const std::vector<Vec3>& vertices;
     double reach = 0;

@@ -22,7 +22,9 @@ struct Patch {
 class Winder {
   public:
     explicit Winder(TriangleMesh& mesh)
-        : mesh_(mesh), opposite_(3 * mesh.triangles.size(), -1), patch_of_(mesh.triangles.size(), -1),
+        : mesh_(mesh),
+          opposite_(3 * mesh.triangles.size(), -1),
+          patch_of_(mesh.triangles.size(), -1),
           turned_(mesh.triangles.size(), 0) {}
 
     Winding run() {
@@ -77,7 +79,8 @@ class Winder {
         if (!patch.orientable || patch.turned == 0) return;
         const auto count = static_cast<std::int64_t>(patch.triangles.size());
         const bool useless = 4 * std::min(patch.turned, count - patch.turned) > count;
-        const char wanted = patch.closed && useless ? char(six_volumes(patch) > 0) : char(2 * patch.turned <= count);
+        const char wanted =
+            patch.closed && useless ? char(six_volumes(patch) > 0) : char(2 * patch.turned <= count);
         for (const std::int32_t t : patch.triangles)
             if (turned_[index(t)] == wanted) {
                 std::swap(mesh_.triangles[index(t)][1], mesh_.triangles[index(t)][2]);
@@ -91,7 +94,8 @@ class Winder {
         double sum = 0;
         for (const std::int32_t t : patch.triangles) {
             const TriangleMesh::Triangle& corners = mesh_.triangles[index(t)];
-            const Vec3 a = mesh_.vertices[index(corners[0])] - origin, b = mesh_.vertices[index(corners[1])] - origin,
+            const Vec3 a = mesh_.vertices[index(corners[0])] - origin,
+                       b = mesh_.vertices[index(corners[1])] - origin,
                        c = mesh_.vertices[index(corners[2])] - origin;
             sum += (turned_[index(t)] ? -1 : 1) * a.dot(b.cross(c));
         }

@@ -46,10 +46,11 @@ std::string_view first_word(std::string_view bytes) {
     if (bytes.size() < 84)
         refuse_mesh(file, fmt::format("is no mesh: {} bytes that are no text; {}", bytes.size(), known));
     const BinaryStl stl = as_binary_stl(bytes);
-    const std::string sizes =
-        fmt::format("says {} triangles, which take {} bytes; the file has {}", stl.triangles, stl.bytes, bytes.size());
+    const std::string sizes = fmt::format("says {} triangles, which take {} bytes; the file has {}",
+                                          stl.triangles, stl.bytes, bytes.size());
     if (solid) refuse_byte(file, 80, fmt::format("this binary STL {}; export it again", sizes));
-    refuse_byte(file, 80, fmt::format("is no mesh, or a damaged one: as a binary STL it {}; {}", sizes, known));
+    refuse_byte(file, 80,
+                fmt::format("is no mesh, or a damaged one: as a binary STL it {}; {}", sizes, known));
 }
 
 }  // namespace
@@ -69,7 +70,8 @@ const char* name_of(MeshFormat format) {
 }
 
 MeshFormat format_of(const fs::path& file, std::string_view bytes) {
-    if (bytes.size() > 3 && bytes.starts_with("ply") && std::strchr("\r\n \t", bytes[3]) != nullptr && bytes[3] != '\0')
+    if (bytes.size() > 3 && bytes.starts_with("ply") && std::strchr("\r\n \t", bytes[3]) != nullptr &&
+        bytes[3] != '\0')
         return MeshFormat::ply;
     const BinaryStl stl = as_binary_stl(bytes);
     if (stl.bytes == bytes.size()) return MeshFormat::binary_stl;

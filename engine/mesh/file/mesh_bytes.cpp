@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/mesh/shipped/shipped_meshes.hpp"
 
 namespace grainreel {
 namespace {
@@ -51,6 +52,7 @@ struct Open {
 }  // namespace
 
 std::string mesh_bytes(const fs::path& file) {
+    if (const auto shipped = shipped_mesh(file)) return std::string(*shipped);
     check_kind(file);
     const Open open{::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
     struct stat about {};
@@ -58,8 +60,7 @@ std::string mesh_bytes(const fs::path& file) {
         refuse_mesh(file, "cannot be read; check its permissions");
     const auto size = static_cast<std::uint64_t>(about.st_size);
     if (size == 0) refuse_mesh(file, fmt::format("is empty; {}", what_to_give));
-    if (size > largest_mesh_file)
-        refuse_mesh(file, "is larger than 2 GiB; give a mesh of fewer triangles");
+    if (size > largest_mesh_file) refuse_mesh(file, "is larger than 2 GiB; give a mesh of fewer triangles");
     std::string bytes(size, '\0');
     std::size_t done = 0;
     while (done < bytes.size()) {

@@ -1,9 +1,9 @@
 // The readers of mesh files: each takes the bytes and gives vertices and triangles in the file's unit, with
-// polygons cut into triangles from their first corner. Normals, colours, texture and materials are left out: the
-// order of the corners gives the side. All throw UserError with file and line (text) or byte (binary).
+// polygons cut into triangles from their first corner. Normals, colours, texture and materials are left out:
+// the order of the corners gives the side. All throw UserError with file and line (text) or byte (binary).
 //
-// STL: 3D Systems, StereoLithography Interface Specification (1989). OBJ: Wavefront, Advanced Visualizer manual,
-// appendix B1 (1993). PLY: G. Turk, The PLY Polygon File Format (1994).
+// STL: 3D Systems, StereoLithography Interface Specification (1989). OBJ: Wavefront, Advanced Visualizer
+// manual, appendix B1 (1993). PLY: G. Turk, The PLY Polygon File Format (1994).
 #pragma once
 
 #include <filesystem>

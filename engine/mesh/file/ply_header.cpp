@@ -110,12 +110,14 @@ class Header {
     void check_count(const PlyElement& element) const {
         std::size_t bytes = 0;
         for (const PlyProperty& property : element.properties)
-            bytes += header_.form == PlyHeader::Form::ascii ? 2
-                                                            : bytes_of(property.list ? property.count_type : property.type);
+            bytes += header_.form == PlyHeader::Form::ascii
+                         ? 2
+                         : bytes_of(property.list ? property.count_type : property.type);
         if (bytes > 0 && element.count > (header_.body.size() + 1) / bytes)
-            refuse_mesh(file_, fmt::format("the header says {} of element {}, and the file has only {} bytes behind "
-                                           "the header; it is not whole",
-                                           element.count, excerpt(element.name), header_.body.size()));
+            refuse_mesh(file_,
+                        fmt::format("the header says {} of element {}, and the file has only {} bytes behind "
+                                    "the header; it is not whole",
+                                    element.count, excerpt(element.name), header_.body.size()));
     }
 
     const fs::path& file_;

@@ -26,7 +26,8 @@ class Obj {
             else if (word.starts_with('#'))
                 comment_ = true;
             else if (!is_obj_word(word))
-                refuse_line(file_, words_.line(), fmt::format("\"{}\" begins no line of an OBJ file", excerpt(word)));
+                refuse_line(file_, words_.line(),
+                            fmt::format("\"{}\" begins no line of an OBJ file", excerpt(word)));
             to_next_line();
         }
         for (const Later& later : later_) check_index(later.index, later.line);
@@ -82,7 +83,8 @@ class Obj {
             if (corners >= 2) mesh_.triangles.push_back({first, before, corner});
             before = corner;
         }
-        if (corners < 3) refuse_line(file_, line, fmt::format("a face with {} corners; it must have three", corners));
+        if (corners < 3)
+            refuse_line(file_, line, fmt::format("a face with {} corners; it must have three", corners));
     }
 
     // "7", "7/2", "7//3", "7/2/3", "-1": from 1 on, or back from the last vertex so far.

@@ -47,7 +47,9 @@ class AsciiBody {
 class BinaryBody {
   public:
     BinaryBody(const fs::path& file, const PlyHeader& header, std::string_view all)
-        : file_(file), all_(all), at_(all.size() - header.body.size()),
+        : file_(file),
+          all_(all),
+          at_(all.size() - header.body.size()),
           swapped_(header.form == PlyHeader::Form::big_endian) {}
 
     double next(PlyType type) {
@@ -105,7 +107,8 @@ class Ply {
     TriangleMesh read() {
         for (const PlyElement& element : header_.elements) {
             if (element.properties.empty()) continue;
-            const bool vertex = &element == header_.element("vertex"), face = &element == header_.element("face");
+            const bool vertex = &element == header_.element("vertex"),
+                       face = &element == header_.element("face");
             if (vertex) mesh_.vertices.reserve(element.count);
             if (face) mesh_.triangles.reserve(element.count);
             for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -148,7 +151,8 @@ class Ply {
     std::int64_t length(const PlyProperty& list) {
         const double count = body_.next(list.count_type);
         if (!(count >= 0) || count > body_.most(list.type))
-            body_.fail(fmt::format("a list of {:.0f} numbers, which the rest of the file cannot hold", count));
+            body_.fail(
+                fmt::format("a list of {:.0f} numbers, which the rest of the file cannot hold", count));
         return static_cast<std::int64_t>(count);
     }
 
@@ -165,7 +169,8 @@ class Ply {
         for (std::int64_t i = 0; i < count; ++i) {
             const double index = body_.next(list.type);
             if (!(index >= 0 && index < vertices) || index != std::floor(index))
-                body_.fail(fmt::format("a face names vertex {:g}; they are 0 to {:.0f}", index, vertices - 1));
+                body_.fail(
+                    fmt::format("a face names vertex {:g}; they are 0 to {:.0f}", index, vertices - 1));
             const auto corner = static_cast<std::int32_t>(index);
             if (i == 0) first = corner;
             if (i >= 2) mesh_.triangles.push_back({first, before, corner});
@@ -198,7 +203,8 @@ TriangleMesh read_ply(const fs::path& file, std::string_view bytes) {
             refuse_mesh(file, fmt::format("the vertices of this PLY file have no property {}", name));
     if (face == nullptr) refuse_mesh(file, "this PLY file has no element face; write triangles or polygons");
     const std::size_t corners = corners_of(*face);
-    if (corners == PlyElement::npos) refuse_mesh(file, "the faces of this PLY file have no list vertex_indices");
+    if (corners == PlyElement::npos)
+        refuse_mesh(file, "the faces of this PLY file have no list vertex_indices");
     if (header.form == PlyHeader::Form::ascii)
         return Ply<AsciiBody>(header, corners, AsciiBody(file, header)).read();
     return Ply<BinaryBody>(header, corners, BinaryBody(file, header, bytes)).read();

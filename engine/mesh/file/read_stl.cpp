@@ -45,8 +45,10 @@ class AsciiStl {
 
     [[noreturn]] void unexpected(std::string_view word, const char* wanted) {
         if (word.empty())
-            refuse_line(file_, words_.line(), fmt::format("the file ends within a facet, where \"{}\" must stand", wanted));
-        refuse_line(file_, words_.line(), fmt::format("\"{}\" where \"{}\" must stand", excerpt(word), wanted));
+            refuse_line(file_, words_.line(),
+                        fmt::format("the file ends within a facet, where \"{}\" must stand", wanted));
+        refuse_line(file_, words_.line(),
+                    fmt::format("\"{}\" where \"{}\" must stand", excerpt(word), wanted));
     }
     void expect(const char* wanted) {
         const std::string_view word = words_.next();

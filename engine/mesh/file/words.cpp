@@ -100,7 +100,8 @@ std::string no_number(std::string_view word) {
 }
 
 std::string too_far(double coordinate) {
-    return fmt::format("a coordinate of {:g}; the largest that is taken is {:g}", coordinate, largest_coordinate);
+    return fmt::format("a coordinate of {:g}; the largest that is taken is {:g}", coordinate,
+                       largest_coordinate);
 }
 
 }  // namespace grainreel
