@@ -56,7 +56,7 @@ std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
     const Vec3 offset = s.frame.container().place;
     LargeArray<Place> places = places_of_all(s);
     for (Place& one : places) one.position -= Vec3(offset.x(), offset.y(), 0);
-    const Surface surface = surface_of(std::span<const Place>(places.data(), places.size()), frame);
+    const BedOutline surface = surface_of(std::span<const Place>(places.data(), places.size()), frame);
     std::vector<double> depths;
     for (const std::size_t i : grains) {
         const double bin = std::floor((s.frame.position[i].y() - offset.y() - surface.left) / surface.bin);
