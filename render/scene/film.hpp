@@ -65,6 +65,7 @@ struct Camera {
     double elevation = 10;  // degrees above the horizon
     double field_of_view = 25;         // degrees, vertical; 0 for orthographic
     double zoom = 1;                   // over the automatic framing
+    Vec3 up{0, 0, 1};                  // unit; against gravity where that is level. Azimuth is about it
     bool follow = false;               // true: the container's own frame, false: the lab's
     std::optional<Vec3> position;      // m, in place of azimuth, elevation and automatic framing
     std::optional<Vec3> target;        // m, the middle of the picture; the container's when empty

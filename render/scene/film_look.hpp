@@ -1,6 +1,9 @@
 // How the pictures of the film are lit, and where the bed is opened.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "engine/base/vector.hpp"
 
 namespace grainreel {
@@ -15,6 +18,14 @@ struct FilmCut {
     bool operator==(const FilmCut&) const = default;
 };
 
+// How meshes are drawn.
+struct FilmWalls {
+    double edge_angle = 30;          // degrees; edges whose faces turn more are drawn
+    std::vector<std::string> solid;  // names of meshes that are solid from all sides
+    std::vector<std::string> glass;  // names of meshes that are glass from outside
+    bool operator==(const FilmWalls&) const = default;
+};
+
 struct FilmLook {
     enum class Style { studio, flat, dark };
     Style style = Style::studio;
@@ -23,12 +34,13 @@ struct FilmLook {
     bool ground = true;     // a ground that the container throws its shadow on
     bool rotation = false;  // two-tone grains that show how they turn; needs orientations
     FilmCut cut;
+    FilmWalls walls;
     bool operator==(const FilmLook&) const = default;
 
     // What a style means where nothing else is said.
     static FilmLook of(Style style) {
         const bool lit = style != Style::flat;
-        return {style, lit, lit, lit, false, {}};
+        return {style, lit, lit, lit, false, {}, {}};
     }
 };
 

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
+#include "engine/mesh/shipped/shipped_meshes.hpp"
 
 namespace grainreel {
 namespace {
@@ -51,6 +52,7 @@ struct Open {
 }  // namespace
 
 std::string mesh_bytes(const fs::path& file) {
+    if (const auto shipped = shipped_mesh(file)) return std::string(*shipped);
     check_kind(file);
     const Open open{::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
     struct stat about {};

@@ -37,9 +37,21 @@ struct Side {
 
 }  // namespace
 
-View looking(double azimuth, double elevation) {
+Vec3 front_of(const Vec3& up) {
+    const Vec3 front = std::abs(up.z()) < 0.5 ? Vec3::UnitZ() : Vec3::UnitX();
+    return (front - front.dot(up) * up).normalized();
+}
+
+View looking(double azimuth, double elevation, const Vec3& up) {
     const double a = azimuth * degrees, e = elevation * degrees;
     View view;
+    if (up != Vec3(0, 0, 1)) {
+        const Vec3 front = front_of(up), aside = up.cross(front);
+        view.forward = -(std::cos(e) * (std::cos(a) * front + std::sin(a) * aside) + std::sin(e) * up);
+        view.right = -std::sin(a) * front + std::cos(a) * aside;
+        view.up = view.right.cross(view.forward);
+        return view;
+    }
     view.forward = -Vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
     view.right = Vec3(-std::sin(a), std::cos(a), 0);
     view.up = view.right.cross(view.forward);
@@ -84,7 +96,7 @@ double Framing::focal() const {
 
 View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Rectangle& port, double margin,
               int picture_height) {
-    View view = looking(camera.azimuth, camera.elevation);
+    View view = looking(camera.azimuth, camera.elevation, camera.up);
     view.port = port;
     view.orthographic = camera.field_of_view <= 0;
 

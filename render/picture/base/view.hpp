@@ -40,8 +40,11 @@ struct View {
     }
 };
 
-// Directions only: azimuth and elevation in degrees, as in Camera.
-View looking(double azimuth, double elevation);
+// Directions only: azimuth and elevation in degrees and the upward direction (unit), as in Camera.
+View looking(double azimuth, double elevation, const Vec3& up = Vec3(0, 0, 1));
+
+// The direction towards the eye at azimuth and elevation 0: along x, or z where up is across that.
+Vec3 front_of(const Vec3& up);
 
 // Pixels a unit of x/z that the camera's field of view means, zoom left out; 1 for an orthographic camera.
 double focal_length(const Camera& camera, int picture_height);

@@ -14,7 +14,8 @@ SpherePainter::SpherePainter(const FilmedScene& scene, int width, int height, Te
       team_(team),
       layer_(width, height),
       look_(scene.film.look),
-      lamp_(lamp_of(look_, scene.film.shows.colour.of_grains())) {
+      lamp_(lamp_of(look_, scene.film.shows.colour.of_grains())),
+      up_(scene.film.camera.up) {
     if (!ghosts) return;
     painted_.resize(scene.species.size(), 0);
     for (const std::size_t species : scene.film.shows.ghosts) painted_[species] = 1;
@@ -23,9 +24,9 @@ SpherePainter::SpherePainter(const FilmedScene& scene, int width, int height, Te
 void SpherePainter::take(const View& view, const Frame& frame) {
     sight_ = {view.orthographic, static_cast<float>(view.focal), 0.5f * static_cast<float>(view.port.width),
               0.5f * static_cast<float>(view.port.height)};
-    lamp_.up[0] = static_cast<float>(view.right.z());
-    lamp_.up[1] = static_cast<float>(view.up.z());
-    lamp_.up[2] = static_cast<float>(view.forward.z());
+    lamp_.up[0] = static_cast<float>(view.right.dot(up_));
+    lamp_.up[1] = static_cast<float>(view.up.dot(up_));
+    lamp_.up[2] = static_cast<float>(view.forward.dot(up_));
     spheres_.spheres.resize(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Vec3 at = view.to_view(frame.position[i]);
@@ -82,8 +83,8 @@ void SpherePainter::mark_painted(const Frame& frame) {
                 : !std::binary_search(not_painted_.begin(), not_painted_.end(), frame.id[i]));
 }
 
-void SpherePainter::find_visible() {
-    layer_.find_visible(sight_, cut_, spheres_, team_);
+void SpherePainter::find_visible(const SolidDepth& solid) {
+    layer_.find_visible(sight_, cut_, spheres_, team_, solid);
 }
 
 void SpherePainter::find_order(const View& view, const ContainerShapes& walls) {

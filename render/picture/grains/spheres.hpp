@@ -28,7 +28,11 @@ class SpherePainter {
 
     // One after the other.
     void take(const View& view, const Frame& frame);
-    void find_visible();
+    void find_visible(const SolidDepth& solid = {});
+    // Of the frame that is taken.
+    const Sight& sight() const { return sight_; }
+    const Cut& cut() const { return cut_; }
+    const Visibility& visibility() const { return layer_.visibility(); }
     // Walls as they were painted behind and before the grains.
     void find_order(const View& view, const ContainerShapes& walls);
     void find_neighbours();
@@ -54,6 +58,7 @@ class SpherePainter {
     Sight sight_;
     Cut cut_;
     Lamp lamp_;
+    const Vec3 up_;
 };
 
 }  // namespace grainreel

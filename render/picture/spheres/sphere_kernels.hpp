@@ -37,7 +37,7 @@ struct alignas(64) EdgeBlock {
 };
 
 // A grain near another one, from whose centre x, y, z are counted.
-struct Neighbour {
+struct NearGrain {
     float x, y, z, radius;
     float inverse_radius, square;  // 1/m, m2
     float weight;                  // 0 to 1: fades out at the end of its reach
@@ -45,7 +45,7 @@ struct Neighbour {
 };
 
 struct NeighbourSpan {
-    const Neighbour* first = nullptr;
+    const NearGrain* first = nullptr;
     int count = 0;
 };
 

@@ -101,18 +101,31 @@ bool Visibility::hidden(Worker& worker, int band, const PixelBox& box, float nea
     return true;
 }
 
+// Of the band's first pixel. Without anything solid depths are forgotten with the band.
+float* Visibility::depth_of_band(int band, Worker& worker, const SolidDepth& solid) {
+    if (!solid.away) {
+        worker.depth.assign(kBand * stride_, kNothing);
+        return worker.depth.data() + kPad;
+    }
+    const int y0 = band * kBand;
+    float* first = depth_.data() + static_cast<std::size_t>(y0) * stride_ + kPad;
+    for (int y = y0; y < std::min(height_, y0 + kBand); ++y)
+        std::copy_n(solid.away + static_cast<std::size_t>(y) * solid.stride, width_,
+                    first + static_cast<std::size_t>(y - y0) * stride_);
+    return first;
+}
+
 void Visibility::draw_band(int band, Worker& worker, const Sight& sight, const Cut& cut,
-                           const std::vector<ViewSphere>& spheres) {
+                           const std::vector<ViewSphere>& spheres, const SolidDepth& solid) {
     const int y0 = band * kBand, y1 = std::min(height_, y0 + kBand);
     const std::size_t first = static_cast<std::size_t>(y0) * stride_ + kPad;
     std::fill_n(seen_.begin() + static_cast<std::ptrdiff_t>(first - kPad), (y1 - y0) * stride_, 0u);
-    if (band_[band].empty()) return;
-    worker.depth.assign(kBand * stride_, kNothing);
+    if (band_[band].empty() && !solid.away) return;
+    float* depth = depth_of_band(band, worker, solid);
     const std::size_t tiles = static_cast<std::size_t>(width_) / kTile + 1;
     worker.far.assign(tiles, kNothing);
     worker.drawn.assign(tiles, 0);
-    const DepthRows rows{slope_x_.data() + kPad, worker.depth.data() + kPad, seen_.data() + first, stride_,
-                         y0};
+    const DepthRows rows{slope_x_.data() + kPad, depth, seen_.data() + first, stride_, y0};
     for (const std::uint32_t i : band_[band]) {
         PixelBox box = box_[i];
         box.y0 = std::max(box.y0, y0);
@@ -150,7 +163,8 @@ void Visibility::collect_shown(std::size_t count) {
 }
 
 void Visibility::update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres,
-                        Team& team) {
+                        Team& team, const SolidDepth& solid) {
+    if (solid.away) depth_.resize(seen_.size(), kNothing);
     for (std::size_t x = 0; x < stride_; ++x)
         slope_x_[x] = sight.slope_x(static_cast<float>(static_cast<int>(x) - kPad) + 0.5f);
     place(sight, cut, spheres, team);
@@ -163,7 +177,7 @@ void Visibility::update(const Sight& sight, const Cut& cut, const std::vector<Vi
         worker.seen_in.assign(spheres.size(), 0);
         worker.shown.clear();
         for (int band; (band = next.fetch_add(1, std::memory_order_relaxed)) < bands();)
-            draw_band(band, worker, sight, cut, spheres);
+            draw_band(band, worker, sight, cut, spheres, solid);
     });
     collect_shown(spheres.size());
 }

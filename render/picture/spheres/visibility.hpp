@@ -5,6 +5,7 @@
 // measurements.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,19 +15,32 @@
 
 namespace grainreel {
 
+// What stands before grains: z in the middle of each pixel, infinite where there is nothing; m. Rows of `stride` numbers.
+struct SolidDepth {
+    const float* away = nullptr;  // null: nothing anywhere
+    std::size_t stride = 0;
+};
+
 class Visibility {
   public:
     // Pixels, >= 1.
     Visibility(int width, int height);
 
-    // Numbers are indices + 1. The team's size does not show in the result.
-    void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team);
+    // Numbers are indices + 1. The team's size does not show in the result. With something solid, grains are seen
+    // only where they are nearer than that, and depths are kept.
+    void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team,
+                const SolidDepth& solid = {});
 
     // Of a row from the top: number of the grain seen, or 0. One pixel before the first and 16 after the last
     // may be read; those next to the row repeat its ends.
     const std::uint32_t* row(int y) const {
         return seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
     }
+    // m, of a row: z of what is seen in the middle of each pixel, grain or solid. Only with something solid.
+    const float* depth(int y) const {
+        return depth_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
+    }
+    std::size_t stride() const { return stride_; }  // from row to row
     // Indices of the grains that are seen at all, rising.
     const std::vector<std::uint32_t>& shown() const { return shown_; }
     // The pixels that a sphere covers, of this picture.
@@ -53,7 +67,8 @@ class Visibility {
     void sort_nearest_first(const std::vector<ViewSphere>& spheres);
     void fill_bands();
     void draw_band(int band, Worker& worker, const Sight& sight, const Cut& cut,
-                   const std::vector<ViewSphere>& spheres);
+                   const std::vector<ViewSphere>& spheres, const SolidDepth& solid);
+    float* depth_of_band(int band, Worker& worker, const SolidDepth& solid);
     bool hidden(Worker& worker, int band, const PixelBox& box, float nearest, const struct DepthRows& rows);
     void note_shown(int band, Worker& worker);
     void collect_shown(std::size_t count);
@@ -62,6 +77,7 @@ class Visibility {
     const int width_, height_;
     const std::size_t stride_;
     std::vector<std::uint32_t> seen_;
+    std::vector<float> depth_;  // empty unless something solid was given
     std::vector<float> slope_x_;
     std::vector<PixelBox> box_;
     std::vector<std::uint32_t> order_;

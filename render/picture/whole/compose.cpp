@@ -23,10 +23,12 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
             std::fill_n(out, port.width, layers.background);
             if (layers.ground) layers.ground->shade(y, out);
             lay_row(layers.behind, y, out);
+            if (layers.meshes_behind) lay_row(*layers.meshes_behind, y, out);
             const std::uint32_t strength =
                 layers.strengths.empty() ? 255 : layers.strengths[static_cast<std::size_t>(y)];
             lay_row(layers.grains, y, out, strength);
             if (layers.ghosts) lay_row(*layers.ghosts, y, out, kGhost * strength / 255);
+            if (layers.meshes_before) lay_row(*layers.meshes_before, y, out);
             lay_row(layers.before, y, out);
             if (layers.marks) lay_row(*layers.marks, y, out);
         }

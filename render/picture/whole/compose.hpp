@@ -17,8 +17,10 @@ struct Layers {
     std::uint32_t background;
     const Ground* ground;  // may be null
     const Layer& behind;
+    const Layer* meshes_behind;  // over `behind`; may be null
     const Layer& grains;
     const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
+    const Layer* meshes_before;  // under `before`; may be null
     const Layer& before;
     const Layer* marks;                           // over all others; may be null
     const std::vector<std::uint32_t>& strengths;  // of grains, 0 to 255, by row; empty: full

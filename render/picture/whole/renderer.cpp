@@ -16,6 +16,7 @@
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/grains/spheres.hpp"
 #include "render/picture/marks/marks.hpp"
+#include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/spheres/pixel.hpp"
 #include "render/picture/whole/compose.hpp"
 #include "render/picture/whole/exposure.hpp"
@@ -73,15 +74,17 @@ struct Renderer::Impl {
           shown(s, s.film.shows.hidden),
           solid(s, s.film.shows.ghosts),
           beside_cut(ShownGrains::beside_cut(s)),
+          meshes(s),
           marks(scene, palette),
           sphere_painter(s, port.width, port.height, team, false),
           words(s.film.width, s.film.height) {
         if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
         // What grains fall through is no ground.
-        const bool falls_through = s.container.outlet && !s.container.tray;
-        if (s.film.look.ground && !s.film.transparent && s.container.shape != Container::Shape::none &&
-            !falls_through)
+        const bool falls_through = (s.container.outlet && !s.container.tray) || !s.exits.empty();
+        const bool stands = s.container.shape != Container::Shape::none && s.film.camera.up == Vec3(0, 0, 1);
+        if (s.film.look.ground && !s.film.transparent && stands && !falls_through)
             ground.emplace(scene, port);
+        if (meshes.any()) mesh_painter.emplace(port.width, port.height);
     }
 
     // What is deleted belongs to the context that is current.
@@ -109,6 +112,9 @@ struct Renderer::Impl {
     Team team;
     // Of all: those that are not hidden; of these: those that are not ghosts, and those that marks go by.
     ShownGrains shown, solid, beside_cut;
+    SceneMeshes meshes;
+    MeshProjection mesh_projection;
+    std::optional<MeshPainter> mesh_painter;  // where there are meshes
     Marks marks;
     SpherePainter sphere_painter;
     std::optional<SpherePainter> ghost_painter;
@@ -126,7 +132,9 @@ struct Renderer::Impl {
     void draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch);
     void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
                      Stopwatch& watch);
-    const Layer& draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const;
+    const Layer& draw_grains(SpherePainter& painter, Stopwatch& watch);
+    void draw_solid_meshes(const Frame& frame, Stopwatch& watch);
+    void draw_other_meshes(Stopwatch& watch);
     const Layer* draw_before();
     void start_from(const Frame& frame);
     void point_out(PointedOut what);
@@ -208,7 +216,7 @@ void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture&
 void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
                                  Picture& into, Stopwatch& watch) {
     const Frame& frame = exaggeration.shown(true_frame);
-    eye = scene.film.camera.follow ? view.moved_by(frame.container().place) : view;
+    eye = scene.film.camera.follow ? view.moved_by(way_of_container(scene, frame)) : view;
     const Frame& all = shown.of(frame);
     const Frame& opaque = ghost_painter ? solid.of(all) : all;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
@@ -217,8 +225,13 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::shadow);
     const Layer& walls_behind = behind.draw(shape_painter, shapes.behind.shapes);
     watch.lap(&DrawTimes::walls);
-    const Layer& grains = draw_grains(sphere_painter, opaque, watch);
-    const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, all, watch) : nullptr;
+    sphere_painter.take(eye, opaque);
+    watch.lap(&DrawTimes::upload);
+    if (mesh_painter) draw_solid_meshes(frame, watch);
+    const Layer& grains = draw_grains(sphere_painter, watch);
+    if (mesh_painter) draw_other_meshes(watch);
+    if (ghost_painter) ghost_painter->take(eye, all);
+    const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, watch) : nullptr;
     const SpherePainter& of_all = ghost_painter ? *ghost_painter : sphere_painter;
     const auto seen = [&](std::size_t i) { return marked ? 1 : of_all.seen_share(beside_cut.place(i)); };
     marks.draw(eye, marked ? *marked : to_be_marked(all), seen, shapes.over);
@@ -226,7 +239,9 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
                       palette, std::max(1.0, scene.film.height / 540.0), shapes.over);
     const Layer* marked_alone = draw_before();
     compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
-             walls_behind, grains, ghosts, before.layer(), marked_alone, exit_fade(scene, eye, port.height)},
+             walls_behind, mesh_painter ? &mesh_painter->behind() : nullptr, grains, ghosts,
+             mesh_painter ? &mesh_painter->before() : nullptr, before.layer(), marked_alone,
+             exit_fade(scene, eye, port.height)},
             port, into, team);
     for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();
@@ -252,10 +267,22 @@ const Layer* Renderer::Impl::draw_before() {
     return &marks_alone->draw(shape_painter, shapes.over);
 }
 
-const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, const Frame& frame, Stopwatch& watch) const {
-    painter.take(eye, frame);
-    watch.lap(&DrawTimes::upload);
-    painter.find_visible();
+void Renderer::Impl::draw_solid_meshes(const Frame& frame, Stopwatch& watch) {
+    const MeshPaints paints = mesh_paints(palette, scene.film.camera.up, scene.film.height);
+    mesh_projection.take(eye, sphere_painter.sight(), sphere_painter.cut(), meshes.at(frame), paints, team);
+    mesh_painter->draw_solid(mesh_projection, sphere_painter.sight(), team);
+    watch.lap(&DrawTimes::walls);
+}
+
+void Renderer::Impl::draw_other_meshes(Stopwatch& watch) {
+    mesh_painter->draw_rest(mesh_projection, sphere_painter.sight(), sphere_painter.visibility(),
+                            mesh_inks(palette), team);
+    watch.lap(&DrawTimes::walls);
+}
+
+// Of those that have been taken.
+const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, Stopwatch& watch) {
+    painter.find_visible(mesh_painter ? mesh_painter->depth() : SolidDepth());
     painter.find_order(eye, shapes);
     watch.lap(&DrawTimes::spheres);
     painter.find_neighbours();

@@ -1,6 +1,8 @@
 // The keys of [film.camera] and [[film.camera.key]]: where the camera stands and how it moves.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/base/decimals.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -27,6 +29,14 @@ const char* without_reach(const Camera& camera) {
 
 const char* without_orbit(const Camera& camera) {
     return camera.orbit == 0 ? "without 'orbit' nothing turns" : nullptr;
+}
+
+// A drum that lies has its gravity across z.
+Vec3 usual_up(const Scene& scene) {
+    constexpr double kLevel = 0.1;
+    const double gravity = scene.gravity.norm();
+    if (gravity <= 0 || std::abs(scene.gravity.z()) > kLevel * gravity) return {0, 0, 1};
+    return -scene.gravity / gravity;
 }
 
 enum Place { of_position, of_frame, of_angles };  // in the written scene
@@ -65,6 +75,10 @@ const KeyTable<Camera>& camera_table() {
             .read_at(-2),
         vector("target", &C::target, Dimension::length, note("the container's middle"),
                "The middle of the picture, and what an orbit turns about."),
+        vector("up", &C::up, Dimension::number, note("[0, 0, 1]; against gravity where that is level"),
+               "The picture's upward direction; azimuth is about it.")
+            .usually([](C& camera, const Scene& scene) { camera.up = usual_up(scene); })
+            .unwritten_if([](const C& camera) { return camera.up == Vec3(0, 0, 1); }),
         quantity("orbit", &C::orbit, Dimension::degrees, any, initial(),
                  "Turned about the vertical through the target; negative to the left.")
             .unwritten_if(without_orbit)
@@ -130,6 +144,9 @@ void read_camera(Document& document, FilmedScene& scene) {
     if (document.has("film.camera.key"))
         document.refuse("film.camera.orbit", "the camera goes by its keys; let their azimuth turn");
     camera_table().read(document, scene, "film.camera", camera);
+    if (camera.up.norm() < 1e-9)
+        document.fail("film.camera.up", "has no direction; write for example [0, 0, 1]");
+    if (document.has("film.camera.up")) camera.up.normalize();
     if (const char* reason = beside_position(camera)) document.refuse("film.camera.key", reason);
     check_field_of_view(document, camera);
     read_moments(document, scene, camera);

@@ -22,6 +22,11 @@ void read_look(Document& document, FilmedScene& scene);
 void write_look(SceneText& out, const FilmedScene& scene);
 void write_cut(SceneText& out, const FilmedScene& scene);
 
+// How meshes are drawn.
+void list_film_walls(keys::Keys& all);
+void read_film_walls(Document& document, FilmedScene& scene);
+void write_film_walls(SceneText& out, const FilmedScene& scene);
+
 // What is hidden, ringed and written beside the grains; and with what has tables of its own.
 void list_marks(keys::Keys& all);
 void list_shows(keys::Keys& all);

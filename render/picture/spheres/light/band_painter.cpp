@@ -213,7 +213,7 @@ NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, c
     const float spread = 0.5f * (high - low).norm() + room;
     near_.clear();
     for (int i = 0; i < all.count; ++i) {
-        const Neighbour& n = all.first[i];
+        const NearGrain& n = all.first[i];
         const float beside = (Eigen::Vector2f(n.x, n.y) - middle).norm();
         if (beside < spread + (1 + Neighbourhood::kReach) * n.radius && n.z < 0.5f * own.radius + n.radius)
             near_.push_back(n);

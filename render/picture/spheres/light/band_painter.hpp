@@ -72,7 +72,7 @@ class BandPainter {
     int block_x_[kPointBlock] = {}, block_y_[kPointBlock] = {};
     int block_size_ = 0;
     std::vector<float> x_, y_, red_, green_, blue_;
-    std::vector<Neighbour> near_;
+    std::vector<NearGrain> near_;
 };
 
 }  // namespace grainreel

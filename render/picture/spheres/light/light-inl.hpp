@@ -52,7 +52,7 @@ HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const 
 HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours) {
     F open(1);
     for (int i = 0; i < neighbours.count; ++i) {
-        const Neighbour& n = neighbours.first[i];
+        const NearGrain& n = neighbours.first[i];
         const Triple<F> to{F(n.x) - point.at.x, F(n.y) - point.at.y, F(n.z) - point.at.z};
         const F rise = point.normal.dot(to);
         if (none(rise > F(-n.radius))) continue;  // below the horizon
@@ -74,7 +74,7 @@ HWY_INLINE F unshadowed(const SurfacePoint& point, const Lamp& lamp, const Neigh
     F lit(1);
     const Triple<F> key{F(lamp.to_key[0]), F(lamp.to_key[1]), F(lamp.to_key[2])};
     for (int i = 0; i < neighbours.count; ++i) {
-        const Neighbour& n = neighbours.first[i];
+        const NearGrain& n = neighbours.first[i];
         const Triple<F> to{F(n.x) - point.at.x, F(n.y) - point.at.y, F(n.z) - point.at.z};
         const F ahead = to.dot(key);
         const F beside = less_product(to.squared(), ahead, ahead);  // squared distance from the light's way

@@ -11,7 +11,7 @@ constexpr std::size_t kMostCasters = 24;
 // Neighbours stand for what is farther away, too.
 constexpr float kFarther = 1.3f;
 
-Neighbour neighbour(const ViewSphere& own, const ViewSphere& other, float weight) {
+NearGrain neighbour(const ViewSphere& own, const ViewSphere& other, float weight) {
     return {other.x - own.x, other.y - own.y,  other.z - own.z,
             other.radius,    1 / other.radius, other.radius * other.radius,
             weight};

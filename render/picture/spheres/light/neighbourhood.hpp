@@ -31,7 +31,7 @@ class Neighbourhood {
         std::size_t first = 0;
     };
     struct Pool {
-        std::vector<Neighbour> all;
+        std::vector<NearGrain> all;
         std::vector<std::uint32_t> found;
         std::vector<std::uint64_t> met_by;  // of each grain: the number of the last search that came by it
         std::uint64_t search = 0;

@@ -8,8 +8,9 @@
 
 namespace grainreel {
 
-void SphereLayer::find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team) {
-    visibility_.update(sight, cut, spheres.spheres, team);
+void SphereLayer::find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team,
+                               const SolidDepth& solid) {
+    visibility_.update(sight, cut, spheres.spheres, team, solid);
 }
 
 void SphereLayer::find_order(const Sight& sight, const Cut& cut, const Spheres& spheres,

@@ -28,7 +28,8 @@ class SphereLayer {
     SphereLayer(int width, int height) : visibility_(width, height), layer_(width, height) {}
 
     // One after the other. The team's size does not show in the picture.
-    void find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team);
+    void find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team,
+                      const SolidDepth& solid = {});
     // Faces in view coordinates.
     void find_order(const Sight& sight, const Cut& cut, const Spheres& spheres,
                     const std::vector<WallFace>& faces, Team& team);

@@ -1,0 +1,103 @@
+// Two layers of meshes, one to be laid under the grains and one over them, pixel by pixel in the right order.
+//
+// First what is solid: four samples a pixel. Where it stands before grains, these are not drawn at all
+// (Visibility takes its depth). Where the outlines of both meet, the share of a pixel that stands before the
+// grain goes into the layer over the grains. Then glass, thinly laid over whatever is behind it, and lines
+// along edges, which are seen unless a solid plane is before them. Rows are worked on in bands; the team's size does not
+// show in the picture.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/team.hpp"
+#include "render/picture/mesh/mesh_projection.hpp"
+#include "render/picture/spheres/layer.hpp"
+#include "render/picture/spheres/row_bits.hpp"
+#include "render/picture/spheres/visibility.hpp"
+
+namespace grainreel {
+
+class MeshPainter {
+  public:
+    MeshPainter(int width, int height);
+
+    // sRGB, 0 to 255.
+    struct Inks {
+        std::array<float, 3> glass{}, line{};
+    };
+
+    // One after the other. What is solid:
+    void draw_solid(const MeshProjection& meshes, const Sight& sight, Team& team);
+    // m, z in the middle of each pixel.
+    SolidDepth depth() const { return {away_.data(), stride_}; }
+    // What depends on the grains, which `seen` knows; it was made with depth().
+    void draw_rest(const MeshProjection& meshes, const Sight& sight, const Visibility& seen,
+                   const Inks& inks, Team& team);
+
+    const Layer& behind() const { return behind_; }
+    const Layer& before() const { return before_; }
+
+  private:
+    static constexpr int kBand = MeshProjection::kBand;
+    // Samples of one pixel that are not alike: those nearer, and those farther away by a step.
+    struct Mixed {
+        int x, y;
+        std::uint32_t near, far;      // colours, multiplied by the share of the samples
+        float near_away, far_away;    // m, z
+    };
+    // Columns that something is drawn in; high end excluded.
+    struct Columns {
+        int x0 = 0, x1 = 0;
+        bool empty() const { return x0 >= x1; }
+        void take(int low, int high) {
+            *this = empty() ? Columns{low, high} : Columns{std::min(x0, low), std::max(x1, high)};
+        }
+    };
+    struct BandState {
+        Columns solid, over;  // as last drawn
+        std::vector<Mixed> mixed;
+    };
+    // Rows of a band, of one thread.
+    struct Worker {
+        std::vector<float> near[kMeshSamples], near_middle;
+        std::vector<std::uint32_t> colour[kMeshSamples];
+        std::vector<std::uint32_t> row;
+        std::vector<float> glass;
+        std::vector<std::uint8_t> line_behind, line_before;
+        std::vector<std::uint64_t> bits;
+        RowBits edges;
+    };
+    struct Job {
+        const MeshProjection& meshes;
+        const Sight& sight;
+        const Visibility& seen;
+        const Inks& inks;
+    };
+
+    void draw_solid_band(int band, const MeshProjection& meshes, const Sight& sight, Worker& worker);
+    void take_mixed(int y, const MeshRows& rows, const Columns& columns, const Sight& sight, float apart,
+                    const Worker& worker, std::vector<Mixed>& mixed);
+    void draw_rest_band(int band, const Job& job, Worker& worker);
+    void draw_line(const ScreenLine& line, int y0, int y1, const Job& job, Worker& worker) const;
+    bool hidden_by_solid(const Eigen::Vector3f& at, int x, int y, const Job& job) const;
+    // m, z of the grain seen in a pixel, or else beside it; infinite where there is none.
+    static float grain_depth(const Visibility& seen, int x, int y);
+    void bring_forward(int y, const Job& job, Worker& worker, const Columns& columns);
+    void split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker);
+    void lay_glass_and_lines(int y, const Columns& columns, const Inks& inks, Worker& worker);
+    std::size_t place(int x, int y) const { return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x); }
+    int bands() const { return (height_ + kBand - 1) / kBand; }
+
+    const int width_, height_;
+    const std::size_t stride_;
+    Layer behind_, before_;
+    std::vector<float> away_;           // rows of `stride_`
+    std::vector<std::uint32_t> number_;  // of the solid triangle seen in the pixel's middle, or 0
+    std::vector<BandState> states_;
+    std::vector<Worker> workers_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,208 @@
+#include "render/picture/mesh/mesh_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/picture/spheres/light/lamp.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr float kKeyShare = 0.62f;  // of the light on walls; the sky gives the rest
+
+// Lines: what share of a main line's width, and how strong.
+constexpr float kFeatureWidth = 0.8f, kOutlineWidth = 1;
+constexpr float kSolidLine = 0.85f, kGlassLine = 0.42f, kOutline = 0.7f;
+// An edge becomes one of glass while its last solid face turns edge-on; the sine of the angle that this takes.
+constexpr float kFade = 0.14f;
+
+// More of the pane is in the way where it is seen at a slant.
+float panes_seen(float cosine) {
+    const float slant = 1 - cosine;
+    return 1 + 3 * slant * slant * slant;
+}
+
+float smooth(float share) {
+    const float s = std::clamp(share, 0.0f, 1.0f);
+    return s * s * (3 - 2 * s);
+}
+
+}  // namespace
+
+void MeshProjection::take(const View& view, const Sight& sight, const Cut& cut,
+                          const std::vector<DrawnMesh>& meshes, const MeshPaints& paints, Team& team) {
+    sight_ = sight;
+    space_ = DrawnSpace::of(sight, cut, static_cast<float>(0.02 * view.nearest));
+    port_ = {view.port.width, view.port.height};
+    paints_ = paints;
+    solid_.clear(), glass_.clear(), planes_.clear(), lines_.clear();
+    Eigen::Matrix3d axes;
+    axes << view.right.transpose(), view.up.transpose(), view.forward.transpose();
+    up_ = (axes * paints.up).cast<float>();
+    for (const DrawnMesh& mesh : meshes) {
+        const Eigen::Matrix3d turn = axes * mesh.pose.rotation.toRotationMatrix();
+        const Vec3 place = axes * (mesh.pose.place - view.eye);
+        turn_ = turn.cast<float>();
+        vertices_.resize(mesh.shape->vertices.size());
+        whole_.resize(vertices_.size());
+        team.run([&](int member) {
+            const auto [begin, end] = TeamMember{team, member}.part_of(vertices_.size());
+            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+                vertices_[i] = (turn * mesh.shape->vertices[i] + place).cast<float>();
+                whole_[i] = space_.holds(vertices_[i]);
+            }
+        });
+        take_mesh(mesh, team);
+    }
+    sort_into_bands();
+}
+
+MeshProjection::Seen MeshProjection::look_at(const MeshShape& shape, std::size_t t) const {
+    const Eigen::Vector3f normal = turn_ * shape.normals[t].cast<float>();
+    const auto& [a, b, c] = shape.triangles[t];
+    const Eigen::Vector3f middle = (vertices_[static_cast<std::size_t>(a)] + vertices_[static_cast<std::size_t>(b)] +
+                                    vertices_[static_cast<std::size_t>(c)]) / 3;
+    // By a corner, so that the side changes just where the triangle is edge-on.
+    const float height = sight_.orthographic ? normal.z() : normal.dot(vertices_[static_cast<std::size_t>(a)]);
+    const float length = sight_.orthographic ? 1 : std::max(middle.norm(), 1e-30f);
+    const bool front = height < 0;
+    const MeshShape::Sides& sides = shape.sides[t];
+    return {front ? sides.front : sides.back, front, std::min(std::abs(height) / length, 1.0f)};
+}
+
+float MeshProjection::lit(const Eigen::Vector3f& normal) const {
+    static const Lamp lamp;
+    const float falls = normal.dot(Eigen::Vector3f(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]));
+    return kKeyShare * std::max(0.0f, falls) + (1 - kKeyShare) * 0.5f * (1 + normal.dot(up_));
+}
+
+void MeshProjection::take_mesh(const DrawnMesh& mesh, Team& team) {
+    const MeshShape& shape = *mesh.shape;
+    seen_.resize(shape.triangles.size());
+    std::vector<Share> shares(static_cast<std::size_t>(team.size()));
+    team.run([&](int member) {
+        const auto [begin, end] = TeamMember{team, member}.part_of(shape.triangles.size());
+        for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
+            seen_[t] = look_at(shape, t);
+            add_triangle(mesh, t, shares[static_cast<std::size_t>(member)]);
+        }
+    });
+    team.run([&](int member) {
+        const auto [begin, end] = TeamMember{team, member}.part_of(shape.edges.size());
+        for (auto e = static_cast<std::size_t>(begin); e < static_cast<std::size_t>(end); ++e)
+            add_edge(shape.edges[e], shares[static_cast<std::size_t>(member)]);
+    });
+    join(shares);
+}
+
+// In the order of the members, which is that of the triangles.
+void MeshProjection::join(std::vector<Share>& shares) {
+    for (Share& share : shares) {
+        const auto first = static_cast<std::uint32_t>(planes_.size());
+        for (ScreenTriangle& t : share.solid) t.number += first;
+        solid_.insert(solid_.end(), share.solid.begin(), share.solid.end());
+        planes_.insert(planes_.end(), share.planes.begin(), share.planes.end());
+        glass_.insert(glass_.end(), share.glass.begin(), share.glass.end());
+        lines_.insert(lines_.end(), share.lines.begin(), share.lines.end());
+    }
+}
+
+void MeshProjection::add_triangle(const DrawnMesh& mesh, std::size_t t, Share& share) {
+    const Seen& seen = seen_[t];
+    if (seen.face == Face::unseen) return;
+    const MeshShape& shape = *mesh.shape;
+    const float side = seen.front ? 1.0f : -1.0f;
+    Piece piece;
+    piece.count = 3;
+    bool whole = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto v = static_cast<std::size_t>(shape.triangles[t][k]);
+        piece.corner[k].at = vertices_[v];
+        whole = whole && whole_[v];
+        if (seen.face == Face::solid) piece.corner[k].shade = lit(side * (turn_ * shape.corners[t][k]));
+    }
+    const int eye = sight_.orthographic ? 0 : 1;  // half-spaces that are no cut
+    for (int i = 0; !whole && i < space_.count && piece.count > 0; ++i) {
+        std::array<Eigen::Vector3f, 2> section;
+        if (!clip(space_.half[i], piece, &section) || i < eye) continue;
+        ScreenLine line{};
+        if (!set_up(sight_, space_, section[0], section[1], line)) continue;
+        line.half_width = 0.5f * kOutlineWidth * paints_.pen;
+        line.glass = seen.face == Face::glass;
+        line.strength = kSolidLine;
+        share.lines.push_back(line);
+    }
+    if (piece.count >= 3) add_piece(mesh, t, seen, piece, share);
+}
+
+void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen& seen, const Piece& piece,
+                               Share& share) {
+    for (int k = 1; k + 1 < piece.count; ++k) {
+        ScreenTriangle triangle;
+        if (!set_up(sight_, port_, piece.corner[0], piece.corner[static_cast<std::size_t>(k)],
+                    piece.corner[static_cast<std::size_t>(k) + 1], triangle))
+            continue;
+        if (seen.face == Face::glass) {
+            triangle.tint = panes_seen(seen.cosine);
+            share.glass.push_back(triangle);
+            continue;
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float dark = mesh.colours ? 0.55f * (*mesh.colours)[t][c] : paints_.dark[c];
+            const float lit = mesh.colours ? (*mesh.colours)[t][c] : paints_.lit[c];
+            triangle.colour[c] = dark;
+            triangle.brighter[c] = lit - dark;
+        }
+        const Eigen::Vector3f normal =
+            (seen.front ? 1.0f : -1.0f) * (turn_ * mesh.shape->normals[t].cast<float>());
+        share.planes.push_back({normal, normal.dot(vertices_[static_cast<std::size_t>(mesh.shape->triangles[t][0])])});
+        triangle.number = static_cast<std::uint32_t>(share.planes.size());
+        share.solid.push_back(triangle);
+    }
+}
+
+// Feature edges wherever a face at them is to be seen; others where they are outlines.
+void MeshProjection::add_edge(const MeshShape::Edge& edge, Share& share) const {
+    const Seen& left = seen_[static_cast<std::size_t>(edge.left)];
+    const Seen* right = edge.right >= 0 ? &seen_[static_cast<std::size_t>(edge.right)] : nullptr;
+    if (left.face == Face::unseen && (!right || right->face == Face::unseen)) return;
+    const bool outline = right && left.front != right->front;
+    if (!edge.feature && !outline) return;
+    float turned = 0;  // of the solid face that turns to the eye most
+    bool glass = true;
+    for (const Seen* one : {&left, right}) {
+        if (!one || one->face != Face::solid) continue;
+        glass = false;
+        turned = std::max(turned, one->cosine);
+    }
+    ScreenLine line{};
+    if (!set_up(sight_, space_, vertices_[static_cast<std::size_t>(edge.from)],
+                vertices_[static_cast<std::size_t>(edge.to)], line))
+        return;
+    line.glass = glass;
+    line.half_width = 0.5f * paints_.pen * (edge.feature ? kFeatureWidth : kOutlineWidth);
+    line.strength = edge.feature ? kGlassLine + (glass ? 0 : smooth(turned / kFade) * (kSolidLine - kGlassLine))
+                                 : (glass ? kGlassLine : kOutline);
+    share.lines.push_back(line);
+}
+
+void MeshProjection::sort_into_bands() {
+    bands_.resize(static_cast<std::size_t>((port_.height + kBand - 1) / kBand));
+    for (Band& band : bands_) band.solid.clear(), band.glass.clear(), band.lines.clear();
+    const auto put = [&](std::vector<std::uint32_t> Band::*into, std::size_t i, int y0, int y1) {
+        for (int band = y0 / kBand; band * kBand < y1; ++band)
+            (bands_[static_cast<std::size_t>(band)].*into).push_back(static_cast<std::uint32_t>(i));
+    };
+    for (std::size_t i = 0; i < solid_.size(); ++i) put(&Band::solid, i, solid_[i].y0, solid_[i].y1);
+    for (std::size_t i = 0; i < glass_.size(); ++i) put(&Band::glass, i, glass_[i].y0, glass_[i].y1);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        const ScreenLine& line = lines_[i];
+        const float wide = line.half_width + 1;
+        const float top = std::min(line.from.y(), line.to.y()) - wide, bottom = std::max(line.from.y(), line.to.y()) + wide;
+        if (!(bottom > 0) || !(top < static_cast<float>(port_.height))) continue;
+        put(&Band::lines, i, static_cast<int>(std::max(top, 0.0f)),
+            static_cast<int>(std::min(bottom, static_cast<float>(port_.height - 1))) + 1);
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,107 @@
+#include "render/picture/mesh/mesh_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/picture/mesh/mesh_sides.hpp"
+
+namespace grainreel {
+namespace {
+
+// The triangles around each vertex, one list after the other.
+struct Fans {
+    std::vector<std::int32_t> first, triangle;
+};
+Fans fans_of(const TriangleMesh& mesh) {
+    Fans fans;
+    fans.first.assign(mesh.vertices.size() + 1, 0);
+    for (const TriangleMesh::Triangle& t : mesh.triangles)
+        for (const std::int32_t v : t) ++fans.first[static_cast<std::size_t>(v) + 1];
+    for (std::size_t v = 0; v + 1 < fans.first.size(); ++v) fans.first[v + 1] += fans.first[v];
+    fans.triangle.resize(3 * mesh.triangles.size());
+    std::vector<std::int32_t> next(fans.first.begin(), fans.first.end() - 1);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (const std::int32_t v : mesh.triangles[t])
+            fans.triangle[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] =
+                static_cast<std::int32_t>(t);
+    return fans;
+}
+
+// The mean of the normals around a corner that turn less than a feature edge does, each by its area.
+void add_corner_normals(const Surface& surface, double edge_angle, MeshShape& shape) {
+    const Fans fans = fans_of(surface.mesh());
+    const double least = std::cos(edge_angle);
+    std::vector<double> area(shape.triangles.size());
+    for (std::int32_t t = 0; t < surface.size(); ++t) area[static_cast<std::size_t>(t)] = surface.area(t);
+    shape.corners.resize(shape.triangles.size());
+    for (std::size_t t = 0; t < shape.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto v = static_cast<std::size_t>(shape.triangles[t][k]);
+            Vec3 sum = Vec3::Zero();
+            for (std::int32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
+                const auto other = static_cast<std::size_t>(fans.triangle[static_cast<std::size_t>(i)]);
+                if (shape.normals[other].dot(shape.normals[t]) >= least)
+                    sum += area[other] * shape.normals[other];
+            }
+            const double length = sum.norm();
+            shape.corners[t][k] = (length > 0 ? Vec3(sum / length) : shape.normals[t]).cast<float>();
+        }
+}
+
+void add_edges(const Surface& surface, double edge_angle, MeshShape& shape) {
+    for (std::int32_t t = 0; t < surface.size(); ++t)
+        for (int e = 0; e < 3; ++e) {
+            const Neighbour& beyond = surface.neighbour(t, e);
+            if (beyond.triangle >= 0 && beyond.triangle < t) continue;
+            const TriangleMesh::Triangle& corners = shape.triangles[static_cast<std::size_t>(t)];
+            const bool feature = beyond.triangle < 0 || turn_of(surface, t, beyond) > edge_angle;
+            shape.edges.push_back({corners[static_cast<std::size_t>(e)],
+                                   corners[static_cast<std::size_t>((e + 1) % 3)], t, beyond.triangle,
+                                   feature});
+        }
+}
+
+}  // namespace
+
+double turn_of(const Surface& surface, std::int32_t triangle, const Neighbour& neighbour) {
+    const double cosine = surface.normal(triangle).dot(surface.normal(neighbour.triangle));
+    return std::acos(std::clamp(neighbour.flips ? -cosine : cosine, -1.0, 1.0));
+}
+
+std::vector<std::int32_t> smooth_patches(const Surface& surface, double edge_angle) {
+    std::vector<std::int32_t> patch(static_cast<std::size_t>(surface.size()), -1);
+    std::vector<std::int32_t> waiting;
+    std::int32_t count = 0;
+    for (std::int32_t start = 0; start < surface.size(); ++start) {
+        if (patch[static_cast<std::size_t>(start)] >= 0) continue;
+        patch[static_cast<std::size_t>(start)] = count;
+        waiting.push_back(start);
+        while (!waiting.empty()) {
+            const std::int32_t t = waiting.back();
+            waiting.pop_back();
+            for (int e = 0; e < 3; ++e) {
+                const Neighbour& beyond = surface.neighbour(t, e);
+                if (beyond.triangle < 0 || patch[static_cast<std::size_t>(beyond.triangle)] >= 0) continue;
+                if (beyond.flips || turn_of(surface, t, beyond) > edge_angle) continue;
+                patch[static_cast<std::size_t>(beyond.triangle)] = count;
+                waiting.push_back(beyond.triangle);
+            }
+        }
+        ++count;
+    }
+    return patch;
+}
+
+std::shared_ptr<const MeshShape> mesh_shape(const Surface& surface, double edge_angle, MeshLook look) {
+    auto shape = std::make_shared<MeshShape>();
+    shape->vertices = surface.mesh().vertices;
+    shape->triangles = surface.mesh().triangles;
+    shape->normals.reserve(shape->triangles.size());
+    for (std::int32_t t = 0; t < surface.size(); ++t) shape->normals.push_back(surface.normal(t));
+    add_corner_normals(surface, edge_angle, *shape);
+    add_edges(surface, edge_angle, *shape);
+    shape->sides = find_sides(surface, edge_angle, look);
+    return shape;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,236 @@
+#include "render/picture/mesh/mesh_sides.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace grainreel {
+namespace {
+
+constexpr int kRays = 12;             // to each side of a place
+constexpr std::size_t kPlaces = 4000;  // that are asked, at most
+constexpr std::size_t kPlacesOfPatch = 8;
+
+// A side looks into a room when so much of what it sees is surface; of what is not said to be a vessel.
+constexpr double kEnclosed = 0.5, kSurelyEnclosed = 0.6;
+// Of an open sheet: how much more one side must see than the other.
+constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
+constexpr double kShellShare = 0.15;  // of the area of walls with a thickness, that looks into the room
+
+// Directions around z, as a matt surface takes its light.
+std::array<Vec3, kRays> make_directions() {
+    std::array<Vec3, kRays> directions;
+    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+    for (int i = 0; i < kRays; ++i) {
+        const double square = (i + 0.5) / kRays, out = std::sqrt(square);
+        directions[static_cast<std::size_t>(i)] = {out * std::cos(golden * i), out * std::sin(golden * i),
+                                                   std::sqrt(1 - square)};
+    }
+    return directions;
+}
+
+// What was seen from the places asked of one patch, or of all that hangs together.
+struct Seen {
+    double area = 0;          // m2, of all
+    double weight = 0;        // of the places asked
+    double front = 0, back = 0;  // times the share that is surface
+    double front_share() const { return weight > 0 ? front / weight : 0; }
+    double back_share() const { return weight > 0 ? back / weight : 0; }
+    void add(const Seen& other) {
+        area += other.area, weight += other.weight;
+        front += other.front, back += other.back;
+    }
+};
+
+class SideFinder {
+  public:
+    SideFinder(const Surface& surface, double edge_angle, MeshLook look)
+        : surface_(surface),
+          look_(look),
+          small_(1e-6 * (surface.facts().high - surface.facts().low).norm()),
+          patch_(smooth_patches(surface, edge_angle)) {
+        find_parts();
+    }
+
+    std::vector<MeshShape::Sides> find() {
+        sides_.resize(patch_.size());
+        ask();
+        for (std::size_t part = 0; part < part_seen_.size(); ++part) {
+            if (look_ == MeshLook::glass)
+                settle(part, Face::glass, Face::glass);
+            else if (look_ != MeshLook::solid && !part_closed_[part])
+                settle_sheet(part);
+            else if (look_ != MeshLook::solid && part_closed_[part] && is_shell(part))
+                settle_shell(part);
+            else if (look_ == MeshLook::vessel)
+                settle_closed(part, Face::glass, Face::solid);  // a closed sheet
+            else if (part_closed_[part])
+                settle_closed(part, Face::solid, Face::unseen);
+        }
+        return sides_;
+    }
+
+  private:
+    using Face = MeshShape::Face;
+
+    // Parts that hang together, and the triangles of each patch.
+    void find_parts() {
+        const std::vector<std::int32_t> part = smooth_patches(surface_, std::numbers::pi);
+        const auto count = [](const std::vector<std::int32_t>& numbers) {
+            return numbers.empty() ? 0 : static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) + 1;
+        };
+        members_.resize(count(patch_));
+        part_of_patch_.resize(members_.size());
+        patch_seen_.resize(members_.size());
+        part_seen_.resize(count(part));
+        part_closed_.assign(part_seen_.size(), 1);
+        visible_front_.assign(part_seen_.size(), 1);
+        for (std::int32_t t = 0; t < surface_.size(); ++t) {
+            const auto at = static_cast<std::size_t>(t), p = static_cast<std::size_t>(patch_[at]);
+            members_[p].push_back(t);
+            part_of_patch_[p] = static_cast<std::size_t>(part[at]);
+            patch_seen_[p].area += surface_.area(t);
+            for (int e = 0; e < 3; ++e)
+                if (surface_.facts().open_edges > 0 && surface_.neighbour(t, e).triangle < 0)
+                    part_closed_[static_cast<std::size_t>(part[at])] = 0;
+        }
+        patches_.resize(part_seen_.size());
+        for (std::size_t p = 0; p < members_.size(); ++p) patches_[part_of_patch_[p]].push_back(p);
+    }
+
+    Vec3 middle(std::int32_t t) const {
+        return (surface_.corner(t, 0) + surface_.corner(t, 1) + surface_.corner(t, 2)) / 3;
+    }
+
+    double surface_seen(const Vec3& from, const Vec3& normal) const {
+        static const std::array<Vec3, kRays> directions = make_directions();
+        const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+        int met = 0;
+        for (const Vec3& d : directions)
+            met += surface_.first_hit(from, d.x() * u + d.y() * v + d.z() * normal).has_value();
+        return static_cast<double>(met) / kRays;
+    }
+
+    void ask() {
+        const std::size_t apart = members_.size() / kPlaces + 1;
+        const std::size_t each =
+            std::clamp(kPlaces / std::max<std::size_t>(members_.size(), 1), std::size_t{1}, kPlacesOfPatch);
+        std::vector<char> asked(part_seen_.size(), 0);
+        for (std::size_t p = 0; p < members_.size(); ++p) {
+            Seen& seen = patch_seen_[p];
+            const std::size_t part = part_of_patch_[p];
+            if (p % apart == 0) {
+                const std::size_t places = std::min(each, members_[p].size());
+                for (std::size_t k = 0; k < places; ++k) {
+                    const std::int32_t t = members_[p][(2 * k + 1) * members_[p].size() / (2 * places)];
+                    if (part_closed_[part] && !std::exchange(asked[part], 1)) look_for_material(part, t);
+                    ask_at(t, seen.area / static_cast<double>(places), seen);
+                }
+            }
+            part_seen_[part].add(seen);
+        }
+    }
+
+    void ask_at(std::int32_t t, double weight, Seen& seen) {
+        const Vec3 normal = surface_.normal(t);
+        seen.weight += weight;
+        seen.front += weight * surface_seen(middle(t) + small_ * normal, normal);
+        seen.back += weight * surface_seen(middle(t) - small_ * normal, -normal);
+    }
+
+    // Of what is closed, the side that can be seen is the one from which a ray crosses an even number of times.
+    void look_for_material(std::size_t part, std::int32_t t) {
+        const Vec3 normal = surface_.normal(t);
+        std::vector<Surface::Hit> hits;
+        surface_.all_hits(middle(t) + small_ * normal, (normal + 0.1 * normal.unitOrthogonal()).normalized(),
+                          hits);
+        visible_front_[part] = hits.size() % 2 == 0;
+    }
+
+    double visible_share(const Seen& seen, std::size_t part) const {
+        return visible_front_[part] ? seen.front_share() : seen.back_share();
+    }
+    bool is_inner(std::size_t patch) const {
+        return visible_share(patch_seen_[patch], part_of_patch_[patch]) >= kEnclosed;
+    }
+
+    bool is_shell(std::size_t part) const {
+        const double least = look_ == MeshLook::vessel ? kEnclosed : kSurelyEnclosed;
+        double inner = 0;
+        for (const std::size_t p : patches_[part])
+            if (visible_share(patch_seen_[p], part) >= least) inner += patch_seen_[p].area;
+        return inner >= kShellShare * part_seen_[part].area;
+    }
+
+    void settle(std::size_t part, Face front, Face back) {
+        for_triangles(part, [&](std::size_t, std::int32_t t) {
+            sides_[static_cast<std::size_t>(t)] = {front, back};
+        });
+    }
+    // Of a part that is closed: the look of the side that its normals point to, or of the other one.
+    void settle_closed(std::size_t part, Face out, Face in) {
+        settle(part, visible_front_[part] ? out : in, visible_front_[part] ? in : out);
+    }
+
+    // One side of an open sheet may look into what it holds.
+    void settle_sheet(std::size_t part) {
+        const double front = part_seen_[part].front_share(), back = part_seen_[part].back_share();
+        const double least = look_ == MeshLook::vessel ? kDiffersInVessel : kDiffers;
+        if (std::abs(front - back) < least) return;
+        settle(part, front < back ? Face::glass : Face::solid, front < back ? Face::solid : Face::glass);
+    }
+
+    // Walls with a thickness are glass where the room is behind them; a rim is solid.
+    void settle_shell(std::size_t part) {
+        std::size_t last = members_.size();
+        Face seen = Face::solid;
+        for_triangles(part, [&](std::size_t p, std::int32_t t) {
+            if (p != last) seen = !is_inner(p) && is_backed(p) ? Face::glass : Face::solid;
+            last = p;
+            const bool front = visible_front_[part];
+            sides_[static_cast<std::size_t>(t)] = {front ? seen : Face::unseen, front ? Face::unseen : seen};
+        });
+    }
+
+    // Whether a straight way through the wall comes out in the room, from most places of the patch.
+    bool is_backed(std::size_t patch) const {
+        const std::vector<std::int32_t>& all = members_[patch];
+        const std::size_t places = std::min(all.size(), kPlacesOfPatch);
+        std::size_t backed = 0;
+        for (std::size_t k = 0; k < places; ++k) {
+            const std::int32_t t = all[(2 * k + 1) * all.size() / (2 * places)];
+            const double side = visible_front_[part_of_patch_[patch]] ? 1 : -1;
+            const Vec3 normal = side * surface_.normal(t);
+            const auto hit = surface_.first_hit(middle(t) - small_ * normal, -normal);
+            if (hit) backed += is_inner(static_cast<std::size_t>(patch_[static_cast<std::size_t>(hit->triangle)]));
+        }
+        return 2 * backed >= places;
+    }
+
+    template <class Visit>
+    void for_triangles(std::size_t part, const Visit& visit) const {
+        for (const std::size_t p : patches_[part])
+            for (const std::int32_t t : members_[p]) visit(p, t);
+    }
+
+    const Surface& surface_;
+    const MeshLook look_;
+    const double small_;  // m, off the surface
+    const std::vector<std::int32_t> patch_;
+    std::vector<MeshShape::Sides> sides_;
+    std::vector<std::vector<std::int32_t>> members_;  // a patch: its triangles
+    std::vector<std::vector<std::size_t>> patches_;   // a part: its patches
+    std::vector<std::size_t> part_of_patch_;
+    std::vector<Seen> patch_seen_, part_seen_;
+    std::vector<char> part_closed_, visible_front_;
+};
+
+}  // namespace
+
+std::vector<MeshShape::Sides> find_sides(const Surface& surface, double edge_angle, MeshLook look) {
+    return SideFinder(surface, edge_angle, look).find();
+}
+
+}  // namespace grainreel

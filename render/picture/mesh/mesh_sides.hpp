@@ -1,0 +1,14 @@
+// Which sides of a mesh look into something that it encloses, and which look out.
+#pragma once
+
+#include <vector>
+
+#include "render/picture/mesh/mesh_shape.hpp"
+
+namespace grainreel {
+
+// Of each triangle. How much of what is around a side of a surface is surface again decides: a few rays from each
+// patch say so.
+std::vector<MeshShape::Sides> find_sides(const Surface& surface, double edge_angle, MeshLook look);
+
+}  // namespace grainreel

@@ -1,0 +1,33 @@
+// The meshes of a scene, ready to be drawn where a frame has them.
+#pragma once
+
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/mesh/mesh_painter.hpp"
+#include "render/picture/mesh/mesh_projection.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+// What a mesh looks like: as film.walls says, a vessel where grains are in it, else by its shape.
+MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh);
+
+class SceneMeshes {
+  public:
+    explicit SceneMeshes(const FilmedScene& scene);
+
+    bool any() const { return !drawn_.empty(); }
+    // Where they are in a frame.
+    const std::vector<DrawnMesh>& at(const Frame& frame);
+
+  private:
+    std::vector<DrawnMesh> drawn_;
+    std::vector<std::size_t> body_;  // numbers
+};
+
+MeshPaints mesh_paints(const Palette& palette, const Vec3& up, int picture_height);
+MeshPainter::Inks mesh_inks(const Palette& palette);
+
+}  // namespace grainreel

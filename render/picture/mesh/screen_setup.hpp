@@ -1,0 +1,69 @@
+// From corners in view coordinates to triangles and lines in pixels.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/base/vector.hpp"
+#include "render/picture/mesh/mesh_kernels.hpp"
+#include "render/picture/spheres/sphere.hpp"
+
+namespace grainreel {
+
+// View coordinates, m, and how brightly it is lit, 0 to 1.
+struct LitCorner {
+    Eigen::Vector3f at;
+    float shade = 0;
+};
+
+// The part of space that is drawn: half-spaces x . p >= d; the first keeps what is before the eye, the others
+// are those of a cut.
+struct DrawnSpace {
+    struct Half {
+        Eigen::Vector3f normal;
+        float distance;  // m
+        float height(const Eigen::Vector3f& p) const { return normal.dot(p) - distance; }
+    };
+    int count = 0;
+    Half half[3];
+    static DrawnSpace of(const Sight& sight, const Cut& cut, float nearest);
+    bool holds(const Eigen::Vector3f& p) const {
+        for (int i = 0; i < count; ++i)
+            if (half[i].height(p) < 0) return false;
+        return true;
+    }
+};
+
+// A convex piece of a plane, at most a triangle cut by three planes.
+struct Piece {
+    std::array<LitCorner, 8> corner;
+    int count = 0;
+};
+// What of it lies in one half-space. The two points in which its border is crossed come back in `section`, if
+// wanted; returns whether there are two. A point on an edge is the same, to the bit, for both its triangles.
+bool clip(const DrawnSpace::Half& half, Piece& piece, std::array<Eigen::Vector3f, 2>* section);
+
+struct PortSize {
+    int width, height;
+};
+
+// Fills in all but colours and number. False where nothing of it can be seen.
+bool set_up(const Sight& sight, const PortSize& port, const LitCorner& a, const LitCorner& b,
+            const LitCorner& c, ScreenTriangle& triangle);
+
+// Pixels from the top left, and how near (see ScreenTriangle).
+Eigen::Vector3f on_screen(const Sight& sight, const Eigen::Vector3f& at);
+
+// A straight line as wide as a pen, seen where nothing solid hides it.
+struct ScreenLine {
+    Eigen::Vector3f from, to;            // on the screen
+    Eigen::Vector3f view_from, view_to;  // m
+    float half_width;                    // pixels
+    float strength;                      // 0 to 1
+    bool glass;                          // of glass alone
+};
+// Cuts it off at the borders of the space. False where nothing is left.
+bool set_up(const Sight& sight, const DrawnSpace& space, Eigen::Vector3f from, Eigen::Vector3f to,
+            ScreenLine& line);
+
+}  // namespace grainreel
