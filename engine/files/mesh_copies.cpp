@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& file, const std::error_code& error) {
-    throw RunError(fmt::format("{}: the copy of a mesh or path cannot be written: {}", file.string(),
-                               error.message()));
+    throw RunError(
+        fmt::format("{}: the copy of a mesh or path cannot be written: {}", file.string(), error.message()));
 }
 
 bool holds(const fs::path& file, const std::string& hash) {
@@ -32,7 +32,8 @@ bool holds(const fs::path& file, const std::string& hash) {
 fs::path place_now(const fs::path& file, const fs::path& folder, const fs::path& previous) {
     const fs::path inside = file.lexically_relative(fs::absolute(folder).lexically_normal());
     std::error_code ignored;
-    if (previous.empty() || inside.empty() || *inside.begin() == ".." || fs::exists(file, ignored)) return file;
+    if (previous.empty() || inside.empty() || *inside.begin() == ".." || fs::exists(file, ignored))
+        return file;
     return previous / inside;
 }
 

@@ -93,7 +93,7 @@ class Flood {
 
     // Some that lie in the room.
     std::vector<int> seeds() {
-        constexpr int apart = 101;  // shares no factor with kSteps
+        constexpr int apart = 37;  // shares no factor with kSteps
         constexpr std::size_t enough = 8;
         std::vector<int> found;
         for (int k = 0; k < kSteps * kSteps * kSteps && found.size() < enough; k += apart) {
@@ -123,15 +123,16 @@ class Flood {
 };
 
 bool opens(const Surface& surface, const EnclosedRoom& room, const Vec3& beyond, const Vec3& normal,
-           double radius) {
-    const Vec3 one = beyond + 0.5 * radius * normal, other = beyond - 0.5 * radius * normal;
+           double diameter) {
+    const Vec3 one = beyond + 0.25 * diameter * normal, other = beyond - 0.25 * diameter * normal;
     if (!is_free(surface, one, other)) return false;
     if (room.open_above() && std::max(one.z(), other.z()) > room.top()) return false;
     return room.holds(one) != room.holds(other);
 }
 
-std::optional<Vec3> hole_at_edges(const Surface& surface, const EnclosedRoom& room, double radius) {
+std::optional<Vec3> hole_at_edges(const Surface& surface, const EnclosedRoom& room, double diameter) {
     constexpr int most = 20'000;  // edges
+    constexpr double nearly = 0.98;
     int looked = 0;
     for (std::int32_t t = 0; t < surface.size(); ++t) {
         for (int e = 0; e < 3; ++e) {
@@ -140,8 +141,8 @@ std::optional<Vec3> hole_at_edges(const Surface& surface, const EnclosedRoom& ro
             const Vec3 &a = surface.corner(t, e), &b = surface.corner(t, (e + 1) % 3);
             // Corners run counter-clockwise about the normal, so this points away from the third.
             const Vec3 out = (b - a).normalized().cross(surface.normal(t));
-            const Vec3 beyond = 0.5 * (a + b) + radius * out;
-            if (opens(surface, room, beyond, surface.normal(t), radius)) return beyond;
+            const Vec3 beyond = 0.5 * (a + b) + nearly * diameter * out;
+            if (opens(surface, room, beyond, surface.normal(t), diameter)) return beyond;
         }
     }
     return std::nullopt;
@@ -155,7 +156,7 @@ std::optional<Vec3> leak_of(const Surface& surface, const EnclosedRoom& room, do
     if (Flood(surface, room, 0).leak())
         if (const auto leak = Flood(surface, room, 0.7 * radius).leak()) return leak;
     if (surface.facts().open_edges == 0) return std::nullopt;
-    return hole_at_edges(surface, room, radius);
+    return hole_at_edges(surface, room, diameter);
 }
 
 }  // namespace grainreel

@@ -67,13 +67,6 @@ def prism(ring, half_length):
     return between(low, high) + fan((0.0, 0.0, half_length), high) + turned(fan((0.0, 0.0, -half_length), low))
 
 
-def box_of(low, high):
-    (x0, y0, z0), (x1, y1, z1) = low, high
-    ring = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
-    below, above = ([(x, y, z) for x, y in ring] for z in (z0, z1))
-    return between(below, above) + quad(*above) + turned(quad(*below))
-
-
 def channel(section, start, end, wall):
     """A section, a list of (x, z), drawn along y; with `wall` a wall closes it at its start."""
     near, far = ([(x, y, z) for x, z in section] for y in (start, end))
@@ -170,9 +163,18 @@ def impeller(blades=4, length=0.04, width=0.01, pitch=45.0, hub=0.004):
     return triangles
 
 
-def box(width=0.04, depth=0.02, height=0.08):
-    """A closed box, depth along x and width along y; z = 0 is its floor."""
-    return box_of((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height))
+def box(width=0.04, depth=0.02, height=0.08, cells=1):
+    """A closed box, depth along x and width along y; z = 0 is its floor; each face has cells x cells squares."""
+    x, y, z = ([a * (i / cells - 0.5) + up for i in range(cells + 1)]
+               for a, up in ((depth, 0.0), (width, 0.0), (height, height / 2)))
+    triangles = []
+    for i in range(cells):
+        for j in range(cells):
+            for side, face in ((0, turned), (cells, list)):
+                triangles += face(quad(*((x[a], y[b], z[side]) for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)))))
+                triangles += face(quad(*((x[side], y[a], z[b]) for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)))))
+                triangles += face(quad(*((x[b], y[side], z[a]) for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)))))
+    return triangles
 
 
 def wedge(half_width=0.05, depth=0.03, height=0.12, half_angle=20.0, slant_height=0.04):

@@ -54,7 +54,7 @@ void EnergyBalance::look(std::int64_t step) {
     powers_ = {};
     const Pose pose = around_.motion.at(step);
     const std::vector<BodyPose> meshes = poses_of_meshes(around_, pose);
-    last_first_ = -1;
+    if (!shown_.empty()) shown_.clear();
     std::swap(before_, contacts_);
     contacts_.clear();
     goes_on_.assign(before_.size(), 0);
@@ -187,23 +187,21 @@ bool EnergyBalance::are_there(std::uint64_t key) const {
 
 // A grain may touch several glued grains of one face: these stand behind the faces. It may also touch a mesh
 // in several places, which stand behind these in the order in which they are shown.
-std::uint64_t EnergyBalance::number_of_wall(const ContactView& c) {
+std::uint64_t EnergyBalance::key_at_wall(std::uint64_t first, const ContactView& c) {
     constexpr std::uint64_t most_places = 64;  // of one grain at one mesh
     const auto wall = static_cast<std::uint64_t>(-1 - c.second);
-    const std::uint64_t faces = around_.faces.size();
-    if (c.glued >= 0) return faces + static_cast<std::uint64_t>(c.glued);
-    if (wall < faces) return wall;
-    const bool again = c.first == last_first_ && c.second == last_second_;
-    shown_ = again ? shown_ + 1 : 0;
-    last_first_ = c.first, last_second_ = c.second;
-    return faces + around_.glued.size() + (wall - faces) * most_places + static_cast<std::uint64_t>(shown_);
+    const std::uint64_t faces = around_.faces.size(), from = first << 32 | (std::uint64_t{1} << 31);
+    if (c.glued >= 0) return from | (faces + static_cast<std::uint64_t>(c.glued));
+    if (wall < faces) return from | wall;
+    const std::uint64_t of_mesh = from | (faces + around_.glued.size() + (wall - faces) * most_places);
+    return of_mesh + shown_[of_mesh]++;
 }
 
 // Grains by id, for their indices change; walls behind all grains.
 std::uint64_t EnergyBalance::key(const ContactView& c) {
     const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
     const std::uint64_t first = id(c.first);
-    if (c.second < 0) return first << 32 | (std::uint64_t{1} << 31) | number_of_wall(c);
+    if (c.second < 0) return key_at_wall(first, c);
     const std::uint64_t second = id(c.second);
     return std::min(first, second) << 32 | std::max(first, second);
 }

@@ -91,7 +91,7 @@ class EnergyBalance {
     static bool is_at_wall(std::uint64_t key) { return (key >> 31 & 1) != 0; }
     void add_friction(double spent);
     std::uint64_t key(const ContactView& contact);
-    std::uint64_t number_of_wall(const ContactView& contact);
+    std::uint64_t key_at_wall(std::uint64_t first, const ContactView& contact);
 
     const Surroundings& around_;
     const Grains& grains_;
@@ -110,8 +110,8 @@ class EnergyBalance {
     bool some_left_ = false, opened_ = false;       // in the last step
     std::vector<std::int32_t> present_;             // ids, rising, when that was so
     std::vector<std::size_t> ended_;                // in the last step: places in before_, by rising key
-    // Of meshes: how many contacts with the same grain (first) and mesh (second) have been shown already.
-    std::int32_t last_first_ = -1, last_second_ = 0, shown_ = 0;
+    // At the step looked at: how often each grain at a mesh has been shown, by the key of its first contact.
+    std::unordered_map<std::uint64_t, std::uint64_t> shown_;
 };
 
 }  // namespace grainreel

@@ -20,8 +20,8 @@ namespace {
 using Shape = Container::Shape;
 
 // Faces of containers and trays, whatever the container; a mesh of such a name would share their columns.
-constexpr std::array<std::string_view, 10> kFaces{"wall",       "floor",       "lid",  "left wall", "right wall",
-                                                  "left slant", "right slant", "back", "front",     "tray"};
+constexpr std::array<std::string_view, 10> kFaces{
+    "wall", "floor", "lid", "left wall", "right wall", "left slant", "right slant", "back", "front", "tray"};
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
     throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
@@ -65,9 +65,10 @@ void check_paths(const Scene& scene) {
         const SceneMesh& mesh = scene.meshes[m];
         if (mesh.path && clearly_less(mesh.path->last(), scene.run.duration))
             fail(scene, key_of(m, "path"),
-                 fmt::format("ends at {:.6g} s, but the run ends at {:.6g} s (run.duration); add rows to {}, or "
-                             "shorten the run",
-                             mesh.path->last(), scene.run.duration, excerpt(mesh.path_file)));
+                 fmt::format(
+                     "ends at {:.6g} s, but the run ends at {:.6g} s (run.duration); add rows to {}, or "
+                     "shorten the run",
+                     mesh.path->last(), scene.run.duration, excerpt(mesh.path_file)));
     }
 }
 
@@ -79,7 +80,8 @@ void check_company(const Scene& scene) {
              "cannot stand beside a [[mesh]], which would have to go on across the boundary; take one out");
     if (c.shape == Shape::mesh && scene.drive.present && scene.drive.moves == Drive::Moves::floor)
         fail(scene, "drive.moves",
-             "is \"floor\", but a mesh has no floor of its own; make the floor a mesh with driven = true and the "
+             "is \"floor\", but a mesh has no floor of its own; make the floor a mesh with driven = true and "
+             "the "
              "container one with driven = false");
 }
 
@@ -89,7 +91,8 @@ void check_turn(const Scene& scene) {
     const auto refuse = [&](const char* what, const char* instead) {
         fail(scene, "container.turn", fmt::format("cannot stand beside {}; {}", what, instead));
     };
-    if (c.outlet) refuse("'outlet'", "take one out, or make the container a [[mesh]] and let grains leave by [[exit]]");
+    if (c.outlet)
+        refuse("'outlet'", "take one out, or make the container a [[mesh]] and let grains leave by [[exit]]");
     if (c.tray) refuse("'tray'", "take one out");
     if (c.wall_grains) refuse("'wall_grains'", "take one out, or make the container a [[mesh]] with lifters");
     if (c.periodic_depth) refuse("'periodic_depth'", "give it front and back walls");
@@ -100,7 +103,8 @@ void check_turn(const Scene& scene) {
     const double beside = std::hypot(c.turn->through.x(), c.turn->through.y());
     if (off > kSameDecimals || beside > kSameDecimals * c.half_width)
         fail(scene, off > kSameDecimals ? "container.turn.axis" : "container.turn.through",
-             "must be the cylinder's own axis, z through its middle; lay a drum on its side by the direction of "
+             "must be the cylinder's own axis, z through its middle; lay a drum on its side by the direction "
+             "of "
              "gravity, as in gravity = [0, -9.81, 0], or take a [[mesh]]");
 }
 
@@ -116,10 +120,11 @@ void check_vessel(const Scene& scene) {
     if (vessel == nullptr || !scene.exits.empty()) return;
     const auto leak = leak_of(*vessel->surface, *scene.container.room, smallest_diameter(scene));
     if (!leak) return;
-    fail(scene, "container.mesh",
-         fmt::format("names \"{}\", which leaks near ({:.4g}, {:.4g}, {:.4g}) m; close the hole, or say by an "
-                     "[[exit]] where grains leave",
-                     excerpt(vessel->name), leak->x(), leak->y(), leak->z()));
+    fail(
+        scene, "container.mesh",
+        fmt::format("names \"{}\", which leaks near ({:.4g}, {:.4g}, {:.4g}) m; close the hole, or say by an "
+                    "[[exit]] where grains leave",
+                    excerpt(vessel->name), leak->x(), leak->y(), leak->z()));
 }
 
 }  // namespace
@@ -139,14 +144,16 @@ std::vector<std::string> doubts_of_meshes(const Scene& scene) {
         const SceneMesh& mesh = scene.meshes[m];
         const double size = (mesh.surface->facts().high - mesh.surface->facts().low).maxCoeff();
         const double largest = largest_diameter(scene), smallest = smallest_diameter(scene);
-        const std::string start = fmt::format("{}: the mesh \"{}\" is {:.4g} m large", scene.where(key_of(m, "scale")),
-                                              mesh.name, size);
+        const std::string start = fmt::format("{}: the mesh \"{}\" is {:.4g} m large",
+                                              scene.where(key_of(m, "scale")), mesh.name, size);
         if (size > too_large * largest)
-            doubts.push_back(fmt::format("{}, beside grains of {:.4g} m; where its file is in mm, write scale = {:.4g}",
-                                         start, largest, 0.001 * mesh.scale));
+            doubts.push_back(
+                fmt::format("{}, beside grains of {:.4g} m; where its file is in mm, write scale = {:.4g}",
+                            start, largest, 0.001 * mesh.scale));
         if (size < too_small * smallest)
-            doubts.push_back(fmt::format("{}, smaller than the smallest grain, {:.4g} m; is its scale the one you mean?",
-                                         start, smallest));
+            doubts.push_back(
+                fmt::format("{}, smaller than the smallest grain, {:.4g} m; is its scale the one you mean?",
+                            start, smallest));
     }
     return doubts;
 }

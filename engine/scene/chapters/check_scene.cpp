@@ -167,9 +167,9 @@ void check_room(const Scene& scene) {
             fmt::format("{}: {} grains of {:.4g} m3 fill {:.1f} % of the {}'s {:.4g} m3, more than the "
                         "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
                         scene.where("species"), scene.grains_at_start(), solid, 100 * solid / room,
-                        scene.start.region                            ? "region"
-                        : scene.walls.empty() && scene.meshes.empty() ? "container"
-                                                                      : "room",
+                        scene.start.region                                                       ? "region"
+                        : scene.walls.empty() && scene.meshes.size() == (scene.vessel() ? 1 : 0) ? "container"
+                                                                                                 : "room",
                         room, 100 * most_solid));
 }
 

@@ -19,8 +19,8 @@ inline constexpr std::size_t kLongestPath = 4096;
 std::string named_file(Document& document, const Scene& scene, const std::string& path);
 
 // The surface of a mesh whose file and placement are read, and the hash of its file. Surfaces that are alike
-// are one, and the last few stay in memory, since a scene may be read several times in a row. Throws UserError
-// at the key `file` where the file cannot be used, or is not the one that mesh.hash says.
+// are one, and the last few stay in memory, since a scene may be read several times in a row. Throws
+// UserError at the key `file` where the file cannot be used, or is not the one that mesh.hash says.
 void load_surface(const Document& document, const std::string& table, SceneMesh& mesh);
 
 // Likewise the path, and the key `path`.

@@ -49,11 +49,10 @@ BoundKey<M> file_key(const char* name, std::string M::*member, Fallback fallback
     const auto read = [member](Document& document, const Scene& scene, const std::string& path, M& mesh) {
         if (document.has(path)) mesh.*member = named_file(document, scene, path);
     };
-    return bound_by<M>(
-               of_length(entry(name, KeyKind::text, std::move(fallback), about), kLongestPath), read,
-               [member](const M& mesh, const Scene&) {
-                   return (mesh.*member).empty() ? std::string() : quoted(mesh.*member);
-               })
+    return bound_by<M>(of_length(entry(name, KeyKind::text, std::move(fallback), about), kLongestPath), read,
+                       [member](const M& mesh, const Scene&) {
+                           return (mesh.*member).empty() ? std::string() : quoted(mesh.*member);
+                       })
         .decides_nothing();  // its hash does
 }
 
@@ -70,7 +69,8 @@ bool stands_still(const M& mesh) {
 const KeyTable<M>& mesh_table() {
     static const KeyTable<M> table{
         text("name", &M::name, note("mesh 1, mesh 2, ..."),
-             "A wall whose shape comes from a file, beside the container or without any; for [[contact.pair]], "
+             "A wall whose shape comes from a file, beside the container or without any; for "
+             "[[contact.pair]], "
              "columns and messages.")
             .usually([](M& mesh, const Scene& scene) {
                 mesh.name = fmt::format("mesh {}", scene.meshes.size() + 1);

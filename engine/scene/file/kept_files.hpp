@@ -15,8 +15,8 @@ struct KeptFile {
     std::string name;        // "meshes/drum.stl", relative to the run's folder
 };
 
-// Each file once. Names are those of the files, with a number where two differ in nothing else. What the program
-// ships is not kept.
+// Each file once. Names are those of the files, with a number where two differ in nothing else. What the
+// program ships is not kept.
 std::vector<KeptFile> kept_files(const Scene& scene);
 
 // The scene as it is written into its run's folder: it names the kept files. So do the scenes in checkpoints,

@@ -77,14 +77,14 @@ class PathReader {
         const std::vector<std::string_view> cells = cells_of(line);
         width_ = cells.size();
         for (std::size_t c = 0; c < cells.size(); ++c) {
-            const auto found =
-                std::find_if(column_names.begin(), column_names.end(), [&](const auto& names) {
-                    return std::find(names.begin(), names.end(), cells[c]) != names.end();
-                });
+            const auto found = std::find_if(column_names.begin(), column_names.end(), [&](const auto& names) {
+                return std::find(names.begin(), names.end(), cells[c]) != names.end();
+            });
             if (found == column_names.end())
-                fail(fmt::format("the column \"{}\" means nothing in a path; the first line must name its "
-                                 "columns: time_s, x_m, y_m, z_m and, if it turns, qw, qx, qy, qz",
-                                 excerpt(cells[c])));
+                fail(
+                    fmt::format("the column \"{}\" means nothing in a path; the first line must name its "
+                                "columns: time_s, x_m, y_m, z_m and, if it turns, qw, qx, qy, qz",
+                                excerpt(cells[c])));
             const auto column = static_cast<std::size_t>(found - column_names.begin());
             if (at_[column] >= 0) fail(fmt::format("there are two columns \"{}\"; take one out", cells[c]));
             at_[column] = static_cast<int>(c);
@@ -92,9 +92,10 @@ class PathReader {
         turns_ = std::any_of(at_.begin() + of_qw, at_.end(), [](int at) { return at >= 0; });
         for (std::size_t column = 0; column < (turns_ ? columns : of_qw); ++column)
             if (at_[column] < 0)
-                fail(fmt::format("lacks the column \"{}\"; a path has time_s, x_m, y_m, z_m and, if it "
-                                 "turns, qw, qx, qy, qz",
-                                 column_names[column].front()));
+                fail(
+                    fmt::format("lacks the column \"{}\"; a path has time_s, x_m, y_m, z_m and, if it "
+                                "turns, qw, qx, qy, qz",
+                                column_names[column].front()));
     }
 
     double number(const std::vector<std::string_view>& cells, Column column) const {
@@ -117,9 +118,10 @@ class PathReader {
                              cells.size(), header_, width_));
         const double time = number(cells, of_time);
         if (!rows.times.empty() && !(time > rows.times.back()))
-            fail(fmt::format("the time is {:.9g} s, not later than {:.9g} s in line {}; sort the rows, and "
-                             "remove those of equal times",
-                             time, rows.times.back(), rows.lines.back()));
+            fail(
+                fmt::format("the time is {:.9g} s, not later than {:.9g} s in line {}; sort the rows, and "
+                            "remove those of equal times",
+                            time, rows.times.back(), rows.lines.back()));
         rows.lines.push_back(line_);
         rows.times.push_back(time);
         rows.places.emplace_back(number(cells, of_x), number(cells, of_y), number(cells, of_z));
@@ -132,9 +134,10 @@ class PathReader {
                              number(cells, of_qz));
         const double length = turn.norm();
         if (std::abs(length - 1) > off_unit)
-            fail(fmt::format("qw, qx, qy, qz have the length {:.6g}, and a rotation has 1; write 1, 0, 0, 0 "
-                             "for none",
-                             length));
+            fail(
+                fmt::format("qw, qx, qy, qz have the length {:.6g}, and a rotation has 1; write 1, 0, 0, 0 "
+                            "for none",
+                            length));
         turn /= length;
         if (!rows.turns.empty() && turn.dot(rows.turns.back()) < 0) turn = -turn;
         rows.turns.push_back(turn);
@@ -157,10 +160,11 @@ class PathReader {
     double speed(std::size_t i) const { return step(i) / (rows.times[i + 1] - rows.times[i]); }
 
     [[noreturn]] void fail_for_jump(std::size_t to) const {
-        fail_at(rows.lines[to],
-                fmt::format("the path jumps by {:.4g} m within {:.4g} s, more than 20 times as fast as before "
-                            "and after; correct the row, or add rows in between where that is meant",
-                            step(to - 1), rows.times[to] - rows.times[to - 1]));
+        fail_at(
+            rows.lines[to],
+            fmt::format("the path jumps by {:.4g} m within {:.4g} s, more than 20 times as fast as before "
+                        "and after; correct the row, or add rows in between where that is meant",
+                        step(to - 1), rows.times[to] - rows.times[to - 1]));
     }
 
     // Motions that are sampled well have no step that is alone so fast.

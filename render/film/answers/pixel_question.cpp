@@ -14,7 +14,7 @@ namespace {
 
 View view_of(const FilmedScene& scene, const Frame& shown, double film_time) {
     const View view = CameraPath(scene, plan_layout(scene)).at(film_time);
-    return scene.film.camera.follow ? view.moved_by(shown.container().place) : view;
+    return scene.film.camera.follow ? view.moved_by(way_of_container(scene, shown)) : view;
 }
 
 AlongRay along(const FilmedScene& scene, const Frame& shown) {

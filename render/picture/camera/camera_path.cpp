@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "render/picture/camera/mesh_reach.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -31,13 +32,14 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
       port_(layout.port),
       picture_height_(scene.film.height),
       margin_(type_scale(scene.film).margin),
+      meshes_(mesh_reach(scene)),
       target_(camera_.target.value_or(camera_.position ? extent_of(scene).middle() : framed_middle(scene))) {
     make_tracks();
     if (camera_.position)
         look_from_position();
     else
         frame_by_itself(scene);
-    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene));
+    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene), meshes_);
     for (const Vec3& point : all) radius_ = std::max(radius_, (point - target_).norm());
     if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
 }
@@ -47,7 +49,7 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
 void CameraPath::frame_by_itself(const FilmedScene& scene) {
     FramedPart part = framed_part(scene);
     double scale = frame_part(scene, part);
-    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene));
+    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene), meshes_);
     while (part.cut && camera_.field_of_view > 0 && least_depth(all) < close_by * distance_) {
         part.top *= 1.25;
         if (part.top >= scene.container.height) part = whole_container(scene);
@@ -64,7 +66,7 @@ double CameraPath::frame_part(const FilmedScene& scene, const FramedPart& part) 
         keep_distance(scene, part);
         return camera_.field_of_view <= 0 ? focal_ : focal_ / distance_;
     }
-    still_ = fit_view(camera_, framing_points(scene, camera_.azimuth, part), port_, margin_, picture_height_);
+    still_ = fit_view(camera_, framing_points(scene, camera_.azimuth, part, meshes_), port_, margin_, picture_height_);
     distance_ = still_->to_view(target_).z();
     return still_->pixels_per_metre(target_);
 }
@@ -87,7 +89,7 @@ bool CameraPath::leaves_aside(const FilmedScene& scene, const FramedPart& part) 
     constexpr int heights = 64;
     for (int i = 0; i <= heights; ++i) {
         const double top = part.top + (scene.container.height - part.top) * i / heights;
-        for (const Vec3& point : framing_points(scene, camera_.azimuth, {top, true})) {
+        for (const Vec3& point : framing_points(scene, camera_.azimuth, {top, true}, meshes_)) {
             const Eigen::Vector2d seen = still_->project(point);
             if (seen.y() >= 0 && (seen.x() < 0 || seen.x() > port_.width)) return true;
         }
@@ -203,7 +205,7 @@ void CameraPath::keep_distance(const FilmedScene& scene, const FramedPart& part)
     const Vec3 middle = framed_middle(scene);
     for (const Pose& here : samples()) {
         const View view = looking(here.azimuth, here.elevation, camera_.up);
-        for (const Vec3& point : framing_points(scene, here.azimuth, part))
+        for (const Vec3& point : framing_points(scene, here.azimuth, part, meshes_))
             framing.take(view, point - middle);
     }
     focal_ = framing.focal();
@@ -224,6 +226,11 @@ View CameraPath::at(double film_time) const {
     view.nearest = std::max(0.01 * distance_, distance_ - 2 * reach);
     view.farthest = distance_ + 4 * reach;
     return view;
+}
+
+Vec3 way_of_container(const FilmedScene& scene, const Frame& frame) {
+    const std::optional<BodyTurn>& turn = scene.container.turn;
+    return turn ? Vec3(frame.container().moved(turn->through) - turn->through) : frame.container().place;
 }
 
 View frame_container(const FilmedScene& scene, const PictureLayout& layout) {

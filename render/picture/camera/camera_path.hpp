@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/frame.hpp"
 #include "render/picture/base/monotone_curve.hpp"
 #include "render/picture/base/picture_layout.hpp"
 #include "render/picture/base/view.hpp"
@@ -51,6 +52,7 @@ class CameraPath {
     const Rectangle port_;
     const int picture_height_;
     const double margin_;  // pixels, between what is framed and the port's border
+    const std::vector<Vec3> meshes_;  // m, their outermost points
     Vec3 target_;
     std::optional<View> still_;         // with the plain automatic framing
     double distance_ = 0, shift_ = 0;   // m, of the eye from the target, and of both upwards in the picture
@@ -59,6 +61,9 @@ class CameraPath {
     Track azimuth_, elevation_, zoom_;  // the zoom by its logarithm
     std::vector<MonotoneCurve> place_;  // x, y, z of the target
 };
+
+// m, how far the container has come, for a camera that follows it: with its shaking, and not with its turning.
+Vec3 way_of_container(const FilmedScene& scene, const Frame& frame);
 
 // The scene's camera as the film begins.
 View frame_container(const FilmedScene& scene, const PictureLayout& layout);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "render/picture/camera/mesh_reach.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/lab_marks.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -52,18 +54,41 @@ std::optional<double> wanted_top(const FilmedScene& scene) {
     return top;
 }
 
-std::vector<Vec3> corners_of(const FilmedScene& scene, const FramedPart& part) {
+// Of a container that turns: all round its axis.
+std::vector<Vec3> turned(const std::vector<Vec3>& corners, const BodyTurn& turn) {
+    constexpr int kTurns = 24;
+    std::vector<Vec3> all;
+    for (int k = 0; k < kTurns; ++k) {
+        const Eigen::AngleAxisd by(2 * std::numbers::pi * k / kTurns, turn.axis);
+        for (const Vec3& corner : corners) all.push_back(turn.through + by * (corner - turn.through));
+    }
+    return all;
+}
+
+std::vector<Vec3> corners_at_rest(const FilmedScene& scene, const FramedPart& part,
+                                  const std::vector<Vec3>& meshes) {
     const double top = part.cut ? part.top : 1e300;
     switch (scene.container.shape) {
         case Container::Shape::cylinder:
             return cylinder_corners(scene.container, top);
+        case Container::Shape::mesh:
+            return {};
         case Container::Shape::none:
-            return extent_corners(extent_of(scene));
+            return meshes.empty() ? extent_corners(extent_of(scene)) : std::vector<Vec3>();
         case Container::Shape::wedge:
         case Container::Shape::box:
             break;
     }
     return prism_corners(scene.container, top);
+}
+
+std::vector<Vec3> corners_of(const FilmedScene& scene, const FramedPart& part,
+                             const std::vector<Vec3>& meshes) {
+    std::vector<Vec3> corners = corners_at_rest(scene, part, meshes);
+    if (scene.container.turn) corners = turned(corners, *scene.container.turn);
+    for (const Vec3& point : meshes)
+        if (!part.cut || point.z() <= part.top) corners.push_back(point);
+    return corners;
 }
 
 std::vector<Vec3> tray_corners(const FilmedScene& scene) {
@@ -91,7 +116,9 @@ FramedPart whole_container(const FilmedScene& scene) {
 FramedPart framed_part(const FilmedScene& scene) {
     const Container& container = scene.container;
     const bool all = scene.film.camera.frame == CameraFrame::container ||
-                     container.shape == Container::Shape::none || looks_steeply(scene.film.camera);
+                     container.shape == Container::Shape::none ||
+                     container.shape == Container::Shape::mesh || container.turn ||
+                     looks_steeply(scene.film.camera);
     const std::optional<double> top = all ? std::nullopt : wanted_top(scene);
     if (!top) return whole_container(scene);
     const double height = container.height;
@@ -106,8 +133,9 @@ Vec3 framed_middle(const FilmedScene& scene) {
     return extent.middle();
 }
 
-std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part) {
-    std::vector<Vec3> corners = corners_of(scene, part);
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part,
+                                 const std::vector<Vec3>& meshes) {
+    std::vector<Vec3> corners = corners_of(scene, part, meshes);
     if (scene.container.tray)
         for (const Vec3& corner : tray_corners(scene)) corners.push_back(corner);
     else if (scene.container.outlet)
@@ -129,7 +157,7 @@ std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const
 }
 
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth) {
-    return framing_points(scene, azimuth, framed_part(scene));
+    return framing_points(scene, azimuth, framed_part(scene), mesh_reach(scene));
 }
 
 std::vector<Vec3> framing_points(const FilmedScene& scene) {

@@ -22,7 +22,9 @@ Vec3 framed_middle(const FilmedScene& scene);
 
 // Every point that has to stay in the picture of a camera at this azimuth (degrees): the drawn container as
 // far as it is framed, at rest and at both ends of its stroke, as drawn, and the marks beside it.
-std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part);
+// meshes: as mesh_reach() finds them, which takes a while.
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part,
+                                 const std::vector<Vec3>& meshes);
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth);
 std::vector<Vec3> framing_points(const FilmedScene& scene);  // at the camera's own azimuth
 

@@ -30,14 +30,14 @@ void draw_ghost(const FilmedScene& scene, const Sketch& lab, Shapes& on) {
     const bool floor_only = scene.drive.moves == Drive::Moves::floor;
     if (scene.container.shape == Container::Shape::cylinder)
         draw_cylinder_ghost(scene.container, floor_only, lab, on);
-    else if (scene.container.shape != Container::Shape::none)
+    else if (is_prism(scene.container))
         draw_prism_ghost(scene.container, floor_only, lab, on);
 }
 
 void draw_at(const Container& container, const Sketches& sketches, ContainerShapes& shapes) {
     if (container.shape == Container::Shape::cylinder)
         draw_cylinder(container, sketches, shapes);
-    else if (container.shape != Container::Shape::none)
+    else if (is_prism(container))
         draw_prism(container, sketches, shapes);
 }
 
@@ -48,17 +48,19 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
     shapes.behind.clear();
     shapes.before.clear();
     shapes.over.clear();
-    const Sketches sketches{{views, palette, picture_height, frame.container().place},
-                            {views, palette, picture_height, frame.floor().place},
-                            {views, palette, picture_height, Vec3(0, 0, 0)}};
+    const Sketches sketches{{views, palette, picture_height, frame.container()},
+                            {views, palette, picture_height, frame.floor()},
+                            {views, palette, picture_height, BodyPose()}};
     if (scene.container.tray) {
-        const Sketch below{views, palette, picture_height, Vec3(0, 0, -scene.container.tray->depth)};
+        BodyPose place;
+        place.place.z() = -scene.container.tray->depth;
+        const Sketch below{views, palette, picture_height, place};
         draw_at(tray_container(scene), {below, below, below}, shapes);
     }
     draw_at(container_at(scene.container, frame.time), sketches, shapes);
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {  // inside, so over the container's far walls
-        const Vec3 offset = frame.body(kFirstPlaneBody + w).place;
-        draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, offset}, shapes);
+        const BodyPose pose = frame.body(kFirstPlaneBody + w);
+        draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, pose}, shapes);
     }
     draw_lab_marks(scene, sketches, azimuth_of(views.at_rest), shapes.behind);
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);

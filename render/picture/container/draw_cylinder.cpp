@@ -32,11 +32,11 @@ std::vector<Vec3> circle(double radius, double z) {
 
 // Where the eye is about z, and how far to both sides of there it sees the tube: where lines of sight touch
 // it (cos = R / distance). rad
-std::pair<double, double> visible_part(double radius, const View& view, const Vec3& offset) {
-    const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - offset);
+std::pair<double, double> visible_part(double radius, const Sketch& sketch) {
+    const Vec3 to_eye = sketch.to_eye();
     const double distance = std::hypot(to_eye.x(), to_eye.y());
     return {std::atan2(to_eye.y(), to_eye.x()),
-            view.orthographic ? 0.5 * std::numbers::pi : std::acos(std::min(1.0, radius / distance))};
+            sketch.view().orthographic ? 0.5 * std::numbers::pi : std::acos(std::min(1.0, radius / distance))};
 }
 
 class Cylinder {
@@ -47,10 +47,11 @@ class Cylinder {
           thickness_(drawn_thickness(container)),
           lid_(container.lid),
           outlet_(container.outlet),
+          turns_(container.turn.has_value()),
           sketches_(sketches),
           shapes_(shapes) {
         std::tie(facing_, half_visible_) =
-            visible_part(radius_, sketches.walls.view(), sketches.walls.offset());
+            visible_part(radius_, sketches.walls);
     }
 
     void draw() {
@@ -59,6 +60,7 @@ class Cylinder {
         glass();
         for (const double side : {-1.0, 1.0}) cut(side);
         if (!lid_) rim();
+        if (turns_) ticks();
     }
 
   private:
@@ -139,9 +141,26 @@ class Cylinder {
         }
     }
 
+    // Marks around both rims, one of them long, that show how it turns.
+    void ticks() {
+        constexpr int kTicks = 12;
+        const Sketch& walls = sketches_.walls;
+        for (const double z : {0.0, height_}) {
+            const Vec3 outward(0, 0, z > 0 ? 1 : -1);
+            WallSide& on = walls.faces({0, 0, z}, outward) ? shapes_.before : shapes_.behind;
+            for (int k = 0; k < kTicks; ++k) {
+                const double angle = 2 * std::numbers::pi * k / kTicks, end = radius_ + thickness_;
+                const double begin = k == 0 ? radius_ - 2 * thickness_ : radius_;
+                walls.line(on, {on_circle(begin, angle, z), on_circle(end, angle, z)}, false, walls.pen,
+                           walls.glass_edge());
+            }
+        }
+    }
+
     const double radius_, height_, thickness_;
     const bool lid_;
     const std::optional<Outlet> outlet_;
+    const bool turns_;
     const Sketches& sketches_;
     ContainerShapes& shapes_;
     double facing_ = 0, half_visible_ = 0;  // rad, about z
@@ -159,7 +178,7 @@ std::vector<Vec3> cylinder_corners(const Container& container, double top) {
 
 void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on) {
     const double t = drawn_thickness(container), wide = container.half_width + t;
-    const auto [facing, half] = visible_part(container.half_width, lab.view(), lab.offset());
+    const auto [facing, half] = visible_part(container.half_width, lab);
     const double top = floor_only ? 0 : container.height + (container.lid ? t : 0);
     std::vector<Vec3> outline = arc(wide, facing - half, facing + half, -1.4 * t);
     const std::vector<Vec3> upper = arc(wide, facing + half, facing - half, top);

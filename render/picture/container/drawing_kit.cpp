@@ -29,6 +29,10 @@ Paint blend(const Paint& one, const Paint& other, double share_of_other) {
 
 double Sketch::solid(const Vec3& point, const Vec3& normal) const {
     const View& view = views_.at_rest;
+    if (turned_) {
+        const Vec3 at = views_.now.orthographic ? Vec3(-views_.now.forward) : Vec3((views_.now.eye - moved(point)).normalized());
+        return smooth_step(-turned(normal).dot(at) - fade, fade);
+    }
     if (!views_.moves) return view.faces(point, normal) ? 0 : 1;
     const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - point).normalized();
     // Glass by the time the eye is in the plane: there the part changes from behind the grains to before
@@ -37,8 +41,8 @@ double Sketch::solid(const Vec3& point, const Vec3& normal) const {
 }
 
 double Sketch::positive_end_is_near() const {
-    const double towards = -view().forward.x();
-    return views_.moves ? smooth_step(towards, fade) : towards >= 0 ? 1 : 0;
+    const double towards = -view().forward.dot(turned(Vec3(1, 0, 0)));
+    return views_.moves || turned_ ? smooth_step(towards, fade) : towards >= 0 ? 1 : 0;
 }
 
 void Sketch::dashed(Shapes& on, std::vector<Vec3> points, bool closed, double width,

@@ -17,15 +17,35 @@ Paint faded(const Paint& paint, double share);
 // As over a background: of one paint, and so much of the other.
 Paint blend(const Paint& one, const Paint& other, double share_of_other);
 
-// Draws shapes given in metres, in the frame of something that has moved by `offset`.
+// A wedge or a box. Cylinders are drawn in another way, meshes as their triangles.
+inline bool is_prism(const Container& container) {
+    return container.shape == Container::Shape::wedge || container.shape == Container::Shape::box;
+}
+
+// Draws shapes given in metres, in the frame of something that has moved and turned.
 class Sketch {
   public:
-    Sketch(const Views& views, const Palette& colours, int picture_height, const Vec3& offset)
-        : palette(colours), pen(std::max(1.0, picture_height / 600.0)), views_(views), offset_(offset) {}
+    Sketch(const Views& views, const Palette& colours, int picture_height, const BodyPose& pose)
+        : palette(colours),
+          pen(std::max(1.0, picture_height / 600.0)),
+          views_(views),
+          offset_(pose.place),
+          rotation_(pose.rotation),
+          turned_(pose.rotation.vec() != Vec3(0, 0, 0)) {}
 
     bool faces(const Vec3& point, const Vec3& normal) const {
-        return views_.now.faces(point + offset_, normal);
+        return views_.now.faces(moved(point), turned(normal));
     }
+    // From the frame of what is drawn into the lab.
+    Vec3 moved(const Vec3& point) const { return turned(point) + offset_; }
+    Vec3 turned(const Vec3& direction) const { return turned_ ? Vec3(rotation_ * direction) : direction; }
+    // The direction from the middle of what is drawn to the eye, in its own frame.
+    Vec3 to_eye() const {
+        const View& view = views_.now;
+        const Vec3 in_lab = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - offset_);
+        return turned_ ? Vec3(rotation_.conjugate() * in_lab) : in_lab;
+    }
+    bool is_turned() const { return turned_; }
     // How solid a part looks, 0 for glass: by where the eye is when everything is at rest, or a part whose
     // plane it crosses would blink once a period. What hides what follows the present. A camera that moves
     // sees glass become solid over some degrees.
@@ -38,7 +58,7 @@ class Sketch {
     void polygon(WallSide& on, const std::vector<Vec3>& corners, const Paint& paint) const {
         on.shapes.polygon(project(corners), paint);
         on.faces.push_back({corners, paint.alpha});
-        for (Vec3& corner : on.faces.back().corners) corner += offset_;
+        for (Vec3& corner : on.faces.back().corners) corner = moved(corner);
     }
     void line(WallSide& on, const std::vector<Vec3>& points, bool closed, double width,
               const Paint& paint) const {
@@ -65,14 +85,16 @@ class Sketch {
     std::vector<Pixel> project(const std::vector<Vec3>& points) const {
         std::vector<Pixel> pixels;
         pixels.reserve(points.size());
-        for (const Vec3& point : points) pixels.push_back(views_.now.project(point + offset_));
+        for (const Vec3& point : points) pixels.push_back(views_.now.project(moved(point)));
         return pixels;
     }
     const Views& views_;
     const Vec3 offset_;
+    const Quaternion rotation_;
+    const bool turned_;
 };
 
-// Offsets of the moving parts: the walls (with the lid), and the floor.
+// Of the moving parts: the walls (with the lid), and the floor.
 struct Sketches {
     Sketch walls, floor, lab;
 };

@@ -24,7 +24,7 @@ Vec3 drawn_stroke(const FilmedScene& scene) {
 
 bool has_lab_marks(const FilmedScene& scene) {
     return scene.film.word_kinds.arrows && scene.drive.present && scene.drive.largest_amplitude() > 0 &&
-           scene.container.shape != Container::Shape::none;
+           scene.container.shape != Container::Shape::none && scene.film.camera.up == Vec3(0, 0, 1);
 }
 
 std::vector<LabMark> lab_marks(const FilmedScene& scene, double azimuth) {
@@ -36,7 +36,9 @@ std::vector<LabMark> lab_marks(const FilmedScene& scene, double azimuth) {
     azimuth *= std::numbers::pi / 180;
     const bool across = container.shape == Container::Shape::cylinder || scene.film.camera.moves();
     const double eye_side = std::cos(azimuth) >= 0 ? 1 : -1;
-    const Vec3 middle = across ? Vec3(0, 0, 0) : Vec3(eye_side * 0.5 * container.depth, 0, 0);
+    // A vessel's marks stand at its lowest place; other floors rest at 0.
+    const double base = container.shape == Container::Shape::mesh ? container.base() : 0;
+    const Vec3 middle = across ? Vec3(0, 0, base) : Vec3(eye_side * 0.5 * container.depth, 0, base);
     const Vec3 side = across ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0) : Vec3(0, 1, 0);
     const Vec3 stroke = drawn_stroke(scene);
     const double half = across ? reach_aside(container, floor_half, azimuth) : floor_half;

@@ -32,8 +32,9 @@ GluedSpheres::GluedSpheres(const FilmedScene& scene) {
 std::vector<GluedSpheres::Seen> GluedSpheres::seen(const View& view, const Frame& frame) const {
     std::vector<Seen> all;
     for (const Glued& one : glued_) {
-        const Vec3 centre = one.at_rest + frame.body(one.body).place;
-        if (one.at_side || view.faces(centre, one.inward)) all.push_back({centre, one.radius});
+        const BodyPose pose = frame.body(one.body);
+        const Vec3 centre = pose.moved(one.at_rest);
+        if (one.at_side || view.faces(centre, pose.rotation * one.inward)) all.push_back({centre, one.radius});
     }
     return all;
 }

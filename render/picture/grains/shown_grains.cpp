@@ -19,7 +19,9 @@ void keep(std::vector<T>& values, const std::vector<std::size_t>& kept) {
 std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame) {
     if (!cut.present) return {};
     const Vec3& normal = cut.normal;
-    const double at = cut.at + normal.dot(frame.floor().place);
+    // It goes with a floor that shakes, not with one that turns.
+    const bool turns = !frame.floor().rotation.isApprox(Quaternion::Identity());
+    const double at = cut.at + (turns ? 0 : normal.dot(frame.floor().place));
     std::vector<HalfSpace> kept{{-normal, -at}};
     if (cut.thickness > 0) kept.push_back({normal, at - cut.thickness});
     return kept;

@@ -32,7 +32,8 @@ FieldOutput resolution(const FilmedScene& scene) {
 std::array<double, 2> places_of(const FilmedScene& scene, bool across) {
     const Extent extent = extent_of(scene);
     if (across) return {extent.low.y(), extent.high.y()};
-    if (scene.container.shape == Container::Shape::none) return {extent.low.z(), extent.high.z()};
+    if (scene.container.shape == Container::Shape::none || scene.container.shape == Container::Shape::mesh)
+        return {extent.low.z(), extent.high.z()};
     const double top = std::min(scene.container.height, framed_part(scene).top);
     return {0, top > 0 ? top : scene.container.height};
 }

@@ -216,7 +216,7 @@ void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture&
 void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
                                  Picture& into, Stopwatch& watch) {
     const Frame& frame = exaggeration.shown(true_frame);
-    eye = scene.film.camera.follow ? view.moved_by(frame.container().place) : view;
+    eye = scene.film.camera.follow ? view.moved_by(way_of_container(scene, frame)) : view;
     const Frame& all = shown.of(frame);
     const Frame& opaque = ghost_painter ? solid.of(all) : all;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
