@@ -94,7 +94,9 @@ TEST(SurfaceNearest, SlenderTrianglesAreRight) {
             EXPECT_NEAR(std::sqrt(found.squared), distance_to_sides(surface, 0, point), height + 1e-15);
             EXPECT_LT(distance_to_sides(surface, 0, found.at), height + 1e-15);
             EXPECT_NEAR((found.at - point).squaredNorm(), found.squared, 1e-14 * far * far + height * far);
-            if (height > 1e-6) EXPECT_NEAR(std::sqrt(found.squared), distance_to(surface, 0, point), 1e-12);
+            if (height > 1e-6) {
+                EXPECT_NEAR(std::sqrt(found.squared), distance_to(surface, 0, point), 1e-12);
+            }
         }
     }
 }
