@@ -116,8 +116,9 @@ FramedPart whole_container(const FilmedScene& scene) {
 FramedPart framed_part(const FilmedScene& scene) {
     const Container& container = scene.container;
     const bool all = scene.film.camera.frame == CameraFrame::container ||
-                     container.shape == Container::Shape::none || container.shape == Container::Shape::mesh ||
-                     container.turn || looks_steeply(scene.film.camera);
+                     container.shape == Container::Shape::none ||
+                     container.shape == Container::Shape::mesh || container.turn ||
+                     looks_steeply(scene.film.camera);
     const std::optional<double> top = all ? std::nullopt : wanted_top(scene);
     if (!top) return whole_container(scene);
     const double height = container.height;
