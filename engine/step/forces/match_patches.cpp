@@ -15,7 +15,8 @@ int count_of(const std::vector<Patch>& patches) {
 
 }  // namespace
 
-const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in, const std::vector<MeshWall>& meshes,
+const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
+                                                     const std::vector<MeshWall>& meshes,
                                                      const ContactGroup& group, const MeshNear& near,
                                                      const MeshLists& lists, const ContactTable& table) {
     matched_.clear();
@@ -77,24 +78,25 @@ void PatchMatcher::find_owners() {
     }
 }
 
-// A centre has come through the surface if it now sees it on the other side, and nearer than it can have come in
-// any other way.
+// A centre has come through the surface if it now sees it on the other side, and nearer than it can have come
+// in any other way.
 void PatchMatcher::look_for_faults(const ForceInput& in, const MeshNear& near, const WallPose& pose) {
     using Kind = MeshFault::Kind;
     constexpr double kOpposite = -0.5, kDeep = 0.5;  // cosine; of the radius
     const std::vector<Patch>& all = patches_.all();
     const auto note = [&](Kind kind, const Patch& patch) {
-        fault_ = {kind, in.grains.id[near.grain], near.mesh, patch.triangle, in.grains.place[near.grain].position};
+        fault_ = {kind, in.grains.id[near.grain], near.mesh, patch.triangle,
+                  in.grains.place[near.grain].position};
     };
     if (std::ssize(all) > kMostPatches) note(Kind::many_patches, all[0]);
     for (std::size_t p = 0; p < all.size(); ++p) {
         const Vec3 velocity = in.grains.motion[near.grain].velocity - pose.mean_velocity(all[p].at);
-        const double way = std::max(kDeep * in.grains.place[near.grain].radius, velocity.norm() * in.times.since);
+        const double way =
+            std::max(kDeep * in.grains.place[near.grain].radius, velocity.norm() * in.times.since);
         const bool flips = std::any_of(before_.begin(), before_.end(), [&](const Before& before) {
             return before.normal.dot(normals_[p]) < kOpposite;
         });
-        if (!(all[p].distance > 0) || (flips && all[p].distance < way))
-            note(Kind::crossed, all[p]);
+        if (!(all[p].distance > 0) || (flips && all[p].distance < way)) note(Kind::crossed, all[p]);
     }
 }
 

@@ -1,9 +1,9 @@
 // Which patch of a mesh goes on with which contact of the step before.
 //
-// A contact goes on with the patch that has its triangle, unless the normal has jumped; else with the patch whose
-// normal is nearest to its own. Where two contacts would go on with one patch, the one with the larger force
-// does. What is left over are new contacts; each takes the lowest number that is free. All this depends on the
-// grain alone, and not on threads, nor on the order of the table.
+// A contact goes on with the patch that has its triangle, unless the normal has jumped; else with the patch
+// whose normal is nearest to its own. Where two contacts would go on with one patch, the one with the larger
+// force does. What is left over are new contacts; each takes the lowest number that is free. All this depends
+// on the grain alone, and not on threads, nor on the order of the table.
 #pragma once
 
 #include <array>

@@ -51,6 +51,7 @@ void WallState::set(const Surroundings& around, const Pose& before, const Pose& 
     for (std::size_t f = 0; turning && f < around.faces.size(); ++f) {
         const Face& face = around.faces[f];
         poses[f].set(face.body, face.point, before, now, step);
+        if (face.body.turn) poses[f].point = poses[f].now.moved(face.body.turn->through);
         poses[f].normal_before = face.body.at(before).rotation * face.normal;
     }
     for (std::size_t m = 0; m < around.meshes.size(); ++m)
