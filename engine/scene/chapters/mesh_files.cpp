@@ -74,7 +74,7 @@ std::string named_file(Document& document, const Scene& scene, const std::string
     const fs::path file = document.required_text(path);
     if (file.empty()) document.fail(path, "is empty; write the name of a file");
     if (is_shipped(file)) return file.filename().string();
-    const fs::path folder = fs::absolute(fs::path(scene.file).parent_path()).lexically_normal();
+    const fs::path folder = fs::absolute(fs::path(scene.file)).parent_path().lexically_normal();
     if (const std::string wrong = complaint_of_utf8((folder / file).string()); !wrong.empty())
         document.fail(path, fmt::format("lies at {}; rename the folder", wrong));
     std::error_code ignored;
