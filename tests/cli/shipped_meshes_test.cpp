@@ -39,7 +39,8 @@ TEST(ShippedMeshes, AreFoundByTheirWordWhateverFolderStandsBefore) {
         shipped_mesh("shipped:drun.stl");
         FAIL() << "there is no such mesh";
     } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("shipped:drun.stl: the program has no such mesh; it has "));
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("shipped:drun.stl: the program has no such mesh; it has "));
         EXPECT_THAT(error.what(), testing::HasSubstr("drum.stl"));
     }
 }

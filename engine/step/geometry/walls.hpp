@@ -46,7 +46,7 @@ struct WallPose {
     Vec3 moved{0, 0, 0};          // m/s, mean velocity of the body's origin
     Eigen::Matrix3d rate;         // 1/s, mean, by which `turned` grows
     Vec3 spin{0, 0, 0};           // rad/s, mean over the step
-    Vec3 point{0, 0, 0};          // m, now: about which the moment counts
+    Vec3 point{0, 0, 0};          // m, now: about which the moment counts; of a face that turns on its axis
     Vec3 point_before{0, 0, 0};   // m, of a face: its point a step ago
     Vec3 normal_before{0, 0, 0};  // of a face: its normal a step ago
 

@@ -147,7 +147,9 @@ void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list) {
                                   metres_text(2 * tray->half_width)));
     for (const FreeWall& wall : scene.walls) list.line("", wall_text(wall));
     print_meshes(scene, list);
-    for (const ExitBox& box : scene.exits) list.line("exit", box_text(box.low, box.high));
+    for (const ExitBox& box : scene.exits)
+        list.line("exit", box_text(box.low, box.high) +
+                              (box.outside ? ": grains leave outside of it" : ": grains leave in it"));
     if (const auto& region = scene.start.region) list.line("filled", box_text(region->low, region->high));
     if (scene.start.method != Start::Method::grains)
         list.line("bed",

@@ -9,7 +9,7 @@
 
 #include "render/page/bed/thin_mesh.hpp"
 #include "render/page/embed/zlib_pack.hpp"
-#include "render/picture/mesh/mesh_shape.hpp"
+#include "render/picture/mesh/scene_meshes.hpp"
 
 namespace grainreel {
 namespace {
@@ -27,17 +27,15 @@ struct Shape {
     std::shared_ptr<const MeshShape> drawn;
 };
 
-MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh) {
-    const bool vessel = scene.container.shape == Container::Shape::mesh && scene.container.mesh == mesh.name;
-    return vessel ? MeshLook::vessel : MeshLook::automatic;
-}
-
 std::vector<Shape> shapes_of(const FilmedScene& scene) {
-    constexpr double edge_angle = 30 * std::numbers::pi / 180;
+    const double edge_angle = scene.film.look.walls.edge_angle * std::numbers::pi / 180;
     std::vector<Shape> shapes;
     std::int32_t body = first_mesh_body(scene);
-    for (const SceneMesh& mesh : scene.meshes)
-        shapes.push_back({&mesh, body++, mesh_shape(*mesh.surface, edge_angle, look_of(scene, mesh))});
+    for (const SceneMesh& mesh : scene.meshes) {
+        if (mesh.surface)
+            shapes.push_back({&mesh, body, mesh_shape(*mesh.surface, edge_angle, look_of(scene, mesh))});
+        ++body;
+    }
     return shapes;
 }
 
@@ -205,16 +203,17 @@ void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& mome
     const std::size_t stride = 1 + moments.size() / most_moments;
     auto body = static_cast<std::size_t>(first_mesh_body(scene));
     for (const SceneMesh& mesh : scene.meshes) {
+        const std::size_t number = body++;
+        if (!mesh.surface) continue;
         const std::vector<Vec3>& vertices = mesh.surface->mesh().vertices;
         const MeshFacts& facts = mesh.surface->facts();
         box.take(facts.low);
         box.take(facts.high);
         for (std::size_t k = 0; k < moments.size(); k += stride) {
-            const BodyPose pose = moments[k].body(body);
+            const BodyPose pose = moments[k].body(number);
             for (std::size_t v = 0; v < vertices.size(); v += 1 + vertices.size() / most_vertices)
                 box.take(pose.moved(vertices[v]));
         }
-        ++body;
     }
 }
 

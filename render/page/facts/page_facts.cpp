@@ -8,6 +8,7 @@
 
 #include "engine/scene/text/fitting_unit.hpp"
 #include "render/page/bed/slabs.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/picture/grains/colour_map.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -138,6 +139,7 @@ Json bed_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& 
         bodies.push_back(std::move(places));
     }
     const Camera& camera = scene.film.camera;
+    const bool upright = camera.up == Vec3(0, 0, 1);
     constexpr double usual_field_of_view = 25;  // degrees, where the film has none (orthographic)
     Json json = {{"grains", bed.grains},
                  {"times", times},
@@ -157,6 +159,10 @@ Json bed_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& 
                    {"elevation", camera.elevation},
                    {"fov", camera.field_of_view > 0 ? camera.field_of_view : usual_field_of_view}}},
                  {"ramps", {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}}}};
+    if (!upright) {
+        json["view"]["up"] = of_vector(camera.up);
+        json["view"]["front"] = of_vector(front_of(camera.up));
+    }
     if (!scene.meshes.empty()) json["meshes"] = meshes_json(meshes);
     return json;
 }
