@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <random>
+
 #include "engine/mesh/room.hpp"
 #include "tests/mesh/shapes.hpp"
 
@@ -12,7 +15,8 @@ EnclosedRoom room_of(TriangleMesh mesh) {
 
 // A vessel of revolution with a wall: closed, its hollow is open above.
 TriangleMesh cup(double inner, double outer, double floor, double height, int sides) {
-    return shapes::turned({{outer, 0}, {outer, height}, {inner, height}, {inner, floor}, {0, floor}}, sides, true, false);
+    return shapes::turned({{outer, 0}, {outer, height}, {inner, height}, {inner, floor}, {0, floor}}, sides,
+                          true, false);
 }
 
 TEST(RoomOfAMesh, OfABoxIsTheBox) {
@@ -60,8 +64,10 @@ TEST(RoomOfAMesh, OfACylinderAndAConeAreThoseOfTheirPolygons) {
 // A cylinder over a cone over an orifice; open below and above.
 TEST(RoomOfAMesh, OfAHopperWithoutABottom) {
     constexpr int sides = 48;
-    const EnclosedRoom room = room_of(shapes::turned({{0.03, -0.05}, {0.1, 0.02}, {0.1, 0.3}}, sides, false, false));
-    EXPECT_NEAR(room.volume(), shapes::frustum(0.03, 0.1, 0.07, sides) + 0.28 * shapes::polygon(0.1, sides), 1e-12);
+    const EnclosedRoom room =
+        room_of(shapes::turned({{0.03, -0.05}, {0.1, 0.02}, {0.1, 0.3}}, sides, false, false));
+    EXPECT_NEAR(room.volume(), shapes::frustum(0.03, 0.1, 0.07, sides) + 0.28 * shapes::polygon(0.1, sides),
+                1e-12);
     EXPECT_EQ(room.base(), -0.05);
     EXPECT_EQ(room.top(), 0.3);
     EXPECT_TRUE(room.open_above());
@@ -120,6 +126,45 @@ TEST(RoomOfAMesh, SheetsInItChangeNothing) {
     EXPECT_TRUE(room.holds({-0.01, 0, 2}));
 }
 
+// Most places are answered by a grid; what it says is what the shape says.
+TEST(RoomOfAMesh, HoldsWhatTheShapeHolds) {
+    constexpr int sides = 30;
+    TriangleMesh mesh = cup(0.1, 0.12, 0.02, 0.3, sides);
+    shapes::add(mesh, shapes::box({-0.03, -0.02, 0.1}, {0.03, 0.02, 0.2}));
+    const EnclosedRoom room = room_of(mesh);
+    const double apothem = 0.1 * std::cos(std::numbers::pi / sides);
+    std::mt19937 random(3);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    int inside = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 place(between(-0.13, 0.13), between(-0.13, 0.13), between(-0.01, 0.31));
+        double farthest = 0;  // across the sides
+        for (int k = 0; k < sides; ++k) {
+            const double angle = 2 * std::numbers::pi * (k + 0.5) / sides;
+            farthest = std::max(farthest, place.x() * std::cos(angle) + place.y() * std::sin(angle));
+        }
+        const bool solid =
+            std::abs(place.x()) < 0.03 && std::abs(place.y()) < 0.02 && place.z() > 0.1 && place.z() < 0.2;
+        const bool expected = farthest < apothem && place.z() > 0.02 && place.z() < 0.3 && !solid;
+        EXPECT_EQ(room.holds(place), expected) << place.transpose();
+        inside += expected;
+    }
+    EXPECT_GT(inside, 5000);
+}
+
+// A wall is missing on one side: places from which a level ray leaves through it are not enclosed.
+TEST(RoomOfAMesh, BesideAHoleRaysDecide) {
+    TriangleMesh mesh = shapes::box({-1, -1, 0}, {1, 1, 2}, false);
+    std::erase_if(mesh.triangles, [&](const TriangleMesh::Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](std::int32_t i) {
+            return mesh.vertices[static_cast<std::size_t>(i)].x() == 1;
+        });
+    });
+    EXPECT_FALSE(room_of(mesh).holds({0, 0, 1}));
+}
+
 // Turned, so that no face lies along an axis and both ends are corners.
 TEST(RoomOfAMesh, OfATurnedCubeHasItsVolume) {
     TriangleMesh mesh = shapes::box({-1, -1, -1}, {1, 1, 1});
@@ -138,7 +183,9 @@ TEST(RoomOfAMesh, OfABallIsGoodToOneInTenThousand) {
     for (int i = 0; i <= steps; ++i) {
         const double angle = std::numbers::pi * i / steps;
         rings.push_back({i == 0 || i == steps ? 0 : std::sin(angle), -std::cos(angle)});
-        if (i > 0) expected += shapes::frustum(rings[rings.size() - 2].radius, rings.back().radius, rings.back().z - rings[rings.size() - 2].z, sides);
+        if (i > 0)
+            expected += shapes::frustum(rings[rings.size() - 2].radius, rings.back().radius,
+                                        rings.back().z - rings[rings.size() - 2].z, sides);
     }
     const EnclosedRoom room = room_of(shapes::turned(rings, sides, false, false));
     EXPECT_NEAR(room.volume() / expected, 1, 1e-4);
