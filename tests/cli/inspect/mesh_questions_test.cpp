@@ -71,9 +71,9 @@ class InspectedMesh : public testing::Test {
   protected:
     void SetUp() override {
         write_mesh_scene(folder.path());
-        const Ended run = run_program(
-            {"movie", "plate.toml", "--out", "run", "--set", "output.instruments=[\"walls\", \"wear\"]"},
-            {.folder = folder.path()});
+        const Ended run = run_program({"movie", "plate.toml", "--out", "run", "--no-film", "--no-report",
+                                       "--set", "output.instruments=[\"walls\", \"wear\"]"},
+                                      {.folder = folder.path()});
         ASSERT_EQ(run.status, 0) << run.err;
     }
     nlohmann::json answer(std::vector<std::string> words) const {
