@@ -144,7 +144,8 @@ TEST_F(MeshStart, WallsStandStillWhileABedSettles) {
                       turn = "turn = { axis = [1, 0, 0], through = [0, 0, 0.01], rate = \"-60 rpm\" }\n";
     Vec3 place[2];
     for (const bool turns : {false, true}) {
-        const Scene scene = read(turns ? still + turn : still, {"species.0.count=1", "contact.stiffness=1e4"});
+        const Scene scene =
+            read(turns ? still + turn : still, {"species.0.count=1", "contact.stiffness=1e4"});
         Simulation run(scene, make_plan(scene), 1);
         EXPECT_TRUE(run.pack().settled);
         place[turns] = run.frame().position[0];
