@@ -5,7 +5,8 @@
 namespace grainreel {
 namespace {
 
-constexpr std::size_t most_asked = 64;
+// The level sections of a closed surface are closed lines: a region is inside or outside as a whole.
+constexpr std::size_t asked_of_closed = 2, asked_of_open = 32;
 
 std::size_t cells(int across) {
     return static_cast<std::size_t>(across) * static_cast<std::size_t>(across) *
@@ -25,7 +26,9 @@ RoomGrid::RoomGrid(const Surface& surface, const Eigen::AlignedBox3d& box,
             for (int x = 0; x < kAcross; x += step) mark_free(surface, {x, y, z}, step);
     answers_.assign(cells(kAcross), Answer::unknown);
     for (std::size_t i = 0; i < free_.size(); ++i)
-        if (free_[i]) answer_region(static_cast<std::int32_t>(i), holds);
+        if (free_[i])
+            answer_region(static_cast<std::int32_t>(i), holds,
+                          surface.facts().closed() ? asked_of_closed : asked_of_open);
     free_ = {};
 }
 
@@ -50,13 +53,15 @@ void RoomGrid::mark_free(const Surface& surface, const std::array<int, 3>& first
                 free_[static_cast<std::size_t>((z * kAcross + y) * kAcross + x)] = 1;
 }
 
-void RoomGrid::answer_region(std::int32_t seed, const std::function<bool(const Vec3&)>& holds) {
+// A region lies in one layer of cells, because rays to all sides are level.
+void RoomGrid::answer_region(std::int32_t seed, const std::function<bool(const Vec3&)>& holds,
+                             std::size_t most) {
     std::vector<std::int32_t> region{seed};
     free_[static_cast<std::size_t>(seed)] = 0;
     for (std::size_t next = 0; next < region.size(); ++next) {
         const std::int32_t cell = region[next];
         std::int32_t place = cell, step = 1;
-        for (int k = 0; k < 3; ++k, place /= kAcross, step *= kAcross)
+        for (int k = 0; k < 2; ++k, place /= kAcross, step *= kAcross)
             for (const int way : {-1, 1}) {
                 const int there = place % kAcross + way;
                 if (there < 0 || there >= kAcross || !free_[static_cast<std::size_t>(cell + way * step)])
@@ -66,7 +71,7 @@ void RoomGrid::answer_region(std::int32_t seed, const std::function<bool(const V
             }
     }
     std::size_t inside = 0;
-    const std::size_t asked = std::min(region.size(), most_asked);
+    const std::size_t asked = std::min(region.size(), most);
     for (std::size_t i = 0; i < asked; ++i) {
         const std::int32_t cell = region[i * region.size() / asked];
         inside += holds(middle({cell % kAcross, cell / kAcross % kAcross, cell / kAcross / kAcross}, 1));

@@ -1,5 +1,5 @@
 // Answers for most places of a room at once: a grid of 32 x 32 x 32 cells. What one place of a cell without
-// surface is, all are, and those of the cells beyond its sides.
+// surface is, all are, and those of the cells beyond its sides at the same height.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class RoomGrid {
   private:
     static constexpr int kAcross = 32, kCoarse = 4;
     void mark_free(const Surface& surface, const std::array<int, 3>& first, int size);
-    void answer_region(std::int32_t seed, const std::function<bool(const Vec3&)>& holds);
+    void answer_region(std::int32_t seed, const std::function<bool(const Vec3&)>& holds, std::size_t most);
     Vec3 middle(const std::array<int, 3>& first, int size) const;
 
     Eigen::AlignedBox3d box_;

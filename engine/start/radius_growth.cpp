@@ -122,8 +122,8 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
 
     StepLoop loop(growth, still, grains, team);
     GrowthReport report;
-    // Small grains are light, and with the step of full ones those that overlap fly. Planes push them back from
-    // beyond, but a sheet of triangles does not.
+    // Small grains are light, and with the step of full ones those that overlap fly. Planes push them back
+    // from beyond, but a sheet of triangles does not.
     const bool by_mass_now = !still.meshes.empty();
     for (;; ++report.cycles) {
         double smallest_share = 1;

@@ -154,6 +154,19 @@ TEST(RoomOfAMesh, HoldsWhatTheShapeHolds) {
     EXPECT_GT(inside, 5000);
 }
 
+// Pits in a landscape are rooms, though all the air above them hangs together.
+TEST(RoomOfAMesh, PitsAreToldFromTheAirAboveThem) {
+    const EnclosedRoom room = room_of(shapes::sheet(1, 60, [](double x, double y) {
+        return 0.5 * std::sin(std::numbers::pi * x) * std::sin(std::numbers::pi * y);
+    }));
+    for (const double x : {-0.5, 0.5}) {
+        EXPECT_TRUE(room.holds({x, -x, -0.1}));   // deep in a pit
+        EXPECT_FALSE(room.holds({x, x, -0.1}));   // below a hill
+        EXPECT_FALSE(room.holds({x, -x, 0.45}));  // over the pit
+    }
+    EXPECT_TRUE(room.holds(room.widest_place()));
+}
+
 // A wall is missing on one side: places from which a level ray leaves through it are not enclosed.
 TEST(RoomOfAMesh, BesideAHoleRaysDecide) {
     TriangleMesh mesh = shapes::box({-1, -1, 0}, {1, 1, 2}, false);

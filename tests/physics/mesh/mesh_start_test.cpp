@@ -144,13 +144,14 @@ TEST_F(MeshStart, WallsStandStillWhileABedSettles) {
                       turn = "turn = { axis = [1, 0, 0], through = [0, 0, 0.01], rate = \"-60 rpm\" }\n";
     Vec3 place[2];
     for (const bool turns : {false, true}) {
-        const Scene scene = read(turns ? still + turn : still, {"species.0.count=1", "run.step=1e-6"});
+        const Scene scene =
+            read(turns ? still + turn : still, {"species.0.count=1", "contact.stiffness=1e4"});
         Simulation run(scene, make_plan(scene), 1);
         EXPECT_TRUE(run.pack().settled);
         place[turns] = run.frame().position[0];
         EXPECT_EQ(run.frame().bodies.back().rotation.coeffs(), Quaternion::Identity().coeffs());
     }
-    EXPECT_EQ(place[true], place[false]);
+    EXPECT_LT((place[true] - place[false]).norm(), 1e-9);
 }
 
 // ---- going on from files ----

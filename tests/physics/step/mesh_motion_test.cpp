@@ -82,7 +82,7 @@ InDrum in_drum(int facets, std::int64_t steps, double friction = 0.5, double rol
     w.grains.add(0, 0, Vec3(0, -radius + kRadius, 0.0011), kRadius, kDensity);
     w.start();
     WallScale scale;
-    scale.force = 0x1p-60;
+    scale.force = 0x1p-50;
     scale.length = 0x1p-10;
     w.loop->tally_walls(scale, 0);
     w.run(steps);
@@ -105,13 +105,14 @@ TEST(TurningDrum, SpinsABallUp) {
 }
 
 TEST(TurningDrum, Of360FacetsTakesTheTorqueOfTheRoundOne) {
-    // While the ball slips.
-    const InDrum round = in_drum(0, 20000), facets = in_drum(360, 20000);
-    ASSERT_GT(std::abs(round.moment), 0.3 * 0.5 * sphere_mass() * kGravity * 0.02);
+    const std::int64_t steps = 2000;  // the ball slips meanwhile
+    const double time = 2e-6 * static_cast<double>(steps);
+    const InDrum round = in_drum(0, steps), facets = in_drum(360, steps);
+    EXPECT_NEAR(round.moment, -0.5 * sphere_mass() * kGravity * 0.02, 0.05 * std::abs(round.moment));
     EXPECT_NEAR(facets.moment, round.moment, 0.01 * std::abs(round.moment));
     // The drum's work is its moment times its angle.
-    EXPECT_NEAR(facets.work, -5 * facets.moment * 20000 * 2e-6, 1e-3 * std::abs(facets.work));
-    EXPECT_NEAR(round.work, -5 * round.moment * 20000 * 2e-6, 1e-3 * std::abs(round.work));
+    EXPECT_NEAR(facets.work, -5 * facets.moment * time, 1e-3 * std::abs(facets.work));
+    EXPECT_NEAR(round.work, -5 * round.moment * time, 1e-3 * std::abs(round.work));
     EXPECT_NEAR(facets.work, round.work, 0.01 * round.work);
 }
 
@@ -143,28 +144,27 @@ TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
         w.grains.motion[0].spin = rate * turn.axis;
         w.grains.motion[0].velocity = rate * turn.axis.cross(at - turn.through);
         w.start();
-        // The centre would fly straight on. It is put where the turn takes it.
+        // The centre would fly straight on. In each step it flies to where the turn takes it.
+        const auto place = [&](int k) {
+            return Vec3(turn.through + Eigen::AngleAxisd(rate * k * 1e-6, turn.axis) * (at - turn.through));
+        };
         double largest = 0;
-        for (int k = 1; k <= 2000; ++k) {
+        for (int k = 0; k < 2000; ++k) {
+            w.grains.place[0].position = place(k);
+            w.grains.motion[0].velocity = (place(k + 1) - place(k)) / 1e-6;
             w.run(1);
-            const Quaternion turned(Eigen::AngleAxisd(rate * k * 1e-6, turn.axis));
-            w.grains.place[0].position = turn.through + turned * (at - turn.through);
-            w.grains.motion[0].velocity =
-                (turned * (at - turn.through) -
-                 Eigen::AngleAxisd(rate * (k - 1) * 1e-6, turn.axis) * (at - turn.through)) /
-                1e-6;
             w.loop->visit_contacts(w.step, [&](const ContactView& c) {
                 largest = std::max(largest, c.tangential.norm() / c.normal_force);
             });
         }
-        // Of the 60,000 micrometres of arc none is felt as slip.
-        EXPECT_LT(largest, 1e-3) << triangles;
+        // Of 1.3 mm of arc none is felt as slip.
+        EXPECT_LT(largest, of_rounding(1e-4, 1e-2)) << triangles;
     }
 }
 
 // A bed in a closed box with a vane that turns and a tube that is shaken.
 World bed(int threads) {
-    PairPlan pair = walton_braun_pair(0.7, 0.5);
+    PairPlan pair = walton_braun_pair(0.4, 0.5);
     pair.rolling_friction = 0.1;
     pair.model.rolls = true;
     World w = make_world(pair, 5e-6);
@@ -177,7 +177,7 @@ World bed(int threads) {
     TriangleMesh tube = tube_mesh(0.004, 0.01, 24, 2);
     for (Vec3& vertex : tube.vertices) vertex += Vec3(0.011, 0.011, 0.035);
     add_mesh(w, "tube", tube).body.velocity = Vec3(0, 0, -0.05);
-    w.around.gravity = {0.5, 0, -kGravity};
+    w.around.gravity = {0.5, 0, -60};
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> some(-1, 1);
     int id = 0;
