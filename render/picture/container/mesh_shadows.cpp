@@ -9,9 +9,9 @@
 namespace grainreel {
 namespace {
 
-constexpr double kPatches = 6000;         // of one mesh, about
-constexpr double kVesselOpacity = 0.12;   // of each wall that light passes
-constexpr int kMostAlong = 64;            // patches along the side of one triangle
+constexpr double kPatches = 6000;        // of one mesh, about
+constexpr double kVesselOpacity = 0.12;  // of each wall that light passes
+constexpr int kMostAlong = 64;           // patches along the side of one triangle
 
 }  // namespace
 
