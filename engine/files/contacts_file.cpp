@@ -21,19 +21,20 @@ struct Row {
     std::int32_t frame, first, second;
     float normal;
     std::array<float, 3> tangential, point;
+    std::int32_t triangle = -1;  // the last one: only where the file has it
 };
-static_assert(sizeof(Row) == 10 * sizeof(float));  // no gaps, whose bytes the checksum would count
+static_assert(sizeof(Row) == 11 * sizeof(float));  // no gaps, whose bytes the checksum would count
 
-int checksum_of(const Row& row) {
-    return static_cast<int>(XXH32(&row, sizeof row, 0));
+int checksum_of(const Row& row, bool meshes) {
+    return static_cast<int>(XXH32(&row, meshes ? sizeof row : sizeof row - sizeof row.triangle, 0));
 }
 
-constexpr std::int32_t most_faces = 1000;  // of a container and its scene's walls
+constexpr std::int32_t most_faces = 1000;  // of a container and its scene's walls and meshes
 
 // What no run writes, be the checksum right or missing.
 bool possible(const Row& row) {
     return row.frame >= 0 && row.first >= 0 && row.second >= -most_faces && std::isfinite(row.normal) &&
-           row.normal >= 0;
+           row.normal >= 0 && row.triangle >= -1;
 }
 
 std::array<float, 3> floats(const Vec3& v) {
@@ -60,12 +61,15 @@ struct ContactsWriter::Impl {
 
     NetcdfFile file;
     std::size_t rows = 0;
-    int frame = -1, first = -1, second = -1, normal = -1, tangential = -1, point = -1, checksum = -1;
+    bool meshes = false;
+    int frame = -1, first = -1, second = -1, normal = -1, tangential = -1, point = -1, triangle = -1,
+        checksum = -1;
 };
 
 ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::string& title,
-                               const std::string& program_version, const FileFacts& facts)
+                               const std::string& program_version, const FileFacts& facts, bool meshes)
     : impl_(std::make_unique<Impl>(NetcdfFile::create(path, NetcdfFormat::cdf2))) {
+    impl_->meshes = meshes;
     NetcdfFile& file = impl_->file;
     file.attribute(NC_GLOBAL, "title", title);
     file.attribute(NC_GLOBAL, "program", "grainreel");
@@ -91,6 +95,9 @@ ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::str
     impl_->tangential =
         define("tangential", NC_FLOAT, "N", "tangential force on the second one", "x, y, z", true);
     impl_->point = define("point", NC_FLOAT, "m", "point of contact", "x, y, z in the room", true);
+    if (meshes)
+        impl_->triangle = define("triangle", NC_INT, "1", "triangle of the mesh that is pushed",
+                                 "from 0, as in trajectory.nc; -1 of what is no mesh");
     impl_->checksum = define("checksum", NC_INT, "1", "XXH32 of the row's other numbers", "for grainreel");
     file.end_definitions();
     file.sync(0);
@@ -108,6 +115,8 @@ ContactsWriter::ContactsWriter(const std::filesystem::path& path, std::size_t fr
                                                                  {&impl_->point, "point"},
                                                                  {&impl_->checksum, "checksum"}}};
     for (const auto& [variable, name] : variables) *variable = impl_->file.find_variable(name);
+    impl_->meshes = impl_->file.has_variable("triangle");
+    if (impl_->meshes) impl_->triangle = impl_->file.find_variable("triangle");
 }
 
 ContactsWriter::~ContactsWriter() = default;
@@ -128,7 +137,7 @@ void ContactsWriter::write(std::int64_t frame, const std::vector<ContactRecord>&
     std::vector<Row> rows;
     for (const ContactRecord& c : contacts)
         rows.push_back({static_cast<std::int32_t>(frame), c.first, c.second, static_cast<float>(c.normal),
-                        floats(c.tangential), floats(c.point)});
+                        floats(c.tangential), floats(c.point), c.triangle});
     using Int = std::array<int, 1>;
     Impl& to = *impl_;
     to.put_column<int, 1>(to.frame, rows, [](const Row& r) { return Int{r.frame}; });
@@ -137,7 +146,8 @@ void ContactsWriter::write(std::int64_t frame, const std::vector<ContactRecord>&
     to.put_column<float, 1>(to.normal, rows, [](const Row& r) { return std::array<float, 1>{r.normal}; });
     to.put_column<float, 3>(to.tangential, rows, [](const Row& r) { return r.tangential; });
     to.put_column<float, 3>(to.point, rows, [](const Row& r) { return r.point; });
-    to.put_column<int, 1>(to.checksum, rows, [](const Row& r) { return Int{checksum_of(r)}; });
+    if (to.meshes) to.put_column<int, 1>(to.triangle, rows, [](const Row& r) { return Int{r.triangle}; });
+    to.put_column<int, 1>(to.checksum, rows, [&](const Row& r) { return Int{checksum_of(r, to.meshes)}; });
     to.rows += rows.size();
     to.file.sync(to.rows);
 }
@@ -145,6 +155,7 @@ void ContactsWriter::write(std::int64_t frame, const std::vector<ContactRecord>&
 struct ContactsReader::Impl {
     explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
         checksums = file.has_variable("checksum");
+        meshes = file.has_variable("triangle");
         const std::size_t counted = file.length("row"), on_disk = file.records_on_disk(counted);
         const std::size_t rows = std::min(counted, on_disk);
         cut_off = rows < counted;
@@ -182,10 +193,12 @@ struct ContactsReader::Impl {
         get_column<float, 1>("normal", begin, rows, [](Row& r, const auto& v) { r.normal = v[0]; });
         get_column<float, 3>("tangential", begin, rows, [](Row& r, const auto& v) { r.tangential = v; });
         get_column<float, 3>("point", begin, rows, [](Row& r, const auto& v) { r.point = v; });
+        if (meshes)
+            get_column<int, 1>("triangle", begin, rows, [](Row& r, const auto& v) { r.triangle = v[0]; });
         std::vector<int> sums(count);
         if (checksums) file.get(file.find_variable("checksum"), {begin}, {count}, sums.data());
         for (std::size_t i = 0; i < count; ++i) {
-            if (checksums && sums[i] != checksum_of(rows[i]))
+            if (checksums && sums[i] != checksum_of(rows[i], meshes))
                 damaged(begin + i, "its checksum is not that of its numbers");
             if (!possible(rows[i])) damaged(begin + i, "it holds what no contact can have");
         }
@@ -194,7 +207,7 @@ struct ContactsReader::Impl {
 
     std::string source;  // for messages
     NetcdfFile file;
-    bool checksums = false;
+    bool checksums = false, meshes = false;
     std::vector<int> frame_of;  // of each row, rising
     bool cut_off = false;
     std::size_t uncounted = 0;

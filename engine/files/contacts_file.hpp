@@ -3,6 +3,10 @@
 // dimension `row`, columns frame (counts the trajectory's frames from 0), first, second (ids; a wall is -1 -
 // its face), normal (N), tangential (N, on `second`), point (m) and checksum (XXH32 of the row's other
 // numbers as they stand in memory, in this order). Forces and points are floats.
+//
+// Of a scene with meshes there is also triangle, behind the point: the one of the mesh that is touched,
+// counted from 0 as in trajectory.nc, and -1 of all else. A grain that touches several parts of a mesh has a
+// row for each.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +25,7 @@ class ContactsWriter {
   public:
     // Throws RunError when the file cannot be written.
     ContactsWriter(const std::filesystem::path& path, const std::string& title,
-                   const std::string& program_version, const FileFacts& facts = {});
+                   const std::string& program_version, const FileFacts& facts = {}, bool meshes = false);
     // Goes on with a file that is there, behind the contacts of the trajectory's first `frames`; what comes
     // after them is cut off. Throws UserError where the file is damaged.
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);

@@ -1,5 +1,7 @@
 #include "engine/files/file_facts.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "engine/state/face_names.hpp"
@@ -7,11 +9,35 @@
 namespace grainreel {
 namespace {
 
+std::string vector_text(const Vec3& v) {
+    return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x(), v.y(), v.z());
+}
+
+std::string turn_text(const BodyTurn& turn) {
+    return fmt::format("at {:.9g} rad s-1 about the axis {} through {} m{}", turn.rate,
+                       vector_text(turn.axis), vector_text(turn.through),
+                       turn.from > 0 || turn.over > 0 || std::isfinite(turn.until)
+                           ? "; it begins or ends smoothly, see scene.toml"
+                           : "");
+}
+
+std::string motion_text(const SceneMesh& mesh) {
+    if (mesh.turn) return "turns " + turn_text(*mesh.turn);
+    if (!mesh.path_file.empty()) return "moves by a file (" + mesh.path_hash + ")";
+    if (!mesh.velocity.isZero(0)) return "moves at " + vector_text(mesh.velocity) + " m s-1";
+    return mesh.driven ? "moves with the drive" : "at rest";
+}
+
 std::string container_text(const Container& c) {
     std::string text;
     switch (c.shape) {
         case Container::Shape::none:
             return "none: empty space";
+        case Container::Shape::mesh:
+            text =
+                fmt::format("the mesh {}, room of {:.9g} m (x), {:.9g} m (y), from {:.9g} m to {:.9g} m (z)",
+                            c.mesh, c.depth, 2 * c.half_width, c.base(), c.height);
+            break;
         case Container::Shape::cylinder:
             text = fmt::format("cylinder, {:.9g} m in diameter, {:.9g} m high", 2 * c.half_width, c.height);
             break;
@@ -30,6 +56,7 @@ std::string container_text(const Container& c) {
     if (c.periodic_depth) text += ", periodic along x";
     if (c.outlet) text += ", with an outlet in the floor";
     if (c.tray) text += " and a tray below it";
+    if (c.turn) text += ", which turns " + turn_text(*c.turn);
     return text;
 }
 
@@ -63,6 +90,12 @@ FileFacts file_facts(const Scene& scene, bool seen_from_container) {
                         {"drive", drive_text(scene.drive)},
                         {"seed", fmt::format("{}", scene.run.seed)},
                         {"frame_of_reference", frame_text(scene, seen_from_container)}};
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SceneMesh& mesh = scene.meshes[m];
+        facts.attributes.emplace_back(fmt::format("mesh_{}", m + 1),
+                                      fmt::format("{}: {} triangles, file of hash {}, {}", mesh.name,
+                                                  mesh.surface->size(), mesh.hash, motion_text(mesh)));
+    }
     for (const Species& species : scene.species) facts.densities.push_back(species.density);
     std::vector<std::string> walls;
     for (const std::string& name : face_names(scene))

@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -13,8 +15,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/scene/file/kept_files.hpp"
+#include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel {
 
@@ -61,6 +66,18 @@ std::optional<fs::path> first_foreign(const fs::path& folder, const IsOurs& ours
     return error ? folder : first;
 }
 
+// What the scene beside it names, or has left there unfinished.
+IsOurs is_ours_in_meshes(const fs::path& run) {
+    std::ifstream file = read_plain(run / "scene.toml");
+    std::string scene{std::istreambuf_iterator<char>(file), {}};
+    return [scene = std::move(scene)](const fs::directory_entry& entry) {
+        const fs::path name = entry.path().filename();
+        const fs::path whole = name.extension() == ".part" ? name.stem() : name;
+        const std::string kept = quoted((fs::path(kMeshFolder) / whole).string());
+        return !is_real_folder(entry) && scene.find(kept) != std::string::npos;
+    };
+}
+
 // What in the folder of a run is not a run's. A comparison has runs in its own folders.
 std::optional<fs::path> foreign_file(const fs::path& run) {
     const std::vector<std::string> panels = panels_in_run_json(run / "run.json");
@@ -78,6 +95,9 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
     const fs::path checkpoints = run / "checkpoints";
     if (is_real_folder(fs::directory_entry(checkpoints)))
         if (auto foreign = first_foreign(checkpoints, is_ours_in_checkpoints)) return foreign;
+    const fs::path meshes = run / kMeshFolder;
+    if (is_real_folder(fs::directory_entry(meshes)))
+        if (auto foreign = first_foreign(meshes, is_ours_in_meshes(run))) return foreign;
     for (const std::string& panel : panels)
         if (panel.find('/') == std::string::npos && is_real_folder(fs::directory_entry(run / panel)))
             if (auto foreign = foreign_file(run / panel)) return foreign;

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/scene/file/kept_files.hpp"
 
 namespace grainreel {
 
@@ -55,8 +56,8 @@ constexpr std::array<std::string_view, 35> files_of_runs{".lock",
                                                          ".report.html.part"};
 
 // movie.work has what a film needs while it is made.
-constexpr std::array<std::string_view, 5> folders_of_runs{"frames", "movie.work", "checkpoints", kFormerRun,
-                                                          kFormerRunPart};
+constexpr std::array<std::string_view, 6> folders_of_runs{"frames",    "movie.work", "checkpoints",
+                                                          kMeshFolder, kFormerRun,   kFormerRunPart};
 
 constexpr std::array<std::string_view, 9> growing_files{
     "trajectory.nc",   "contacts.nc",    "measures.csv",    "outflow.csv", "fields.nc",

@@ -13,6 +13,9 @@
 // nobody sees: at rest in the container's lowest corner, with kAbsentRadius. Files of earlier versions have
 // fill values there, or the last place of a grain that has gone. Every frame has a checksum of its moment and
 // pose and one of its grains.
+//
+// The shape of a mesh is in the file once, as it is at rest; where the body is then says each frame, as of a
+// plane. Rotation and spin of container and floor are there only where these turn.
 #pragma once
 
 #include <filesystem>
@@ -24,6 +27,7 @@
 #include "engine/files/frames/damaged_frame.hpp"
 #include "engine/files/netcdf/kept_records.hpp"
 #include "engine/frame.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 
@@ -31,13 +35,21 @@ namespace grainreel {
 // of 1.
 inline constexpr double kAbsentRadius = 1e-9;
 
+// A body whose shape is a mesh.
+struct TrajectoryMesh {
+    std::size_t body = 0;  // its number, container and floor counted
+    TriangleMesh shape;    // at rest, m
+};
+
 struct TrajectoryInfo {
     std::string title;
     std::string program_version;
     std::vector<std::string> species;
     std::size_t capacity = 0;  // the most grains that the file can hold, all that ever come counted
     bool traffic = false;      // grains come and go: each keeps its place, and `present` says who is there
-    std::vector<std::string> planes;  // names of the bodies beyond container and floor
+    std::vector<std::string> bodies;     // names of those beyond container and floor
+    std::vector<TrajectoryMesh> meshes;  // by rising number of the body
+    bool container_turns = false;        // with its floor: frames then have how far
     bool orientation = false;
     bool contact_numbers = false;
     bool checksums = true;          // false in a file of an earlier version: there damage may look like data

@@ -64,7 +64,17 @@ inline constexpr std::array grain_variables{
     TrajectoryVariable{"velocities", NC_FLOAT, "spatial", "m s-1", "velocity of the grain", "in the room"},
     TrajectoryVariable{"spin", NC_FLOAT, "spatial", "rad s-1", "angular velocity of the grain"}};
 
-// Of every body beyond container and floor, in files that have some; in `frame_checksum` behind the others.
+// Of container and floor, in files of containers that turn; in `frame_checksum` behind the others.
+inline constexpr std::array turn_variables{
+    TrajectoryVariable{"wall_rotation", NC_DOUBLE, "quaternion", "1", "how far the walls have turned",
+                       "x, y, z, w of a unit quaternion; about the scene's origin, before `wall_offset`"},
+    TrajectoryVariable{"wall_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of the walls",
+                       "`wall_velocity` is that of the point that was at the scene's origin"},
+    TrajectoryVariable{"floor_rotation", NC_DOUBLE, "quaternion", "1", "how far the floor has turned",
+                       "likewise, before `floor_offset`"},
+    TrajectoryVariable{"floor_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of the floor"}};
+
+// Of every body beyond container and floor, in files that have some; in `frame_checksum` behind these.
 inline constexpr std::array body_variables{
     TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "m",
                        "displacement of a plane of the scene from its place at rest"},
@@ -72,6 +82,43 @@ inline constexpr std::array body_variables{
                        "x, y, z, w of a unit quaternion"},
     TrajectoryVariable{"body_velocity", NC_DOUBLE, "spatial", "m s-1", "velocity of a plane"},
     TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of a plane"}};
+
+// The same in files that have meshes.
+inline constexpr std::array body_variables_with_meshes{
+    TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "m",
+                       "displacement of a plane or mesh of the scene from its place at rest",
+                       "of the point that was at the scene's origin; a point of the body that was at x at "
+                       "rest is at body_place + R x, R by body_rotation"},
+    TrajectoryVariable{"body_rotation", NC_DOUBLE, "quaternion", "1", "how far a plane or mesh has turned",
+                       "x, y, z, w of a unit quaternion; about the scene's origin, before `body_place`"},
+    TrajectoryVariable{"body_velocity", NC_DOUBLE, "spatial", "m s-1", "velocity of a plane or mesh",
+                       "of the point that was at the scene's origin"},
+    TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of a plane or mesh"}};
+static_assert(body_variables_with_meshes.size() == body_variables.size());
+
+// The shapes of the meshes, once a file, in the order in which `mesh_checksum` takes them.
+inline constexpr TrajectoryVariable mesh_body_variable{
+    "mesh_body",
+    NC_INT,
+    nullptr,
+    "1",
+    "body whose shape the mesh is",
+    "0: the walls, 1: the floor, 2: the first of those that `body_place` names"};
+inline constexpr TrajectoryVariable mesh_vertices_variable{"mesh_vertices", NC_INT, nullptr, "1",
+                                                           "vertices of each mesh"};
+inline constexpr TrajectoryVariable mesh_triangles_variable{"mesh_triangles", NC_INT, nullptr, "1",
+                                                            "triangles of each mesh"};
+inline constexpr TrajectoryVariable vertex_variable{
+    "vertices", NC_DOUBLE, "spatial", "m", "places of the meshes' vertices at rest", "mesh after mesh"};
+inline constexpr TrajectoryVariable triangle_variable{
+    "triangles",
+    NC_INT,
+    "corner",
+    "1",
+    "the three vertices of each triangle",
+    "mesh after mesh; from 0, of the mesh's own vertices; counter-clockwise seen from outside"};
+inline constexpr const char *mesh_checksum = "mesh_checksum",
+                            *mesh_checksum_about = "XXH64 of the shapes of the meshes";
 
 // In files of runs that grains enter or leave: 1 where a place has a grain now; last in `grain_checksum`.
 inline constexpr TrajectoryVariable present_variable{

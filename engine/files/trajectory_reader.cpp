@@ -14,12 +14,13 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/files/trajectory_layout.hpp"
+#include "engine/files/trajectory_meshes.hpp"
 
 namespace grainreel {
 
 namespace {
 
-constexpr std::size_t most_planes = 1000;
+constexpr std::size_t most_bodies = 1000;
 constexpr double most_steps = 9007199254740992;  // 2^53: beyond, doubles leave out whole numbers
 
 // Another program's file may follow the same convention; what counts is that nothing is missing.
@@ -68,7 +69,9 @@ struct TrajectoryReader::Impl {
         info.orientation = file.has_variable(orientation_variable.name);
         info.contact_numbers = file.has_variable(contact_number_variable.name);
         info.traffic = file.has_variable(present_variable.name);
-        if (file.has_variable(body_variables.front().name)) read_planes();
+        if (file.has_variable(body_variables.front().name)) read_bodies();
+        info.container_turns = file.has_variable(turn_variables.front().name);
+        info.meshes = read_meshes(file, path, kFirstPlaneBody + info.bodies.size());
         std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
         for (std::string name; std::getline(names, name);) info.species.push_back(name);
         read_densities();
@@ -86,14 +89,14 @@ struct TrajectoryReader::Impl {
     }
 
     // How many they are says the dimension; names are for people.
-    void read_planes() {
-        const std::size_t planes = file.length("body");
-        if (planes > most_planes)
+    void read_bodies() {
+        const std::size_t bodies = file.length("body");
+        if (bodies > most_bodies)
             throw UserError(fmt::format("{}: says that it has {} walls beside the container's; copy it again",
-                                        source, planes));
+                                        source, bodies));
         std::istringstream names(file.text_attribute(file.find_variable("body_place"), "names"));
-        info.planes.resize(planes);
-        for (std::string& name : info.planes) std::getline(names, name);
+        info.bodies.resize(bodies);
+        for (std::string& name : info.bodies) std::getline(names, name);
     }
 
     [[noreturn]] void damaged(std::size_t frame, const std::string& what) const {
@@ -132,6 +135,7 @@ struct TrajectoryReader::Impl {
         std::size_t grains = 0;
     };
     Moment read_moment(std::size_t index) const;
+    void read_turn(std::size_t index, Frame& frame, Checksum& sum) const;
     void read_bodies(std::size_t index, Frame& frame, Checksum& sum) const;
     std::vector<std::size_t> places_of(std::size_t index, std::size_t n) const;
     void read_grains(std::size_t index, std::size_t n, Frame& frame) const;
@@ -158,6 +162,7 @@ TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t i
                        &frame.floor().velocity})
         *pose = vector();
     for (; variable != frame_variables.end(); ++variable) read<double>(*variable, index, 0, 3, sum);  // cell
+    if (info.container_turns) read_turn(index, frame, sum);
     read_bodies(index, frame, sum);
     check_sum(frame_checksum, index, sum);
     if (auto fault = moment_fault(frame)) damaged(index, *fault);
@@ -169,14 +174,23 @@ TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t i
     return {std::move(frame), static_cast<std::size_t>(count)};
 }
 
+void TrajectoryReader::Impl::read_turn(std::size_t index, Frame& frame, Checksum& sum) const {
+    auto variable = turn_variables.begin();
+    const auto next = [&](std::size_t width) { return read<double>(*variable++, index, 0, width, sum); };
+    for (BodyPose* pose : {&frame.container(), &frame.floor()}) {
+        pose->rotation = Quaternion(next(4).data());
+        pose->spin = Vec3(next(3).data());
+    }
+}
+
 // Files of earlier versions have none.
 void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checksum& sum) const {
-    const std::size_t planes = info.planes.size();
-    if (planes == 0) return;
+    const std::size_t bodies = info.bodies.size();
+    if (bodies == 0) return;
     auto variable = body_variables.begin();
-    const auto next = [&](std::size_t width) { return read<double>(*variable++, index, planes, width, sum); };
+    const auto next = [&](std::size_t width) { return read<double>(*variable++, index, bodies, width, sum); };
     const std::vector<double> place = next(3), rotation = next(4), velocity = next(3), spin = next(3);
-    for (std::size_t b = 0; b < planes; ++b)
+    for (std::size_t b = 0; b < bodies; ++b)
         frame.bodies.push_back(
             {Vec3(&place[3 * b]), Quaternion(&rotation[4 * b]), Vec3(&velocity[3 * b]), Vec3(&spin[3 * b])});
 }

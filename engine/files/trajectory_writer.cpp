@@ -10,6 +10,7 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/files/trajectory_layout.hpp"
+#include "engine/files/trajectory_meshes.hpp"
 
 namespace grainreel {
 
@@ -39,6 +40,7 @@ struct TrajectoryWriter::Impl {
     void write_labels();
     Checksum begin_sum() const { return begin_checksum(frames, places, info.species, info.orientation); }
     void write_pose(const Frame& frame);
+    void write_turn(const Frame& frame, Checksum& sum);
     void write_bodies(const Frame& frame, Checksum& sum);
     void write_grains(const Frame& frame);
     void write_sum(const char* variable, const Checksum& sum);
@@ -76,7 +78,10 @@ void TrajectoryWriter::Impl::define() {
     for (const TrajectoryLabel& label : label_variables)
         file.attribute(variables[label.name], "long_name", label.about);
     for (const TrajectoryVariable& variable : frame_variables) define_variable(variable, nullptr);
-    if (!info.planes.empty()) define_bodies();
+    if (info.container_turns)
+        for (const TrajectoryVariable& variable : turn_variables) define_variable(variable, nullptr);
+    if (!info.bodies.empty()) define_bodies();
+    if (!info.meshes.empty()) define_meshes(file, info.meshes, dimensions["spatial"], dimensions["checksum"]);
     for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
     if (info.orientation) define_variable(orientation_variable, "atom");
     if (info.contact_numbers) define_variable(contact_number_variable, "atom");
@@ -101,13 +106,16 @@ void TrajectoryWriter::Impl::define_dimensions() {
         dimensions[three] = file.dimension(three, 3);
     dimensions["label"] = file.dimension("label", 5);
     dimensions["checksum"] = file.dimension("checksum", 2);
-    if (info.orientation || !info.planes.empty()) dimensions["quaternion"] = file.dimension("quaternion", 4);
-    if (!info.planes.empty()) dimensions["body"] = file.dimension("body", info.planes.size());
+    if (info.orientation || info.container_turns || !info.bodies.empty())
+        dimensions["quaternion"] = file.dimension("quaternion", 4);
+    if (!info.bodies.empty()) dimensions["body"] = file.dimension("body", info.bodies.size());
 }
 
 void TrajectoryWriter::Impl::define_bodies() {
-    for (const TrajectoryVariable& variable : body_variables) define_variable(variable, "body");
-    file.attribute(variables["body_place"], "names", fmt::format("{}", fmt::join(info.planes, "\n")));
+    for (const TrajectoryVariable& variable :
+         info.meshes.empty() ? body_variables : body_variables_with_meshes)
+        define_variable(variable, "body");
+    file.attribute(variables["body_place"], "names", fmt::format("{}", fmt::join(info.bodies, "\n")));
 }
 
 // Of a file that is there already.
@@ -115,7 +123,9 @@ void TrajectoryWriter::Impl::find_variables() {
     const auto find = [&](const char* variable) { variables[variable] = file.find_variable(variable); };
     for (const TrajectoryVariable& variable : frame_variables) find(variable.name);
     for (const TrajectoryVariable& variable : grain_variables) find(variable.name);
-    if (!info.planes.empty())
+    if (info.container_turns)
+        for (const TrajectoryVariable& variable : turn_variables) find(variable.name);
+    if (!info.bodies.empty())
         for (const TrajectoryVariable& variable : body_variables) find(variable.name);
     if (info.orientation) find(orientation_variable.name);
     if (info.contact_numbers) find(contact_number_variable.name);
@@ -144,6 +154,7 @@ void TrajectoryWriter::Impl::write_labels() {
     file.put(variables["spatial"], {0}, {3}, "xyz");
     file.put(variables["cell_spatial"], {0}, {3}, "abc");
     file.put(variables["cell_angular"], {0, 0}, {3, 5}, "alphabeta gamma");
+    if (!info.meshes.empty()) write_meshes(file, info.meshes);
     file.sync(0);
 }
 
@@ -166,12 +177,26 @@ void TrajectoryWriter::Impl::write_pose(const Frame& frame) {
                                frame.floor().velocity, info.cell_origin, info.periodic_length, angles})
         put(vector.data(), 3);
     GRAINREEL_CHECK(variable == frame_variables.end());
-    if (!info.planes.empty()) write_bodies(frame, sum);
+    if (info.container_turns) write_turn(frame, sum);
+    if (!info.bodies.empty()) write_bodies(frame, sum);
     write_sum(frame_checksum, sum);
 }
 
+void TrajectoryWriter::Impl::write_turn(const Frame& frame, Checksum& sum) {
+    const TrajectoryVariable* variable = turn_variables.data();
+    const auto put = [&](const double* numbers, std::size_t count) {
+        file.put(variables[variable->name], {frames, 0}, {1, count}, numbers);
+        sum.add(numbers, count);
+        ++variable;
+    };
+    for (const BodyPose* pose : {&frame.container(), &frame.floor()}) {
+        put(pose->rotation.coeffs().data(), 4);
+        put(pose->spin.data(), 3);
+    }
+}
+
 void TrajectoryWriter::Impl::write_bodies(const Frame& frame, Checksum& sum) {
-    const std::size_t count = info.planes.size();
+    const std::size_t count = info.bodies.size();
     const TrajectoryVariable* variable = body_variables.data();
     const auto put = [&](std::size_t width, const auto& of) {
         std::vector<double> rows;
@@ -297,8 +322,9 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 
 bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path) {
     const TrajectoryInfo there = TrajectoryReader(path).info();
-    if (there.species != info.species || there.planes != info.planes || there.traffic != info.traffic ||
-        there.orientation != info.orientation || !there.checksums)
+    if (there.species != info.species || there.bodies != info.bodies || there.traffic != info.traffic ||
+        there.orientation != info.orientation || there.container_turns != info.container_turns ||
+        !same_meshes(there.meshes, info.meshes) || !there.checksums)
         throw UserError(
             fmt::format("{}: is of another scene, or of another version of grainreel", path.string()));
     return there.capacity == std::max<std::size_t>(info.capacity, 1);
@@ -321,7 +347,7 @@ void TrajectoryWriter::write_again(const std::filesystem::path& path, std::size_
 void TrajectoryWriter::write(const Frame& frame) {
     GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
     GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());
-    GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.planes.size());
+    GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.bodies.size());
     if (frame.size() > impl_->info.capacity) {
         throw RunError(
             fmt::format("{}: a frame of {} grains in a file with places for {}; give TrajectoryInfo a "

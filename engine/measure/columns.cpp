@@ -33,6 +33,9 @@ Scene scene_of_names() {
     scene.container.shape = Container::Shape::none;
     scene.walls.resize(1);
     scene.walls[0].name = "FACE";
+    scene.meshes.resize(1);
+    scene.meshes[0].name = "MESH";
+    scene.meshes[0].turn.emplace();
     return scene;
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy/energy.hpp"
+#include "engine/step/wall_name.hpp"
 
 namespace grainreel {
 
@@ -65,11 +66,22 @@ std::size_t fastest_of(const Grains& grains) {
     return fastest;
 }
 
+// A vessel of one closed sheet of triangles. Grains may leave one that is open above, or whose walls have a
+// thickness, over its rim.
+std::int32_t closed_vessel(const Scene& scene) {
+    const SceneMesh* vessel = scene.vessel();
+    if (vessel == nullptr || !vessel->surface->facts().closed()) return -1;
+    if (scene.container.room->open_above() || !scene.exits.empty()) return -1;
+    return static_cast<std::int32_t>(vessel - scene.meshes.data());
+}
+
 }  // namespace
 
 HealthLimits health_limits(const Scene& scene, const Plan& plan) {
     HealthLimits limits;
     limits.clock = plan.clock;
+    limits.wall_speed = plan.wall_speed;
+    limits.vessel = closed_vessel(scene);
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         const Species& first = scene.species[a];
         const double radius = 0.5 * first.diameter.smallest, mass = largest_mass(first);
@@ -80,6 +92,7 @@ HealthLimits health_limits(const Scene& scene, const Plan& plan) {
                 std::min(limits.safe_speed, speed_for(limits.overlap * smaller, pair, effective_mass));
         };
         take(radius, plan.wall[a], mass);
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m) take(radius, plan.at_mesh(m, a), mass);
         if (!plan.glued.empty()) {
             const Species& glued = scene.species[scene.container.wall_grains->species];
             take(std::min(radius, 0.5 * glued.diameter.smallest), plan.glued[a], mass);
@@ -99,7 +112,8 @@ std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& 
     const Pose pose = around.motion.at(step);
     Box box = velocities(grains);
     for (const Face& face : around.faces) box.take(face.velocity_at(pose));
-    const double closing = kFasterMeanwhile * box.size();
+    for (const MeshWall& mesh : around.meshes) box.take(mesh.body.velocity_at(pose));
+    const double closing = kFasterMeanwhile * (box.size() + limits.wall_speed);
     if (!(closing > limits.safe_speed)) return regular;
     const double steps = limits.overlap * limits.smallest_radius / (closing * limits.clock.step);
     return std::clamp(static_cast<std::int64_t>(steps), std::int64_t{1}, regular);
@@ -119,6 +133,24 @@ void check_way_of_a_step(const HealthLimits& limits, const Grains& grains, std::
                     grain_name(limits, grains, fastest_of(grains))));
 }
 
+// The box around a closed vessel, at rest, costs next to nothing to look at; the step itself notices who
+// crosses a sheet.
+void check_vessel(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                  std::int64_t step) {
+    if (limits.vessel < 0) return;
+    const MeshWall& vessel = around.meshes[static_cast<std::size_t>(limits.vessel)];
+    const BodyPose pose = vessel.body.at(around.motion.at(step));
+    const MeshFacts& facts = vessel.surface->facts();
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const Vec3 place = pose.at_rest(grains.place[i].position);
+        if ((place - facts.low).minCoeff() >= 0 && (facts.high - place).minCoeff() >= 0) continue;
+        throw RunError(
+            fmt::format("{}: {} went through \"{}\"; take a smaller run.step or a larger stiffness of "
+                        "its contacts",
+                        moment(limits.clock, step), grain_name(limits, grains, i), vessel.name));
+    }
+}
+
 }  // namespace
 
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
@@ -130,8 +162,7 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
                                        moment(limits.clock, step), grain_name(limits, grains, i)));
         }
         for (const Face& face : around.faces) {
-            if (distance_to(face, face.displacement(pose), grains.place[i].position).distance >
-                -grains.place[i].radius)
+            if (distance_at(face, pose, grains.place[i].position).distance > -grains.place[i].radius)
                 continue;
             throw RunError(
                 fmt::format("{}: {} went through the {}; take a smaller run.step or a larger "
@@ -139,17 +170,22 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
                             moment(limits.clock, step), grain_name(limits, grains, i), face.name));
         }
     }
+    check_vessel(limits, around, grains, step);
     check_way_of_a_step(limits, grains, step);
     loop.visit_contacts(step, [&](const ContactView& c) {
         if (c.overlap <= limits.overlap * c.smaller_radius) return;
         const bool wall = c.second < 0;
         const std::string other =
-            wall ? "the " + around.faces[-1 - c.second].name : fmt::format("grain {}", grains.id[c.second]);
+            wall ? wall_name(around, -1 - c.second) : fmt::format("grain {}", grains.id[c.second]);
+        const bool mesh = wall && -1 - c.second >= std::ssize(around.faces);
         throw RunError(
             fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; take a larger {} or a smaller "
                         "run.step",
                         moment(limits.clock, step), grain_name(limits, grains, c.first), other,
-                        c.overlap / c.smaller_radius, wall ? "contact.wall.stiffness" : "contact.stiffness"));
+                        c.overlap / c.smaller_radius,
+                        mesh   ? "stiffness of its contacts"
+                        : wall ? "contact.wall.stiffness"
+                               : "contact.stiffness"));
     });
 }
 

@@ -19,6 +19,8 @@ struct HealthLimits {
     double safe_speed = std::numeric_limits<double>::infinity();  // m/s, of two grains against each other:
                                                                   // no impact below it overlaps so far
     double smallest_radius = std::numeric_limits<double>::infinity();  // m
+    double wall_speed = 0;     // m/s, of the fastest wall with a motion of its own
+    std::int32_t vessel = -1;  // the number of the mesh that is closed around all grains, if there is one
 };
 
 HealthLimits health_limits(const Scene& scene, const Plan& plan);

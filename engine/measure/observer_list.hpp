@@ -28,8 +28,10 @@
 #include "engine/measure/segregation/height_difference_observer.hpp"
 #include "engine/measure/segregation/mixing_observer.hpp"
 #include "engine/measure/segregation/unlike_neighbours_observer.hpp"
+#include "engine/measure/surface/drum_observer.hpp"
 #include "engine/measure/surface/surface_observer.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
+#include "engine/measure/walls/wear_observer.hpp"
 
 namespace grainreel {
 
@@ -60,6 +62,8 @@ using RowObservers = ObserverList<observers::Times,             //
                                   observers::Intruder,          //
                                   observers::Outflow,           //
                                   observers::WallForces,        //
+                                  observers::Drum,              //
+                                  observers::Wear,              //
                                   observers::CoarseGrainedFields>;
 
 }  // namespace grainreel

@@ -36,7 +36,9 @@ std::vector<double> contact_shares(const Scene& scene) {
 
 std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan) {
     const std::vector<double> shares = contact_shares(scene);
-    const bool walls = scene.container.shape != Container::Shape::none || !scene.walls.empty();
+    const Container::Shape shape = scene.container.shape;
+    const bool faces = shape != Container::Shape::none && shape != Container::Shape::mesh;
+    const bool walls = faces || !scene.walls.empty();
     std::vector<ContactKind> kinds;
     double of_grains = 0;
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
@@ -52,6 +54,9 @@ std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan) {
         }
         const std::string name = fmt::format("\"{}\" and ", first.name);
         if (walls) kinds.push_back({name + "a wall", &plan.wall[a], first, std::nullopt, true, shares[a]});
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+            kinds.push_back({fmt::format("{}\"{}\"", name, scene.meshes[m].name), &plan.at_mesh(m, a), first,
+                             std::nullopt, true, shares[a]});
         if (!plan.glued.empty())
             kinds.push_back(
                 {name + "a glued grain", &plan.glued[a], first, glued_species(scene), true, shares[a]});

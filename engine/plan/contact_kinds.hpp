@@ -12,11 +12,11 @@
 namespace grainreel {
 
 struct ContactKind {
-    std::string name;      // "\"nut\" and \"bead\"", "\"nut\" and a wall"
+    std::string name;      // "\"nut\" and \"bead\"", "\"nut\" and a wall", "\"nut\" and \"drum\""
     const PairPlan* pair;  // lives as long as the plan
     Species first;
-    std::optional<Species> second;  // empty: a wall; of infinite density where it is glued to one
-    bool at_wall = false;           // a wall or what is glued to it
+    std::optional<Species> second;  // empty: a wall or a mesh; of infinite density where it is glued to one
+    bool at_wall = false;           // a wall, a mesh, or what is glued to a wall
     // Of all contacts between grains, or of those at walls. Estimated: a grain has contacts in proportion to
     // its surface.
     double share = 0;

@@ -12,6 +12,7 @@
 #include "engine/plan/drive_clock.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
+#include "engine/plan/wall_speeds.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {
@@ -79,6 +80,10 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, const StartFacts& fil
         plan.wall.push_back(plan_kind(scene, bed, file, scene.contact.wall[a], first, nullptr, file.wall, a));
     }
     plan_glued(scene, bed, file, plan);
+    GRAINREEL_CHECK(scene.contact.mesh.size() == scene.meshes.size() * count);
+    for (std::size_t kind = 0; kind < scene.contact.mesh.size(); ++kind)
+        plan.mesh.push_back(plan_kind(scene, bed, file, scene.contact.mesh[kind], scene.species[kind % count],
+                                      nullptr, file.mesh, kind));
 }
 
 // The largest of all kinds of contact, and what most have: the mean over those between grains, or at walls
@@ -198,11 +203,24 @@ void check_start_file(const Scene& scene) {
                                 scene.where("start.file"), file, exists ? "is no file" : "does not exist"));
 }
 
+// s: the step that the plan chooses when nothing but the drive moves walls. A rim that is fast for it is
+// hardly meant, and a step that follows it makes a run that never ends. With nothing else in motion it is the
+// step.
+double step_without_own_speeds(const Scene& scene, const StartFacts& file, const BedPlan& bed, double step) {
+    if (bed.speed_of_others == bed.impact_speed || bed.speed_of_others == 0) return step;
+    BedPlan slow = bed;
+    slow.impact_speed = bed.speed_of_others;
+    Plan plan;
+    plan.integrator = scene.run.integrator;
+    plan_contacts(scene, slow, file, plan);
+    return std::max(step, plan_step(scene, plan).step);
+}
+
 bool any_contact(const Plan& plan, bool (*is)(const PairPlan&)) {
     const auto any = [&](const std::vector<PairPlan>& pairs) {
         return std::any_of(pairs.begin(), pairs.end(), is);
     };
-    return any(plan.grain) || any(plan.wall) || any(plan.glued);
+    return any(plan.grain) || any(plan.wall) || any(plan.glued) || any(plan.mesh);
 }
 }  // namespace
 
@@ -219,10 +237,11 @@ Plan make_plan(const Scene& scene, const StartFacts& file) {
     Plan plan;
     plan.arms = scene.contact.arms;
     plan.integrator = scene.run.integrator;
+    plan.wall_speed = fastest_own_speed(scene);
     plan.moving_walls = (scene.drive.present && scene.drive.largest_amplitude() > 0) ||
                         std::any_of(scene.walls.begin(), scene.walls.end(),
-                                    [](const FreeWall& wall) { return !wall.velocity.isZero(0); });
-
+                                    [](const FreeWall& wall) { return !wall.velocity.isZero(0); }) ||
+                        plan.wall_speed > 0;
     plan.capacity = scene.grains();
 
     const BedPlan bed = plan_bed(scene, file);
@@ -232,6 +251,7 @@ Plan make_plan(const Scene& scene, const StartFacts& file) {
     plan_overlaps(scene, bed, plan);
 
     const StepChoice step = plan_step(scene, plan);
+    check_rims(scene, step_without_own_speeds(scene, file, bed, step.step));
     plan.step_reason = step.reason;
     plan.clock = plan_clock(scene, step.step);
     plan.steps = count_steps(scene, scene.run.duration, plan.clock.step, "run.duration");
@@ -240,7 +260,7 @@ Plan make_plan(const Scene& scene, const StartFacts& file) {
             fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
                         scene.where("run.duration"), scene.run.duration, plan.clock.step));
     plan_outlet(scene, plan);
-    plan.traffic = plan.traffic || !scene.feeds.empty();
+    plan.traffic = plan.traffic || !scene.feeds.empty() || !scene.exits.empty();
     if (scene.start.packs())
         plan.settle_steps_limit =
             count_steps(scene, scene.start.settle_limit, plan.clock.step, "start.settle_limit");

@@ -72,7 +72,7 @@ struct StartFacts {
     bool known = false;  // the file could be read; nothing else holds without it
     // N/m, Pa with Hertz: of the run that the file is from, by kind of contact as in Plan. Empty where its
     // law is another, or where the file does not tell.
-    std::vector<std::optional<double>> grain, wall, glued;
+    std::vector<std::optional<double>> grain, wall, glued, mesh;
     double linear = 0, modulus = 0;  // N/m, Pa: with which its overlaps carry its weight; 0: they do not tell
     double speed = 0;                // m/s, of impacts to expect
 };
@@ -100,6 +100,7 @@ struct Plan {
     StartPlan start;                                            // of a start from a file
     std::string step_reason;                                    // which condition binds the step
     double impact_speed = 0;                                    // m/s, v* of the stiffness rule
+    double wall_speed = 0;  // m/s, of the fastest wall with a motion of its own (wall_speeds.hpp)
     // Over the smaller diameter: the largest expected overlap, between whom, and that of most contacts.
     double expected_overlap = 0, usual_overlap = 0;
     std::string deepest;
@@ -123,6 +124,9 @@ struct Plan {
     bool rolls() const;
 
     const PairPlan& between(std::size_t a, std::size_t b) const { return grain[a * wall.size() + b]; }
+    const PairPlan& at_mesh(std::size_t number, std::size_t a) const {
+        return mesh[number * wall.size() + a];
+    }
 };
 
 // Throws UserError when the scene cannot be run as it stands (does not fit, too many steps, no stiffness).

@@ -23,6 +23,7 @@ struct BedPlan {
     double carried_height = 0;   // m, min(height, twice the width): what presses on the floor (Janssen)
     double drop_speed = 0;       // m/s, of the highest fall while settling; 0 when nothing settles
     double impact_speed = 0;     // m/s, v*
+    double speed_of_others = 0;  // m/s, v* if no wall had a motion of its own
 };
 BedPlan plan_bed(const Scene& scene, const StartFacts& file);
 

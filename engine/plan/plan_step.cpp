@@ -69,6 +69,8 @@ BedModes bed_modes(const Scene& scene, const Plan& plan, std::size_t species, do
             const double heavy = mass_of(partner, partner.diameter.largest);
             among = std::max(among, of(plan.between(species, other), mass * heavy / (mass + heavy)));
         }
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+            at_wall = std::max(at_wall, of(plan.at_mesh(m, species), mass));
         if (!plan.glued.empty()) at_wall = std::max(at_wall, of(plan.glued[species], mass));
         const double walls = plan.glued.empty() ? 0.25 : 0.5;
         return (1 - walls) * among + walls * std::max(among, at_wall);
@@ -144,6 +146,8 @@ StepChoice plan_step(const Scene& scene, const Plan& plan) {
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = a; b <= count; ++b) demand_of(pair_of(plan, a, b), pair_name(scene, a, b));
         if (!plan.glued.empty()) demand_of(plan.glued[a], scene.species[a].name + "-glued grain");
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+            demand_of(plan.at_mesh(m, a), scene.species[a].name + "-" + scene.meshes[m].name);
         const Species& species = scene.species[a];
         const double mass = species.density * std::numbers::pi / 6 * std::pow(species.diameter.smallest, 3);
         const BedModes dense = bed_modes(scene, plan, a, mass);

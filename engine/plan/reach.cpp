@@ -15,7 +15,10 @@ constexpr double upright = 0.95;         // cosine of the largest angle between 
 
 bool has_a_bed(const Scene& scene) {
     const double gravity = scene.gravity.norm();
-    return scene.container.shape != Container::Shape::none && scene.walls.empty() && gravity > 0 &&
+    const Container& c = scene.container;
+    const bool vessel_alone = scene.meshes.size() == (c.shape == Container::Shape::mesh ? 1U : 0U);
+    const bool stands = !c.turn && vessel_alone && (scene.meshes.empty() || !scene.meshes[0].turn);
+    return c.shape != Container::Shape::none && scene.walls.empty() && stands && gravity > 0 &&
            -scene.gravity.z() >= upright * gravity;
 }
 
@@ -56,7 +59,7 @@ double highest_fed(const Scene& scene) {
 
 std::optional<double> resting_top(const Scene& scene) {
     if (!has_a_bed(scene)) return {};
-    return fill_height(scene, loose_fraction);
+    return scene.container.base() + fill_height(scene, loose_fraction);
 }
 
 std::optional<double> estimated_reach(const Scene& scene) {

@@ -1,5 +1,6 @@
 #include "engine/plan/resolved_scene.hpp"
 
+#include "engine/scene/file/kept_files.hpp"
 #include "engine/scene/file/writer.hpp"
 
 namespace grainreel {
@@ -29,6 +30,8 @@ Scene with_choices(Scene scene, const Plan& plan) {
         }
         scene.contact.wall[a].stiffness = stiffness_of(plan.wall[a]);
     }
+    for (std::size_t k = 0; k < scene.contact.mesh.size(); ++k)
+        scene.contact.mesh[k].stiffness = stiffness_of(plan.mesh[k]);
     const double step = plan.clock.step;
     scene.run.step = step;
     scene.run.steps_per_contact.reset();
@@ -44,6 +47,7 @@ Reasons reasons_of(const Scene& scene, const Plan& plan) {
     reasons.grain.resize(count * count);
     reasons.glued.resize(count * count);
     reasons.wall.resize(count);
+    reasons.mesh.resize(scene.contact.mesh.size());
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = 0; b < count; ++b) {
             const PairContact& pair = scene.between(a, b);
@@ -55,11 +59,13 @@ Reasons reasons_of(const Scene& scene, const Plan& plan) {
         }
         if (!scene.contact.wall[a].stiffness) reasons.wall[a] = plan.wall[a].stiffness_reason;
     }
+    for (std::size_t k = 0; k < scene.contact.mesh.size(); ++k)
+        if (!scene.contact.mesh[k].stiffness) reasons.mesh[k] = plan.mesh[k].stiffness_reason;
     return reasons;
 }
 
 std::string resolved_scene(const Scene& scene, const Plan& plan) {
-    return written_scene(with_choices(scene, plan), reasons_of(scene, plan));
+    return written_scene(naming_kept_files(with_choices(scene, plan)), reasons_of(scene, plan));
 }
 
 }  // namespace grainreel

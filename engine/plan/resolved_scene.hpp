@@ -15,8 +15,8 @@ Scene with_choices(Scene scene, const Plan& plan);
 // Why the plan chose what the scene does not say itself.
 Reasons reasons_of(const Scene& scene, const Plan& plan);
 
-// Both as a scene file. read_scene gives the same Scene back, bit by bit, with the plan's choices filled in;
-// make_plan then gives the same Plan.
+// Both as a scene file. read_scene gives the same Scene back, bit by bit, with the plan's choices filled in,
+// in a folder that has the kept files of the meshes; make_plan then gives the same Plan.
 std::string resolved_scene(const Scene& scene, const Plan& plan);
 
 }  // namespace grainreel

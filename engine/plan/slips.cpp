@@ -57,7 +57,7 @@ void look_at_diameter(const Scene& scene, std::size_t index, Warnings& warnings)
 
 void look_at_container(const Scene& scene, Warnings& warnings) {
     const Container& c = scene.container;
-    if (c.shape == Container::Shape::none) return;
+    if (c.shape == Container::Shape::none || c.shape == Container::Shape::mesh) return;
     const bool wedge = c.shape == Container::Shape::wedge, box = c.shape == Container::Shape::box;
     const std::pair<const char*, double> sizes[] = {{"height", c.height},
                                                     {wedge ? "half_width"
@@ -162,7 +162,7 @@ std::string place_in_contact(const Scene& scene, const std::string& name) {
 
 void look_at_friction(const Scene& scene, Warnings& warnings) {
     double friction = 0, rolling = 0;
-    for (const auto* pairs : {&scene.contact.grain, &scene.contact.wall}) {
+    for (const auto* pairs : {&scene.contact.grain, &scene.contact.wall, &scene.contact.mesh}) {
         for (const PairContact& pair : *pairs) {
             if (std::isfinite(pair.friction)) friction = std::max(friction, pair.friction);
             rolling = std::max(rolling, pair.rolling_friction);

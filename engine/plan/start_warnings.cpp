@@ -45,6 +45,9 @@ std::vector<std::string> start_warnings(const Scene& scene, const Plan& plan, co
             look_at(scene, bed, plan.between(a, b), scene.between(a, b), scene.species[a], &scene.species[b],
                     most);
         look_at(scene, bed, plan.wall[a], scene.contact.wall[a], scene.species[a], nullptr, most);
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+            look_at(scene, bed, plan.at_mesh(m, a), scene.contact.mesh[m * count + a], scene.species[a],
+                    nullptr, most);
     }
     if (most.share > alarming_share) {
         const char *name = most.hertz ? "modulus" : "stiffness", *unit = most.hertz ? "Pa" : "N/m";

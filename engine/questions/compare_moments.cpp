@@ -18,7 +18,8 @@ struct Way {
 
 std::vector<Way> ways_between(const Snapshot& before, const Snapshot& after) {
     const double period = period_of_depth(after.scene.container);
-    const Vec3 carried = after.frame.container().place - before.frame.container().place;
+    const Vec3 carried =
+        container_offset(after.scene, after.frame) - container_offset(before.scene, before.frame);
     std::vector<Way> ways;
     for (std::size_t i = 0; i < after.frame.size(); ++i) {
         const auto then = before.place_of(after.frame.id[i]);

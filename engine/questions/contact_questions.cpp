@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/walls/turning.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/questions/forces.hpp"
 #include "engine/questions/questions.hpp"
@@ -16,12 +19,21 @@ namespace {
 
 using Forces = std::vector<const ContactForce*>;
 
-AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
+// About which the moment on a wall counts: m, now.
+Vec3 point_of_moment(const Snapshot& s, std::int32_t wall) {
+    const std::optional<std::size_t> mesh = mesh_of_wall(s.scene, wall);
+    if (!mesh) return container_offset(s.scene, s.frame);
+    const std::size_t body = static_cast<std::size_t>(first_mesh_body(s.scene)) + *mesh;
+    return s.frame.body(body).moved(moment_point(s.scene.meshes[*mesh]));
+}
+
+AnswerTable sum_table(const Snapshot& s, std::int32_t wall, const Forces& on_wall) {
     Vec3 force(0, 0, 0), moment(0, 0, 0);
     double normal = 0;
+    const Vec3 point = point_of_moment(s, wall);
     for (const ContactForce* one : on_wall) {
         force += one->on_second();
-        moment += (one->point - s.frame.container().place).cross(one->on_second());
+        moment += (one->point - point).cross(one->on_second());
         normal += one->normal_force;
     }
     double weight = 0;
@@ -36,7 +48,9 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
              {"force_y", Dimension::force, ""},
              {"force_z", Dimension::force, ""},
              {"normal_force", Dimension::force, "sum of all normal forces"},
-             {"moment_x", Dimension::moment, "about the container's origin"},
+             {"moment_x", Dimension::moment,
+              mesh_of_wall(s.scene, wall) ? "about a point of its axis, or its position"
+                                          : "about the container's origin"},
              {"moment_y", Dimension::moment, ""},
              {"moment_z", Dimension::moment, ""},
              {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"},
@@ -46,8 +60,46 @@ AnswerTable sum_table(const Snapshot& s, const Forces& on_wall) {
             true};
 }
 
+// Of a wall whose body moves: where that is. Containers that only shake are left out: there is a column for
+// the work of all walls.
+std::optional<BodyPose> turning_pose(const Snapshot& s, std::int32_t wall) {
+    if (const std::optional<std::size_t> mesh = mesh_of_wall(s.scene, wall)) {
+        if (!s.scene.meshes[*mesh].moves()) return std::nullopt;
+        return s.frame.body(static_cast<std::size_t>(first_mesh_body(s.scene)) + *mesh);
+    }
+    const std::vector<Face> faces = faces_of(s.scene);
+    const auto face = static_cast<std::size_t>(-1 - wall);
+    if (!s.scene.container.turn || face >= faces.size() || faces[face].body.number < 0) return std::nullopt;
+    if (faces[face].body.number >= kFirstPlaneBody) return std::nullopt;
+    return s.frame.body(static_cast<std::size_t>(faces[face].body.number));
+}
+
+// m, a point of the axis about which a body turns now: it moves along that axis alone.
+Vec3 centre_of_turn(const BodyPose& pose) {
+    const double square = pose.spin.squaredNorm();
+    return square > 0 ? Vec3(pose.place + pose.spin.cross(pose.velocity) / square) : pose.place;
+}
+
+AnswerTable power_table(const BodyPose& pose, const Forces& on_wall) {
+    double power = 0;
+    for (const ContactForce* one : on_wall) power -= one->on_second().dot(pose.velocity_at(one->point));
+    const Vec3 axis = pose.spin.norm() > 0 ? Vec3(pose.spin.normalized()) : Vec3(0, 0, 0);
+    double torque = 0;
+    for (const ContactForce* one : on_wall)
+        torque += axis.dot((one->point - centre_of_turn(pose)).cross(one->on_second()));
+    return {"motion",
+            "It moves",
+            {{"torque", Dimension::moment, "of the grains on it, about the axis that it turns about now"},
+             {"power", Dimension::number, "that it gives the grains", "", "W"},
+             {"spin", Dimension::spin, "magnitude"},
+             {"turned", Dimension::degrees, "from rest, up to half a turn"}},
+            {{torque, power, pose.spin.norm(),
+              pose.rotation.angularDistance(Quaternion::Identity()) * 180 / std::numbers::pi}},
+            true};
+}
+
 // In bins as high as a mean grain is wide.
-AnswerTable height_table(const Snapshot& s, const std::string& wall, const Forces& on_wall) {
+AnswerTable height_table(const Snapshot& s, std::int32_t wall, const Forces& on_wall) {
     AnswerTable table{"by_height",
                       "Its normal force by height above the floor",
                       {{"from", Dimension::length, "", AnswerColumn::kKey},
@@ -58,16 +110,17 @@ AnswerTable height_table(const Snapshot& s, const std::string& wall, const Force
                       {},
                       true};
     const double width = s.bin();
+    const bool stands = !mesh_of_wall(s.scene, wall) && !s.scene.container.turn;
     std::map<std::int64_t, std::pair<std::int64_t, double>> bins;
     for (const ContactForce* one : on_wall) {
         auto& [count, force] =
-            bins[std::llround(std::floor((one->point - s.frame.floor().place).z() / width))];
+            bins[std::llround(std::floor((one->point - floor_offset(s.scene, s.frame)).z() / width))];
         ++count;
         force += one->normal_force;
     }
     for (const auto& [bin, sums] : bins) {
         const double low = static_cast<double>(bin) * width, high = static_cast<double>(bin + 1) * width;
-        const double area = area_between(s.scene.container, wall, low, high);
+        const double area = stands ? area_between(s.scene.container, name_of_body(s, wall), low, high) : 0;
         AnswerCell pressure;
         if (area > 0) pressure = sums.second / area;
         table.rows.push_back({low, high, sums.first, sums.second, pressure});
@@ -75,7 +128,7 @@ AnswerTable height_table(const Snapshot& s, const std::string& wall, const Force
     return table;
 }
 
-AnswerTable touching_table(const Snapshot& s, Forces on_wall, std::size_t most) {
+AnswerTable touching_table(const Snapshot& s, std::int32_t wall, Forces on_wall, std::size_t most) {
     std::sort(on_wall.begin(), on_wall.end(), [](const auto* a, const auto* b) {
         return a->normal_force != b->normal_force ? a->normal_force > b->normal_force : a->first < b->first;
     });
@@ -91,11 +144,16 @@ AnswerTable touching_table(const Snapshot& s, Forces on_wall, std::size_t most) 
                        {"tangential_force", Dimension::force, "magnitude"},
                        {"slides", Dimension::number, ""}},
                       {}};
+    const bool mesh = mesh_of_wall(s.scene, wall).has_value();
+    if (mesh)
+        table.columns.push_back({"triangle", Dimension::number, "of the mesh, as trajectory.nc has them"});
     on_wall.resize(std::min(on_wall.size(), most));
-    for (const ContactForce* one : on_wall)
+    for (const ContactForce* one : on_wall) {
         table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first),
-                              (one->point - s.frame.floor().place).z(), one->overlap, one->normal_force,
-                              one->tangential.norm(), one->slides() ? "yes" : "no"});
+                              (one->point - floor_offset(s.scene, s.frame)).z(), one->overlap,
+                              one->normal_force, one->tangential.norm(), one->slides() ? "yes" : "no"});
+        if (mesh) table.rows.back().emplace_back(static_cast<std::int64_t>(one->triangle));
+    }
     return table;
 }
 
@@ -125,8 +183,7 @@ AnswerTable species_table(const Snapshot& s, const Forces& on_wall) {
 
 std::int32_t wall_number(const Snapshot& s, std::string name) {
     std::replace(name.begin(), name.end(), '_', ' ');
-    std::vector<std::string> names;
-    for (const Face& face : faces_of(s.scene)) names.push_back(face.name);
+    const std::vector<std::string> names = wall_names(s.scene);
     for (std::size_t k = 0; k < names.size(); ++k) {
         std::string known = names[k];
         std::replace(known.begin(), known.end(), '_', ' ');
@@ -155,14 +212,16 @@ std::vector<const ContactForce*> pushes_on_wall(const Snapshot& s, std::int32_t 
 Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most) {
     const std::int32_t wall = wall_number(s, name);
     const Forces on_wall = pushes_on_wall(s, wall);
-    Answer answer{{sum_table(s, on_wall)}, {}};
+    Answer answer{{sum_table(s, wall, on_wall)}, {}};
+    if (const std::optional<BodyPose> pose = turning_pose(s, wall))
+        answer.tables.push_back(power_table(*pose, on_wall));
     if (on_wall.empty()) {
         answer.notes.emplace_back("no grain touches it");
         return answer;
     }
     answer.tables.push_back(species_table(s, on_wall));
-    answer.tables.push_back(height_table(s, name_of_body(s, wall), on_wall));
-    if (most > 0) answer.tables.push_back(touching_table(s, on_wall, most));
+    answer.tables.push_back(height_table(s, wall, on_wall));
+    if (most > 0) answer.tables.push_back(touching_table(s, wall, on_wall, most));
     return answer;
 }
 
@@ -221,7 +280,7 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
         if (one->second >= 0) second = static_cast<std::int64_t>(one->second);
         table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first), second,
                               name_of_body(s, one->second), one->overlap, one->overlap / one->smaller_radius,
-                              one->normal_force, (one->point - s.frame.floor().place).z()});
+                              one->normal_force, (one->point - floor_offset(s.scene, s.frame)).z()});
     }
     Answer answer{{touching_pairs_table(s)}, {}};
     if (most > 0) answer.tables.push_back(std::move(table));

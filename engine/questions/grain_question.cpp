@@ -79,8 +79,10 @@ AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
             number = static_cast<std::int64_t>(partner);
             if (const auto place = s.place_of(partner)) height = s.height(*place);
         }
-        table.rows.push_back({number, name_of_body(s, partner), one.overlap, one.overlap / one.smaller_radius,
-                              one.normal_force, one.tangential.norm(), one.slides() ? "yes" : "no",
+        std::string what = name_of_body(s, partner);
+        if (one.triangle >= 0) what += fmt::format(", triangle {}", one.triangle);
+        table.rows.push_back({number, what, one.overlap, one.overlap / one.smaller_radius, one.normal_force,
+                              one.tangential.norm(), one.slides() ? "yes" : "no",
                               (is_first ? one.torque_on_first : one.torque_on_second).norm(), height});
     }
     return table;

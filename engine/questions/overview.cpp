@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/columns.hpp"
+#include "engine/measure/walls/turning.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/forces.hpp"
 #include "engine/questions/questions.hpp"
@@ -33,7 +34,7 @@ AnswerTable moment_table(const Snapshot& s) {
     AnswerCell contacts, touching;
     if (s.contacts) contacts = static_cast<std::int64_t>(s.frame.touches.size());
     if (s.forces) touching = static_cast<std::int64_t>(s.forces->contacts.size());
-    table.rows.push_back({s.frame.time, s.frame.step, s.frame.cycles, s.frame.floor().place.z(),
+    table.rows.push_back({s.frame.time, s.frame.step, s.frame.cycles, floor_offset(s.scene, s.frame).z(),
                           static_cast<std::int64_t>(s.frame.size()), contacts, touching});
     return table;
 }
@@ -138,7 +139,7 @@ AnswerTable walls_table(const Snapshot& s) {
                        {"normal_force", Dimension::force, "sum"}},
                       {},
                       true};
-    const std::size_t count = faces_of(s.scene).size();
+    const std::size_t count = wall_names(s.scene).size();
     for (std::size_t k = 0; k < count; ++k) {
         const auto wall = static_cast<std::int32_t>(-1 - static_cast<std::int64_t>(k));
         if (!s.forces) {
@@ -153,6 +154,35 @@ AnswerTable walls_table(const Snapshot& s) {
         for (const ContactForce* one : pushes) force += one->on_second(), normal += one->normal_force;
         table.rows.push_back({name_of_body(s, wall), static_cast<std::int64_t>(pushes.size()), force.x(),
                               force.y(), force.z(), normal});
+    }
+    return table;
+}
+
+// Where the meshes are, and the container where it turns.
+AnswerTable bodies_table(const Snapshot& s) {
+    AnswerTable table{
+        "bodies",
+        "Bodies that have a shape of their own, or turn",
+        {{"body", Dimension::number, "", AnswerColumn::kKey},
+         {"triangles", Dimension::number, "empty of a container of faces", AnswerColumn::kThere},
+         {"moved_x", Dimension::length, "of its origin, from rest", AnswerColumn::kThere},
+         {"moved_y", Dimension::length, "", AnswerColumn::kThere},
+         {"moved_z", Dimension::length, "", AnswerColumn::kThere},
+         {"turned", Dimension::degrees, "from rest, up to half a turn", AnswerColumn::kThere},
+         {"speed", Dimension::speed, "of its origin", AnswerColumn::kThere},
+         {"spin", Dimension::spin, "magnitude", AnswerColumn::kThere}},
+        {},
+        true};
+    const auto add = [&](const std::string& name, AnswerCell triangles, const BodyPose& pose) {
+        table.rows.push_back({name, std::move(triangles), pose.place.x(), pose.place.y(), pose.place.z(),
+                              pose.rotation.angularDistance(Quaternion::Identity()) * 180 / std::numbers::pi,
+                              pose.velocity.norm(), pose.spin.norm()});
+    };
+    if (s.scene.container.turn) add("container", {}, s.frame.container());
+    for (std::size_t m = 0; m < s.scene.meshes.size(); ++m) {
+        const SceneMesh& mesh = s.scene.meshes[m];
+        add(mesh.name, static_cast<std::int64_t>(mesh.surface->size()),
+            s.frame.body(static_cast<std::size_t>(first_mesh_body(s.scene)) + m));
     }
     return table;
 }
@@ -198,12 +228,34 @@ AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
     return table;
 }
 
+// Its centre is out of the room that the vessel encloses, farther than its radius from the surface. Above the
+// rim a grain may be anywhere.
+bool outside_mesh(const Snapshot& s, std::size_t i) {
+    const std::optional<std::size_t> vessel = vessel_of(s.scene);
+    if (!vessel) return false;
+    const Container& c = s.scene.container;
+    const std::size_t body = static_cast<std::size_t>(first_mesh_body(s.scene)) + *vessel;
+    const Vec3 at = s.frame.body(body).at_rest(s.frame.position[i]);
+    if (at.z() > c.room->top()) return false;
+    return !c.room->holds(at) && !s.scene.meshes[*vessel].surface->any_within(at, s.frame.radius[i]);
+}
+
+// Of a container of faces that turns: behind one of them.
+bool outside_turned(const Snapshot& s, std::size_t i) {
+    const Vec3 at = s.frame.container().at_rest(s.frame.position[i]);
+    for (const Face& face : container_faces(s.scene.container, s.scene.drive))
+        if (distance_to(face, Vec3(0, 0, 0), at).distance < -s.frame.radius[i]) return true;
+    return false;
+}
+
 // m above the floor, of the container's rim; infinite without one.
 bool outside(const Snapshot& s, std::size_t i) {
     const Container& c = s.scene.container;
     if (c.shape == Container::Shape::none) return false;
     const double r = s.frame.radius[i];
-    const Vec3 at = s.frame.position[i] - s.frame.container().place;
+    if (c.shape == Container::Shape::mesh) return outside_mesh(s, i);
+    if (c.turn) return outside_turned(s, i);
+    const Vec3 at = s.frame.position[i] - container_offset(s.scene, s.frame);
     if (s.height(i) < -r) return true;
     if (c.shape == Container::Shape::cylinder) return std::hypot(at.x(), at.y()) > c.half_width + r;
     return std::abs(at.y()) > c.half_width + r;
@@ -213,6 +265,7 @@ bool outside(const Snapshot& s, std::size_t i) {
 
 Answer overview_of(const Snapshot& s) {
     Answer answer{{moment_table(s), species_table(s), extremes_table(s)}, {}};
+    if (!s.scene.meshes.empty() || s.scene.container.turn) answer.tables.push_back(bodies_table(s));
     if (AnswerTable walls = walls_table(s); !walls.rows.empty()) answer.tables.push_back(std::move(walls));
     if (s.measured) answer.tables.push_back(measured_table(s, *s.measured));
     std::size_t out = 0, odd = 0;

@@ -83,8 +83,8 @@ void add_bins_of_tops(const Snapshot& s, const std::vector<double>& at, Bins& al
 void add_solid_fraction(const Snapshot& s, const Bins& all, bool above_floor, AnswerTable& table) {
     table.columns.push_back({"solid_fraction", Dimension::number,
                              "volume of the parts of grains that are there, over the room in the container"});
-    const double container = s.frame.container().place.z(),
-                 zero = above_floor ? s.frame.floor().place.z() : 0;
+    const double container = container_offset(s.scene, s.frame).z(),
+                 zero = above_floor ? floor_offset(s.scene, s.frame).z() : 0;
     const std::vector<double> fractions =
         solid_fractions(s, all.low + zero - container, all.width, all.bins.size());
     for (std::size_t k = 0; k < fractions.size(); ++k) {

@@ -49,6 +49,11 @@ void keep_cylinder(const Ray& ray, const Face& face, const Vec3& offset, Stretch
     if ((flat.origin - axis).norm() > face.radius) stretch.keep(endless, -endless);
 }
 
+bool is_kept(const Vec3& point, const std::vector<KeptHalf>& kept) {
+    return std::all_of(kept.begin(), kept.end(),
+                       [&](const KeptHalf& half) { return half.normal.dot(point) >= half.distance; });
+}
+
 }  // namespace
 
 std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std::vector<KeptHalf>& kept) {
@@ -67,8 +72,23 @@ std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std:
     return found;
 }
 
+namespace {
+
+// As one who turns with the container sees it; lengths along it stay.
+std::optional<WallOnRay> wall_behind_turned(const Ray& ray, const Scene& scene, const Frame& frame) {
+    const BodyPose& pose = frame.container();
+    Scene at_rest = scene;
+    at_rest.container.turn.reset();
+    Frame still;
+    const Ray turned{pose.at_rest(ray.origin), pose.rotation.conjugate() * ray.direction};
+    return wall_behind(turned, at_rest, still);
+}
+
+}  // namespace
+
 std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const Frame& frame) {
     if (scene.container.shape == Container::Shape::none) return std::nullopt;
+    if (scene.container.turn) return wall_behind_turned(ray, scene, frame);
     Stretch inside;
     std::string last;
     for (const Face& face : container_faces(scene.container, scene.drive)) {
@@ -85,6 +105,24 @@ std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const F
     const double rim = scene.container.height + frame.container().place.z();
     if (ray.at(inside.to).z() > rim) return std::nullopt;
     return WallOnRay{last, inside.to};
+}
+
+std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame& frame,
+                                 const std::vector<KeptHalf>& kept) {
+    std::vector<MeshOnRay> found;
+    const double length = ray.direction.norm();
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const BodyPose pose = frame.body(static_cast<std::size_t>(first_mesh_body(scene)) + m);
+        std::vector<Surface::Hit> hits;
+        scene.meshes[m].surface->all_hits(pose.at_rest(ray.origin),
+                                          pose.rotation.conjugate() * ray.direction / length, hits);
+        for (const Surface::Hit& hit : hits)
+            if (is_kept(ray.at(hit.distance / length), kept))
+                found.push_back({m, hit.triangle, hit.distance / length});
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const MeshOnRay& a, const MeshOnRay& b) { return a.at < b.at; });
+    return found;
 }
 
 }  // namespace grainreel

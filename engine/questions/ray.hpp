@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,5 +41,15 @@ struct WallOnRay {
 // The face of the container through which the ray leaves it; empty when it does not pass through the
 // container, or leaves it above the walls of an open top.
 std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const Frame& frame);
+
+struct MeshOnRay {
+    std::size_t mesh;       // of the scene
+    std::int32_t triangle;  // of the mesh
+    double at;              // of the ray
+};
+// Where the ray meets meshes, as they stand in the frame, the nearest first. Of each only what lies in all
+// halves counts.
+std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame& frame,
+                                 const std::vector<KeptHalf>& kept);
 
 }  // namespace grainreel

@@ -38,7 +38,7 @@ double Snapshot::mean_diameter() const {
 }
 
 double Snapshot::height(std::size_t i) const {
-    return (frame.position[i] - frame.floor().place).z();
+    return (frame.position[i] - floor_offset(scene, frame)).z();
 }
 
 std::optional<std::size_t> Snapshot::place_of(std::int64_t id) const {
@@ -47,15 +47,48 @@ std::optional<std::size_t> Snapshot::place_of(std::int64_t id) const {
     return static_cast<std::size_t>(at - frame.id.begin());
 }
 
+namespace {
+
+// A point of the axis moves with the drive alone.
+Vec3 offset_of(const Scene& scene, const BodyPose& pose) {
+    const std::optional<BodyTurn>& turn = scene.container.turn;
+    return turn ? Vec3(pose.moved(turn->through) - turn->through) : pose.place;
+}
+
+}  // namespace
+
+Vec3 container_offset(const Scene& scene, const Frame& frame) {
+    return offset_of(scene, frame.container());
+}
+
+Vec3 floor_offset(const Scene& scene, const Frame& frame) {
+    return offset_of(scene, frame.floor());
+}
+
+std::vector<std::string> wall_names(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Face& face : faces_of(scene)) names.push_back(face.name);
+    for (const SceneMesh& mesh : scene.meshes) names.push_back(mesh.name);
+    return names;
+}
+
+std::optional<std::size_t> mesh_of_wall(const Scene& scene, std::int32_t wall) {
+    const std::size_t faces = faces_of(scene).size();
+    const std::int64_t number = -1 - static_cast<std::int64_t>(wall);
+    if (number < static_cast<std::int64_t>(faces)) return std::nullopt;
+    const auto mesh = static_cast<std::size_t>(number) - faces;
+    return mesh < scene.meshes.size() ? std::optional(mesh) : std::nullopt;
+}
+
 std::string name_of_body(const Snapshot& snapshot, std::int32_t id) {
     if (id >= 0) {
         const std::optional<std::size_t> place = snapshot.place_of(id);
         if (!place) return "unknown";
         return snapshot.scene.species.at(static_cast<std::size_t>(snapshot.frame.species[*place])).name;
     }
-    const std::vector<Face> faces = faces_of(snapshot.scene);
-    const auto face = static_cast<std::size_t>(-1 - static_cast<std::int64_t>(id));
-    return face < faces.size() ? faces[face].name : fmt::format("wall {}", face);
+    const std::vector<std::string> names = wall_names(snapshot.scene);
+    const auto wall = static_cast<std::size_t>(-1 - static_cast<std::int64_t>(id));
+    return wall < names.size() ? names[wall] : fmt::format("wall {}", wall);
 }
 
 }  // namespace grainreel

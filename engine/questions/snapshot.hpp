@@ -43,7 +43,18 @@ struct Snapshot {
     std::optional<std::size_t> place_of(std::int64_t id) const;
 };
 
-// "small", or "floor" for a wall's number (-1 - face), as contacts.nc has them.
+// m, where the drive has the container and its floor in a frame, from their places at rest. A turn of the
+// container does not count.
+Vec3 container_offset(const Scene& scene, const Frame& frame);
+Vec3 floor_offset(const Scene& scene, const Frame& frame);
+
+// All walls by their numbers (-1 - wall): the faces ("left slant"), then the meshes.
+std::vector<std::string> wall_names(const Scene& scene);
+
+// Which of the scene's meshes a wall's number stands for; empty of a face.
+std::optional<std::size_t> mesh_of_wall(const Scene& scene, std::int32_t wall);
+
+// "small", or "floor" for a wall's number, as contacts.nc has them.
 std::string name_of_body(const Snapshot& snapshot, std::int32_t id);
 
 }  // namespace grainreel

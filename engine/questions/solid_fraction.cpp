@@ -18,11 +18,12 @@ std::vector<double> solid_fractions(const Snapshot& s, double low, double height
     if (container.shape == Container::Shape::none) return fractions;
     // The part of a slice that is in the container.
     const auto edge = [&](std::size_t k) {
-        return std::clamp(low + static_cast<double>(k) * height, 0.0, container.height);
+        return std::clamp(low + static_cast<double>(k) * height, container.base(), container.height);
     };
     std::vector<double> solid(count, 0);
     for (std::size_t i = 0; i < s.frame.size(); ++i) {
-        const double z = (s.frame.position[i] - s.frame.container().place).z(), r = s.frame.radius[i];
+        const double z = (s.frame.position[i] - container_offset(s.scene, s.frame)).z(),
+                     r = s.frame.radius[i];
         const double first = std::floor((z - r - low) / height), last = std::floor((z + r - low) / height);
         const double most = static_cast<double>(count) - 1;
         if (!(last >= 0 && first <= most)) continue;

@@ -62,9 +62,24 @@ PairContact glued_contact(const Scene& scene, std::size_t species) {
     return contact;
 }
 
+namespace {
+
+// m above its base.
+double filled_to(const EnclosedRoom& room, double volume) {
+    double low = room.base(), high = room.top();
+    for (int halving = 0; halving < 60; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (room.volume_below(middle) < volume ? low : high) = middle;
+    }
+    return high - room.base();
+}
+
+}  // namespace
+
 double fill_height(const Scene& scene, double solid_fraction) {
     const Container& c = scene.container;
     const double volume = std::min(solid_volume(scene) / solid_fraction, c.volume());
+    if (c.shape == Container::Shape::mesh) return filled_to(*c.room, volume);
     if (c.shape != Container::Shape::wedge) return c.height * volume / c.volume();
     const double floor = c.floor_half_width();
     const double slope = std::tan(c.half_angle);
@@ -75,18 +90,52 @@ double fill_height(const Scene& scene, double solid_fraction) {
     return area / (floor + std::sqrt(floor * floor + slope * area));
 }
 
+namespace {
+
+// Adds the part of each mesh that lies within `margin` (m) of the box.
+void take_meshes(const Scene& scene, double margin, double largest, Extent& extent) {
+    const Vec3 low = extent.low - margin * Vec3::Ones(), high = extent.high + margin * Vec3::Ones();
+    for (const SceneMesh& mesh : scene.meshes) {
+        const bool whole = (mesh.high - mesh.low).norm() <= largest;
+        const Vec3 from = whole ? mesh.low : Vec3(mesh.low.cwiseMax(low));
+        const Vec3 to = whole ? mesh.high : Vec3(mesh.high.cwiseMin(high));
+        if ((to - from).minCoeff() < 0) continue;
+        extent.take(from);
+        extent.take(to);
+    }
+}
+
+// Its corners go round in circles.
+void take_turned(const BodyTurn& turn, Extent& extent) {
+    const Vec3 reach = (Vec3::Ones() - turn.axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+    const Extent rest = extent;
+    for (int k = 0; k < 8; ++k) {
+        const Vec3 corner((k & 1 ? rest.high : rest.low).x(), (k & 2 ? rest.high : rest.low).y(),
+                          (k & 4 ? rest.high : rest.low).z());
+        const Vec3 along = turn.axis.dot(corner - turn.through) * turn.axis;
+        const double radius = (corner - turn.through - along).norm();
+        extent.take(turn.through + along - radius * reach);
+        extent.take(turn.through + along + radius * reach);
+    }
+}
+
+Extent extent_of_container(const Scene& scene) {
+    const Container& c = scene.container;
+    if (const SceneMesh* vessel = scene.vessel()) return {vessel->low, vessel->high};
+    const double x = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
+    const double y = std::max(c.half_width, c.tray ? c.tray->half_width : 0.0);
+    const double low = c.tray ? -c.tray->depth : c.outlet ? -c.outlet->exit_depth : 0.0;
+    const double out = c.shape == Container::Shape::cylinder ? y : x;
+    Extent extent{Vec3(-out, -y, low), Vec3(out, y, c.height)};
+    if (c.turn && c.shape != Container::Shape::cylinder) take_turned(*c.turn, extent);
+    return extent;
+}
+
 // Listed grains and the ways they would fly undisturbed or thrown back by the first wall, as far as five
 // times their own extent; of a start from a file nothing is known but the size of its grains.
-Extent extent_of(const Scene& scene) {
-    const Container& c = scene.container;
-    if (c.shape != Container::Shape::none) {
-        const double x = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
-        const double y = std::max(c.half_width, c.tray ? c.tray->half_width : 0.0);
-        const double low = c.tray ? -c.tray->depth : c.outlet ? -c.outlet->exit_depth : 0.0;
-        const double out = c.shape == Container::Shape::cylinder ? y : x;
-        return {Vec3(-out, -y, low), Vec3(out, y, c.height)};
-    }
+Extent extent_of_grains(const Scene& scene) {
     const Vec3 margin = largest_diameter(scene) * Vec3::Ones();
+    if (scene.start.region) return {scene.start.region->low, scene.start.region->high};
     if (scene.start.grains.empty()) {
         const double side = std::cbrt(solid_volume(scene) / 0.2);
         return {-0.5 * side * Vec3::Ones() - margin, 0.5 * side * Vec3::Ones() + margin};
@@ -106,6 +155,19 @@ Extent extent_of(const Scene& scene) {
         }
     }
     return {extent.low - margin, extent.high + margin};
+}
+
+}  // namespace
+
+Extent extent_of(const Scene& scene) {
+    const bool none = scene.container.shape == Container::Shape::none;
+    Extent extent = none ? extent_of_grains(scene) : extent_of_container(scene);
+    const double size = extent.size().norm();
+    if (none)
+        take_meshes(scene, 3 * size, 30 * size, extent);
+    else
+        take_meshes(scene, size, 0, extent);
+    return extent;
 }
 
 Container tray_container(const Scene& scene) {

@@ -18,14 +18,17 @@ Species glued_species(const Scene& scene);
 // The contact of grains of this species with these: that of the two species, but for a stiffness of its own.
 PairContact glued_contact(const Scene& scene, std::size_t species);
 
-// m, how high the container is filled when the grains lie at this solid fraction; its height at most.
+// m, how high the container is filled above its base when the grains lie at this solid fraction; up to its
+// top at most.
 double fill_height(const Scene& scene, double solid_fraction);
 
 // m, what carries the bed sideways: the smaller of width and depth, the width alone when the depth is
 // periodic.
 double bed_width(const Scene& scene);
 
-// The box that the container takes up, or in empty space the grains and their way.
+// The box that the container takes up, or in empty space the grains and their way, and meshes where they
+// move. Of meshes that reach far beyond only what is near: within the size of the container, or, where they
+// are more than thirty times as large as all that happens to the grains, within three times that.
 struct Extent {
     Vec3 low, high;  // m
     Vec3 size() const { return high - low; }

@@ -1,6 +1,8 @@
-// The room that a container and the scene's own planes leave to grains.
+// The room that a scene gives to the grains it packs: that of its container or the box that start.region
+// says, before its planes and outside its meshes.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/scene/scene.hpp"
@@ -9,23 +11,35 @@ namespace grainreel {
 
 class FreeSpace {
   public:
-    // With planes of its own the scene's room is measured at 100,000 evenly spread places: volumes are then
-    // good to some 0.1 % of the container's.
+    // With planes, meshes beside the container or a box of its own the scene's room is measured at 100,000
+    // evenly spread places: volumes are then good to some 0.1 % of the container's. Closed meshes in a
+    // container are solid; a box of its own may lie inside a mesh.
     explicit FreeSpace(const Scene& scene);
 
     double volume() const { return volume_; }  // m3
+    // m, corners of a box around the room, to draw places from.
+    const Vec3& low() const { return low_; }
+    const Vec3& high() const { return high_; }
     // m: z below which the share of the volume lies; share in [0, 1].
     double height_of_share(double share) const;
-    // Whether the place lies at least `margin` (m) from floor, lid, walls and planes.
+    // Whether the place lies at least `margin` (m) from floor, lid, walls, planes and meshes.
     bool holds(const Vec3& place, double margin) const;
 
   private:
+    bool in_room(const Vec3& place, double margin) const;  // of container and box
     bool before_planes(const Vec3& place, double margin) const;
+    bool off_meshes(const Vec3& place, double margin) const;
+    void set_box(const Scene& scene);
+    void measure();
 
     const Container container_;
+    const std::optional<Region> region_;
     const std::vector<FreeWall> planes_;
-    double volume_;
-    std::vector<double> heights_;  // of the places with room, rising; unused without planes
+    std::vector<Shared<Surface>> meshes_;  // but for the container's
+    Vec3 low_{0, 0, 0}, high_{0, 0, 0};
+    double volume_ = 0;
+    bool measured_ = false;
+    std::vector<double> heights_;  // of the places with room, rising; only where measured
 };
 
 }  // namespace grainreel

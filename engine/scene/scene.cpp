@@ -10,11 +10,16 @@
 
 namespace grainreel {
 
+double Container::base() const {
+    return shape == Shape::mesh ? room->base() : 0;
+}
+
 double Container::floor_half_width() const {
-    return std::max(0.0, half_width_at(0));
+    return std::max(0.0, half_width_at(base()));
 }
 
 double Container::half_width_at(double z) const {
+    if (shape == Shape::mesh) return room->half_width_at(z);
     if (shape != Shape::wedge) return half_width;
     return half_width - std::max(0.0, slant_height - z) * std::tan(half_angle);
 }
@@ -24,6 +29,7 @@ double Container::volume() const {
 }
 
 double Container::volume_below(double z) const {
+    if (shape == Shape::mesh) return room->volume_below(z);
     if (shape == Shape::cylinder) return std::numbers::pi * half_width * half_width * z;
     const double slanted = shape == Shape::wedge ? std::min(slant_height, z) : 0.0;
     const double mean_width = floor_half_width() + half_width_at(slanted);  // twice the mean half-width
@@ -33,7 +39,24 @@ double Container::volume_below(double z) const {
 bool Contact::rubs() const {
     const auto has_friction = [](const PairContact& pair) { return pair.tangential != TangentialLaw::none; };
     return std::any_of(grain.begin(), grain.end(), has_friction) ||
-           std::any_of(wall.begin(), wall.end(), has_friction);
+           std::any_of(wall.begin(), wall.end(), has_friction) ||
+           std::any_of(mesh.begin(), mesh.end(), has_friction);
+}
+
+Quaternion AxisRotation::quaternion() const {
+    return Quaternion(Eigen::AngleAxisd(angle, axis));
+}
+
+bool SceneMesh::operator==(const SceneMesh& other) const {
+    return name == other.name && hash == other.hash && scale == other.scale && position == other.position &&
+           rotation == other.rotation && driven == other.driven && turn == other.turn &&
+           velocity == other.velocity && path_hash == other.path_hash;
+}
+
+const SceneMesh* Scene::mesh_named(const std::string& mesh) const {
+    const auto found = std::find_if(meshes.begin(), meshes.end(),
+                                    [&](const SceneMesh& one) { return !mesh.empty() && one.name == mesh; });
+    return found == meshes.end() ? nullptr : &*found;
 }
 
 // A grain comes when its interval is over, so that none comes at the beginning.

@@ -142,7 +142,7 @@ struct Container {
     Shared<EnclosedRoom> room;
     double half_width = 0;    // m, along y: y_max, at and above the slanted part; the radius of a cylinder
     double depth = 0;         // m, along x (front to back); unused by a cylinder
-    double height = 0;        // m, floor to lid or rim
+    double height = 0;        // m, from z = 0 (the floor) to lid or rim
     double half_angle = 0;    // rad, slanted walls against the vertical; wedge only
     double slant_height = 0;  // m, H: height of the slanted part; wedge only
     bool lid = true;
@@ -153,11 +153,19 @@ struct Container {
     std::optional<BodyTurn> turn;         // walls, floor and lid together
     double base() const;                  // m, z of the lowest place: 0 but for a mesh
     double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
-    double volume() const;                // m3, floor to height
-    double volume_below(double z) const;  // m3, floor to z, z in [0, height]
+    double volume() const;                // m3, base to height
+    double volume_below(double z) const;  // m3, base to z, z in [base, height]
     // m, the free half-width at height z above the floor.
     double half_width_at(double z) const;
     bool operator==(const Container&) const = default;
+};
+
+// About an axis through the origin, by the right-hand rule.
+struct AxisRotation {
+    Vec3 axis{0, 0, 1};  // unit
+    double angle = 0;    // rad
+    Quaternion quaternion() const;
+    bool operator==(const AxisRotation&) const = default;
 };
 
 // A wall whose shape comes from a file.
@@ -166,8 +174,8 @@ struct SceneMesh {
     std::string file;  // path
     std::string hash;  // of the file, as in load_mesh.hpp; written into a run's scene, and then checked
     double scale = 1;
-    Vec3 position{0, 0, 0};                        // m
-    Quaternion rotation = Quaternion::Identity();  // before it is moved to its position
+    Vec3 position{0, 0, 0};  // m
+    AxisRotation rotation;   // before it is moved to its position
     // Its motion; at most one of these.
     bool driven = false;  // with the drive
     std::optional<BodyTurn> turn;
@@ -175,19 +183,30 @@ struct SceneMesh {
     std::string path_file, path_hash;
     Shared<Surface> surface;  // in the scene at rest
     Shared<MotionPath> path;
+    // m, corners of the box that it stays in during the run, but for the drive; follows from the rest.
+    Vec3 low{0, 0, 0}, high{0, 0, 0};
     bool moves() const { return driven || turn || !path_file.empty() || !velocity.isZero(0); }
-    bool operator==(const SceneMesh&) const = default;
+    // Where the files lie makes no difference; their hashes do.
+    bool operator==(const SceneMesh& other) const;
 };
 
-// A box in the lab. A grain whose centre is in it leaves the run.
+// A box in the lab. A grain leaves the run when its centre is in it, or, with `outside`, when it is not.
 struct ExitBox {
     Vec3 low{0, 0, 0}, high{0, 0, 0};  // m
+    bool outside = false;
+    bool holds(const Vec3& place) const {  // m; whether a grain there leaves
+        return ((place - low).minCoeff() >= 0 && (high - place).minCoeff() >= 0) != outside;
+    }
     bool operator==(const ExitBox&) const = default;
 };
 
 // A box to fill.
 struct Region {
-    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m
+    Vec3 low{0, 0, 0}, high{0, 0, 0};                      // m
+    double volume() const { return (high - low).prod(); }  // m3
+    bool holds(const Vec3& place, double margin) const {   // at least so far (m) from its sides
+        return (place - low).minCoeff() >= margin && (high - place).minCoeff() >= margin;
+    }
     bool operator==(const Region&) const = default;
 };
 
@@ -351,6 +370,9 @@ struct Scene {
     // "file:line:column" of the key, of its nearest written parent, or of the file's first line; the option
     // that said it, "--size".
     std::string where(const std::string& key) const;
+
+    const SceneMesh* mesh_named(const std::string& mesh) const;             // null where there is none
+    const SceneMesh* vessel() const { return mesh_named(container.mesh); }  // null but with Shape::mesh
 
     std::int64_t grains() const;  // all that there are in the course of the run
     std::int64_t grains_at_start() const;

@@ -30,6 +30,7 @@ Plan plan_to_look(const Scene& scene) {
     plan.grain.assign(count * count, spring);
     plan.wall.assign(count, spring);
     if (scene.container.wall_grains) plan.glued.assign(count, spring);
+    plan.mesh.assign(scene.meshes.size() * count, spring);
     plan.clock.step = 1;
     return plan;
 }
@@ -84,6 +85,18 @@ bool faces_stay(const std::vector<Face>& before, const std::vector<Face>& now, c
     });
 }
 
+// Likewise of its meshes, by what is in their files and where they stand.
+bool meshes_stay(const std::vector<MeshWall>& before, const std::vector<MeshWall>& now,
+                 const Grains& grains) {
+    return std::all_of(before.begin(), before.end(), [&](const MeshWall& mesh) {
+        const auto touches = [&](const Place& p) { return mesh.surface->any_within(p.position, p.radius); };
+        if (std::none_of(grains.place.begin(), grains.place.end(), touches)) return true;
+        return std::any_of(now.begin(), now.end(), [&](const MeshWall& other) {
+            return mesh.surface->hash() == other.surface->hash();
+        });
+    });
+}
+
 std::string what_moves(const Scene& scene, const BedInFile& bed) {
     const Grains& grains = bed.grains;
     const double gravity = scene.gravity.norm();
@@ -105,7 +118,8 @@ std::string what_moves(const Scene& scene, const BedInFile& bed) {
     if (origin.scene.gravity != scene.gravity) return "gravity is not that of the file's run";
     const Surroundings here = make_surroundings(scene, plan_to_look(scene));
     if (here.period != origin.around.period || !same_glued_grains(here.glued, origin.around.glued) ||
-        !faces_stay(origin.around.faces, here.faces, grains))
+        !faces_stay(origin.around.faces, here.faces, grains) ||
+        !meshes_stay(origin.around.meshes, here.meshes, grains))
         return "the walls are not those of the file's run";
     return "";
 }
@@ -142,6 +156,12 @@ BedInFile bed_in_file(const Scene& scene) {
 
 void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts& facts) {
     double wanted = bed.moment_of_weights;
+    const std::size_t faces = faces_of(scene).size(), count_of_species = scene.species.size();
+    const auto at_wall = [&](int second, std::size_t first) -> const PairContact& {
+        const auto wall = static_cast<std::size_t>(-1 - second);
+        return wall < faces ? scene.contact.wall[first]
+                            : scene.contact.mesh[(wall - faces) * count_of_species + first];
+    };
     // Forces over stiffness, times what they carry: of linear contacts, and of all as if they were linear.
     double linear = 0, hertz = 0, hertz_as_linear = 0, depths = 0, radii = 0, count = 0;
     for (const BedInFile::Overlap& o : bed.overlaps) {
@@ -149,7 +169,7 @@ void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts&
         const PairContact contact =
             o.second >= 0 ? scene.between(first, static_cast<std::size_t>(bed.grains.species[o.second]))
             : o.glued     ? glued_contact(scene, first)
-                          : scene.contact.wall[first];
+                          : at_wall(o.second, first);
         const bool of_hertz = contact.normal == NormalLaw::hertz;
         const double as_hertz = 4.0 / 3 * std::sqrt(o.radius * o.depth) * o.depth;
         if (contact.stiffness) {

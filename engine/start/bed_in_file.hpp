@@ -21,7 +21,7 @@ struct BedInFile {
     // Two bodies that overlap.
     struct Overlap {
         std::size_t first;
-        int second;      // index of a grain, or -1 - face
+        int second;      // index of a grain, or -1 - wall: faces first, then meshes
         bool glued;      // at a grain that is glued to this face
         double depth;    // m
         double radius;   // m, effective

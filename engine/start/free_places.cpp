@@ -25,12 +25,16 @@ FreePlaces::FreePlaces(const Surroundings& around, const Pose& pose, const Grain
     for (const Place& place : grains.place) take(place);
     for (std::size_t g = 0; g < around.glued.size(); ++g)
         take({around.glued.centre(g, around.faces, pose), around.glued.place[g].radius});
+    for (const MeshWall& mesh : around.meshes) meshes_.push_back(mesh.body.at(pose));
 }
 
 bool FreePlaces::is_free(const Vec3& place, double radius) const {
     const double wide = radius * (1 + kGap);
     for (const Face& face : around_.faces)
-        if (distance_to(face, face.displacement(pose_), place).distance < wide) return false;
+        if (distance_at(face, pose_, place).distance < wide) return false;
+    for (std::size_t m = 0; m < meshes_.size(); ++m)
+        if (around_.meshes[m].surface->any_within(meshes_[m].at_rest(place), wide)) return false;
+    if (holds_ && !holds_(place)) return false;
     return std::none_of(near_.begin(), near_.end(), [&](const Place& other) {
         Vec3 between = place - other.position;
         between.x() = wrapped(between.x(), around_.period);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/base/random.hpp"
@@ -22,12 +24,14 @@ class FreePlaces {
                const Vec3& high, double largest);
 
     // A place drawn evenly from the box, where a grain of this radius (m) is farther from every other grain
-    // and from every face than a thousandth of its radius; none when so many draws found none. The grain
+    // and from every wall than a thousandth of its radius; none when so many draws found none. The grain
     // counts as being there from now on.
     std::optional<Vec3> take(double radius, Random& random);
 
     // Something more that is there.
     void add(const Place& place) { near_.push_back(place); }
+    // From now on only places that this holds for.
+    void only_where(std::function<bool(const Vec3&)> holds) { holds_ = std::move(holds); }
 
   private:
     bool is_free(const Vec3& place, double radius) const;
@@ -36,6 +40,8 @@ class FreePlaces {
     const Pose pose_;
     const Vec3 low_, high_;
     std::vector<Place> near_;
+    std::vector<BodyPose> meshes_;  // of the surroundings' meshes
+    std::function<bool(const Vec3&)> holds_;
 };
 
 }  // namespace grainreel

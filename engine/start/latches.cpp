@@ -12,22 +12,32 @@ namespace grainreel {
 
 namespace {
 
-// Index of a grain; of the other grain, of the face or of the glued grain; and the group's sort.
+// Index of a grain; of the other grain, of the face, of the glued grain or of the mesh; and the group's sort.
 using Bodies = std::tuple<std::int32_t, std::int32_t, int>;
 
-Bodies bodies_of(const ContactView& c) {
+// Of a wall: its number among the meshes; below 0 for a face.
+std::int32_t mesh_of(const ContactView& c, const Surroundings& around) {
+    return -1 - c.second - static_cast<std::int32_t>(around.faces.size());
+}
+
+Bodies bodies_of(const ContactView& c, const Surroundings& around) {
     if (c.second >= 0) return {c.first, c.second, 0};
-    return c.glued >= 0 ? Bodies{c.first, c.glued, 1} : Bodies{c.first, -1 - c.second, 2};
+    if (c.glued >= 0) return {c.first, c.glued, 1};
+    const std::int32_t mesh = mesh_of(c, around);
+    return mesh < 0 ? Bodies{c.first, -1 - c.second, 2} : Bodies{c.first, mesh, 3};
 }
 
 Bodies bodies_of(const ContactGroup& group, std::int32_t first, std::int32_t second) {
-    return {first, second, group.of_pairs ? 0 : group.of_glued ? 1 : 2};
+    return {first, second, group.of_pairs ? 0 : group.of_glued ? 1 : group.of_mesh ? 3 : 2};
 }
 
-const PairPlan& plan_of(const Plan& plan, const Grains& grains, const ContactView& c) {
+const PairPlan& plan_of(const Plan& plan, const Surroundings& around, const Grains& grains,
+                        const ContactView& c) {
     const auto one = static_cast<std::size_t>(grains.species[c.first]);
     if (c.second >= 0) return plan.between(one, static_cast<std::size_t>(grains.species[c.second]));
-    return c.glued >= 0 ? plan.glued[one] : plan.wall[one];
+    if (c.glued >= 0) return plan.glued[one];
+    const std::int32_t mesh = mesh_of(c, around);
+    return mesh < 0 ? plan.wall[one] : plan.at_mesh(static_cast<std::size_t>(mesh), one);
 }
 
 bool latches(const PairPlan& pair) {
@@ -80,14 +90,16 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
     const WeightMoments moments(around.gravity, grains);
     double wanted = moments.of_weights(), there = 0;
     loop.visit_contacts(kBefore, [&](const ContactView& c) {
-        const PairPlan& pair = plan_of(plan, grains, c);
+        const PairPlan& pair = plan_of(plan, around, grains, c);
         const double carried = c.normal_force * moments.carried(c);
         if (!latches(pair) || !is_fresh(pair)) {
             wanted -= carried;
             return;
         }
         there += carried;
-        fresh[bodies_of(c)] = {&pair, c.overlap};
+        const auto [known, added] = fresh.insert({bodies_of(c, around), {&pair, c.overlap}});
+        // A grain may touch a mesh in several places, which cannot be told apart below: the shallower counts.
+        if (!added) known->second.overlap = std::min(known->second.overlap, c.overlap);
     });
     if (!(there > wanted)) return;
     const double share = std::max(0.0, wanted / there);

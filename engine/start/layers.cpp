@@ -1,10 +1,14 @@
 #include "engine/start/layers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 
+#include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
 #include "engine/scene/diameters.hpp"
 #include "engine/scene/free_space.hpp"
@@ -23,16 +27,18 @@ class Room {
   public:
     explicit Room(const Scene& scene)
         : space(scene),
+          simple_(scene.meshes.empty() && !scene.start.region),
+          place_(scene.where("start")),
           faces_(container_faces(scene.container, scene.drive)),
           glued_(glue_grains(scene, faces_)),
           search_(glued_, faces_, period_of_depth(scene.container)) {}
 
-    Vec3 random_centre(const Container& c, double bottom, double top, double margin, Random& random) const {
-        const double half_depth = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
+    Vec3 random_centre(double bottom, double top, double margin, Random& random) const {
+        const Vec3 &low = space.low(), &high = space.high();
         for (int draws = 1;; ++draws) {
             const double z = random.between(bottom, top);
-            const Vec3 centre(random.between(-half_depth, half_depth),
-                              random.between(-c.half_width, c.half_width), z);
+            const Vec3 centre(random.between(low.x(), high.x()), random.between(low.y(), high.y()), z);
+            if (draws % kMostDraws == 0 && !simple_) margin = narrower(margin, draws);
             if (!space.holds(centre, margin)) continue;
             if (draws > kMostDraws || is_clear(centre, margin)) return centre;
         }
@@ -41,12 +47,23 @@ class Room {
     const FreeSpace space;
 
   private:
+    // A mesh or a region may leave nothing but narrow places.
+    double narrower(double margin, int draws) const {
+        if (draws < kMostDraws * kMostDraws) return 0.5 * margin;
+        throw UserError(fmt::format(
+            "{}: no place was found for a grain in {} draws: the vessel or the region leaves hardly "
+            "any room; make it larger, or take method = \"rain\"",
+            place_, draws));
+    }
+
     bool is_clear(const Vec3& centre, double margin) const {
         bool clear = true;
         search_.near(centre, margin, Pose(), [&](std::int32_t, double) { clear = false; });
         return clear;
     }
 
+    const bool simple_;        // no mesh and no region: every layer has room
+    const std::string place_;  // in the scene, for messages
     const std::vector<Face> faces_;
     const GluedGrains glued_;
     const GluedSearch search_;
@@ -91,7 +108,7 @@ Grains place_in_layers(const Scene& scene) {
         for (std::int64_t k = 0; k < species.count; ++k) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
             const double margin = std::min(0.25 * radius, 0.25 * (top[s] - bottom[s]));
-            const Vec3 centre = room.random_centre(scene.container, bottom[s], top[s], margin, centres);
+            const Vec3 centre = room.random_centre(bottom[s], top[s], margin, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);
         }
     }

@@ -26,7 +26,7 @@ constexpr double kRestitution = 0.3;  // a plastic contact law lets the crowd co
 Plan growth_plan(const Plan& plan) {
     Plan growth = plan;
     growth.integrator = Integrator::velocity_verlet;
-    for (auto* table : {&growth.grain, &growth.wall, &growth.glued}) {
+    for (auto* table : {&growth.grain, &growth.wall, &growth.glued, &growth.mesh}) {
         for (PairPlan& pair : *table) {
             pair.model = {NormalForce::walton_braun, TangentialLaw::none, false};
             pair.restitution = kRestitution;
@@ -39,7 +39,7 @@ Plan growth_plan(const Plan& plan) {
 // s: a stable step for the stiff, plastic contacts (physics of Verlet, dt < 2/w; here with twelve contacts).
 double growth_step(const Plan& growth, const Grains& grains) {
     double stiffest = 0;
-    for (const auto* table : {&growth.grain, &growth.wall, &growth.glued}) {
+    for (const auto* table : {&growth.grain, &growth.wall, &growth.glued, &growth.mesh}) {
         for (const PairPlan& pair : *table) stiffest = std::max(stiffest, pair.unloading_stiffness);
     }
     double lightest = std::numeric_limits<double>::infinity();
@@ -74,6 +74,13 @@ void first_radii(Growing& g, double reach) {
         for (const Face& face : g.around.faces) {
             const double distance = distance_to(face, Vec3::Zero(), g.grains.place[i].position).distance;
             allowed[i] = std::min(allowed[i], std::max(distance, 0.1 * g.wanted_of(i)));
+        }
+        for (const MeshWall& mesh : g.around.meshes) {
+            const Vec3 place = mesh.body.at(Pose()).at_rest(g.grains.place[i].position);
+            const auto nearest = mesh.surface->nearest(place, allowed[i]);
+            if (!nearest) continue;
+            allowed[i] =
+                std::min(allowed[i], std::max(std::sqrt(nearest->point.squared), 0.1 * g.wanted_of(i)));
         }
         glued.near(g.grains.place[i].position, allowed[i], Pose(), [&](std::int32_t, double gap) {
             allowed[i] = std::min(allowed[i], std::max(gap, 0.1 * g.wanted_of(i)));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -55,21 +56,33 @@ class Cloud {
 class RisingLayer {
   public:
     explicit RisingLayer(const Scene& scene)
-        : space_(scene), layer_(rain_layer(scene)), box_(extent_of(scene)) {}
+        : space_(scene),
+          layer_(rain_layer(scene)),
+          fits_box_(scene.meshes.empty() && !scene.start.region),
+          box_(fits_box_ ? extent_of(scene) : Extent{space_.low(), space_.high()}),
+          lowest_(fits_box_ ? 0 : box_.low.z()) {}
+
+    // Elsewhere grains would lie outside, though they touch nothing.
+    std::function<bool(const Vec3&)> where() const {
+        if (fits_box_) return {};
+        return [this](const Vec3& place) { return space_.holds(place, 0); };
+    }
 
     Extent at(double solid) const {
         const double share = std::min(1.0, solid / kPoured / space_.volume());
         const double bed = space_.height_of_share(share);
         Extent box = box_;
         box.high.z() = std::min(box_.high.z(), bed + layer_.high);
-        box.low.z() = std::max(0.0, box.high.z() - (layer_.high - layer_.low));
+        box.low.z() = std::max(lowest_, box.high.z() - (layer_.high - layer_.low));
         return box;
     }
 
   private:
     const FreeSpace space_;
     const RainLayer layer_;
+    const bool fits_box_;  // a room between faces: grains in the box that touch none are in it
     const Extent box_;
+    const double lowest_;  // m
 };
 
 // Grains that find their places, in the order of the cloud.
@@ -88,6 +101,7 @@ class Shower {
     std::vector<NewGrain> fall(const Grains& there, double due) {
         const Extent box = layer_.at(solid_);
         FreePlaces free(around_, around_.motion.at(-1), there, box.low, box.high, largest_);
+        free.only_where(layer_.where());
         std::vector<NewGrain> more;
         while (static_cast<double>(come_ + 1) <= due) {
             const auto place = free.take(next_.radius, places_);

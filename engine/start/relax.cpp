@@ -24,7 +24,7 @@ struct Level {
 // s: of the quickest contact.
 double contact_time(const Plan& plan) {
     double quickest = std::numeric_limits<double>::infinity();
-    for (const std::vector<PairPlan>* kinds : {&plan.grain, &plan.wall, &plan.glued})
+    for (const std::vector<PairPlan>* kinds : {&plan.grain, &plan.wall, &plan.glued, &plan.mesh})
         for (const PairPlan& pair : *kinds) quickest = std::min(quickest, pair.contact_time);
     return quickest;
 }

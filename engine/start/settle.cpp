@@ -23,7 +23,7 @@ double rest_energy(const Plan& plan, const Grains& grains, double gravity) {
     }
     mass /= static_cast<double>(grains.size());
     diameter /= static_cast<double>(grains.size());
-    for (const std::vector<PairPlan>* walls : {&plan.wall, &plan.glued})
+    for (const std::vector<PairPlan>* walls : {&plan.wall, &plan.glued, &plan.mesh})
         for (const PairPlan& wall : *walls) softest = std::min(softest, wall.loading_stiffness);
     const double weight = mass * gravity;
     return std::max(1e-6 * weight * diameter, 5 * weight * weight / softest);

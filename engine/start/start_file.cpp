@@ -14,12 +14,6 @@ namespace grainreel {
 namespace {
 
 constexpr double kSameSize = 1e-6;  // relative: a diameter written by hand is not exact to the last bit
-constexpr double kTooDeep = 1.0 / 3;
-// A table does not say where the walls were.
-constexpr const char* kOtherContainer =
-    "give the container of the run the file comes from, and the checkpoint of a run that did not end with a "
-    "period";
-
 [[noreturn]] void fail(const Scene& scene, const std::string& what) {
     if (scene.start.method == Start::Method::grains)
         throw UserError(fmt::format("{}: the list {}", scene.where("grain"), what));
@@ -156,37 +150,6 @@ void check_grains_match(const Scene& scene, const Grains& grains) {
             fail(scene, fmt::format("has {} grains of \"{}\", but the scene says {}; write count = {}",
                                     count[s], scene.species[s].name, scene.species[s].count, count[s]));
     }
-}
-
-void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const Grains& grains) {
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-        for (const Face& face : faces) {
-            if (distance_to(face, Vec3::Zero(), grains.place[i].position).distance > 0) continue;
-            if (scene.start.method == Start::Method::grains)
-                throw UserError(fmt::format("{}: the grain lies beyond the {}; move one of the two",
-                                            scene.where(fmt::format("grain[{}]", grains.id[i])), face.name));
-            throw UserError(fmt::format("{}: grain {} of '{}' lies outside the container, beyond the {}; {}",
-                                        scene.where("start.file"), grains.id[i], scene.start.file, face.name,
-                                        kOtherContainer));
-        }
-    }
-}
-
-void check_grains_clear(const Scene& scene, const std::vector<Face>& faces, const Grains& grains,
-                        const StepLoop& loop) {
-    const bool listed = scene.start.method == Start::Method::grains;
-    loop.visit_contacts(-1, [&](const ContactView& c) {
-        if (c.overlap <= kTooDeep * c.smaller_radius) return;
-        const double share = c.overlap / c.smaller_radius;
-        if (c.second < 0)
-            fail(scene, fmt::format("has grain {} overlapping the {} by {:.2f} of its radius; {}",
-                                    grains.id[c.first], faces[-1 - c.second].name, share,
-                                    listed ? "move one of the two" : kOtherContainer));
-        fail(scene, fmt::format("has grains {} and {} overlapping by {:.2f} of the smaller radius; {}",
-                                std::min(grains.id[c.first], grains.id[c.second]),
-                                std::max(grains.id[c.first], grains.id[c.second]), share,
-                                listed ? "move one of them" : "take the file of another run"));
-    });
 }
 
 }  // namespace grainreel

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
-#include "engine/state/container_faces.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/step_loop.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 
@@ -37,11 +37,12 @@ void check_grains_match(const Scene& scene, const Grains& grains);
 // With the masses that their species has.
 void check_masses(const Scene& scene, const Grains& grains);
 
-// All inside the container at rest.
-void check_grains_fit(const Scene& scene, const std::vector<Face>& faces, const Grains& grains);
+// All inside the container at rest, and none in a closed mesh or so near to a mesh that it overlaps it by
+// more than a third of its radius (grains_fit.cpp).
+void check_grains_fit(const Scene& scene, const Surroundings& around, const Grains& grains);
 
 // None overlaps another, or a wall, by more than a third of a radius. `loop` has been restarted.
-void check_grains_clear(const Scene& scene, const std::vector<Face>& faces, const Grains& grains,
+void check_grains_clear(const Scene& scene, const Surroundings& around, const Grains& grains,
                         const StepLoop& loop);
 
 }  // namespace grainreel

@@ -38,9 +38,14 @@ bool same_grains(const Grains& one, const Grains& other, const Vec3& offset) {
 
 bool StartOrigin::walls_moved() const {
     const Pose pose = around.motion.at(step);
+    const auto moved = [&](const Body& body) {
+        return body.has_own_motion() && !(body.at(pose) == BodyPose{});
+    };
+    const std::vector<Body> bodies = bodies_of(scene);
     return !pose.offset.isZero(0) || !pose.velocity.isZero(0) ||
-           std::any_of(scene.walls.begin(), scene.walls.end(),
-                       [](const FreeWall& wall) { return !wall.velocity.isZero(0); });
+           std::any_of(bodies.begin(), bodies.end(), moved) ||
+           std::any_of(bodies.begin(), bodies.end(),
+                       [](const Body& body) { return !body.velocity.isZero(0); });
 }
 
 std::optional<StartOrigin> origin_of(const fs::path& checkpoint) {

@@ -19,10 +19,7 @@ struct StartOrigin {
     std::int64_t step = 0;
     // Whether its container, or a part of it, had moved from its rest position or was moving.
     bool walls_moved() const;
-    WallParts parts() const {
-        return {static_cast<std::int32_t>(around.faces.size()),
-                static_cast<std::int32_t>(around.glued.size())};
-    }
+    WallParts parts() const { return parts_of(around); }
 };
 
 // Of a checkpoint. None where it does not say, or says what this program does not understand.

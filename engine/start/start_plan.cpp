@@ -11,6 +11,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/start/bed_in_file.hpp"
 #include "engine/start/held_histories.hpp"
+#include "engine/start/mesh_checks.hpp"
 #include "engine/start/relax.hpp"
 #include "engine/start/restart.hpp"
 
@@ -18,20 +19,38 @@ namespace grainreel {
 
 namespace {
 
+std::optional<double> stiffness_there(const PairContact& here, const PairContact& there,
+                                      const PairPlan& plan) {
+    if (here.normal != there.normal) return std::nullopt;
+    return here.normal == NormalLaw::hertz ? plan.modulus : plan.loading_stiffness;
+}
+
+// Of meshes that have the same name there.
+void take_mesh_stiffness(const Scene& scene, const StartOrigin& origin, StartFacts& facts) {
+    const std::size_t count = scene.species.size();
+    facts.mesh.resize(scene.contact.mesh.size());
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SceneMesh* same = origin.scene.mesh_named(scene.meshes[m].name);
+        if (same == nullptr) continue;
+        const auto there = static_cast<std::size_t>(same - origin.scene.meshes.data());
+        for (std::size_t a = 0; a < count; ++a)
+            facts.mesh[m * count + a] =
+                stiffness_there(scene.contact.mesh[m * count + a],
+                                origin.scene.contact.mesh[there * count + a], origin.plan.at_mesh(there, a));
+    }
+}
+
 // What the file's run had, where its law is this scene's.
 void take_stiffness(const Scene& scene, const StartOrigin& origin, StartFacts& facts) {
     const std::size_t count = scene.species.size();
     if (origin.scene.species.size() != count) return;
-    const auto of = [](const PairContact& here, const PairContact& there,
-                       const PairPlan& plan) -> std::optional<double> {
-        if (here.normal != there.normal) return std::nullopt;
-        return here.normal == NormalLaw::hertz ? plan.modulus : plan.loading_stiffness;
-    };
+    const auto of = stiffness_there;
     for (std::size_t k = 0; k < count * count; ++k)
         facts.grain.push_back(
             of(scene.contact.grain[k], origin.scene.contact.grain[k], origin.plan.grain[k]));
     for (std::size_t a = 0; a < count; ++a)
         facts.wall.push_back(of(scene.contact.wall[a], origin.scene.contact.wall[a], origin.plan.wall[a]));
+    take_mesh_stiffness(scene, origin, facts);
     if (!scene.container.wall_grains || origin.plan.glued.empty()) return;
     const std::size_t glued = scene.container.wall_grains->species;
     for (std::size_t a = 0; a < count; ++a)
@@ -73,7 +92,7 @@ StartFacts facts_to_go_on(const Scene& scene) {
 
 std::string stiffness_text(const Plan& plan) {
     bool file = false, overlaps = false, scene = false, own = false;
-    for (const std::vector<PairPlan>* kinds : {&plan.grain, &plan.wall, &plan.glued}) {
+    for (const std::vector<PairPlan>* kinds : {&plan.grain, &plan.wall, &plan.glued, &plan.mesh}) {
         for (const PairPlan& pair : *kinds) {
             const std::string& reason = pair.stiffness_reason;
             bool& which = reason == "the start file"               ? file
@@ -115,9 +134,8 @@ void plan_start(const BedInFile& bed, Plan& plan) {
     plan.start.text = text_of(plan, bed, all_kept);
 }
 
-}  // namespace
-
-Plan make_plan(const Scene& scene) {
+// By the start alone; meshes are not looked at.
+Plan plan_of(const Scene& scene) {
     if (scene.start.method != Start::Method::file) return make_plan(scene, StartFacts());
     if (scene.start.keep_clock) {
         Plan plan = make_plan(scene, facts_to_go_on(scene));
@@ -133,6 +151,14 @@ Plan make_plan(const Scene& scene) {
     if (!bed) return make_plan(scene, StartFacts());
     Plan plan = make_plan(scene, facts_of(scene, *bed));
     plan_start(*bed, plan);
+    return plan;
+}
+
+}  // namespace
+
+Plan make_plan(const Scene& scene) {
+    Plan plan = plan_of(scene);
+    if (!scene.start.keep_clock) check_meshes(scene, plan);
     return plan;
 }
 

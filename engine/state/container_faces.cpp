@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/state/face_reach.hpp"
 #include "engine/state/tray_faces.hpp"
 
 namespace grainreel {
@@ -56,9 +57,22 @@ FaceDistance distance_to_plate(const Face& face, const Vec3& offset, const Vec3&
     return {distance, distance > 0 ? Vec3(v / distance) : face.normal};
 }
 
+FaceDistance distance_at(const Face& face, const Pose& drive, const Vec3& centre) {
+    if (!face.body.has_own_motion()) return distance_to(face, face.displacement(drive), centre);
+    const BodyPose pose = face.body.at(drive);
+    FaceDistance found = distance_to(face, Vec3::Zero(), pose.at_rest(centre));
+    found.normal = pose.rotation * found.normal;
+    return found;
+}
+
+Vec3 velocity_of(const Face& face, const Pose& drive, const Vec3& point) {
+    return face.body.has_own_motion() ? face.body.at(drive).velocity_at(point) : face.velocity_at(drive);
+}
+
+// A mesh is the wall of its vessel, which has no faces then.
 std::vector<Face> container_faces(const Container& container, const Drive& drive) {
     std::vector<Face> faces;
-    if (container.shape == Container::Shape::none) return faces;
+    if (container.shape == Container::Shape::none || container.shape == Container::Shape::mesh) return faces;
     faces.push_back(plane("floor", {0, 0, 0}, {0, 0, 1}));
     add_side_walls(container, faces);
     if (container.lid) faces.push_back(plane("lid", {0, 0, container.height}, {0, 0, -1}));
@@ -79,6 +93,8 @@ std::vector<Face> free_faces(const std::vector<FreeWall>& walls) {
 
 std::vector<Face> faces_of(const Scene& scene) {
     std::vector<Face> faces = container_faces(scene.container, scene.drive);
+    for (Face& face : faces) face.body.turn = scene.container.turn;
+    set_reach(scene.container, faces);
     for (const std::vector<Face>& more : {free_faces(scene.walls), tray_faces(scene)})
         faces.insert(faces.end(), more.begin(), more.end());
     return faces;

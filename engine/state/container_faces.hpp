@@ -28,6 +28,10 @@ struct Face {
     double gap = 0;       // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
     bool round_gap = false;
 
+    // Of a face whose body turns; see set_reach() (face_reach.hpp).
+    double reach = 0;  // m, of its farthest point from the axis
+
+    // Of a face whose body does not turn (Body::has_own_motion); else see distance_at() and velocity_of().
     Vec3 displacement(const Pose& drive) const { return body.place_at(drive); }
     Vec3 velocity_at(const Pose& drive) const { return body.velocity_at(drive); }
 };
@@ -52,15 +56,22 @@ inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3
     return {face.radius - out, Vec3(-from.x() / out, -from.y() / out, 0)};
 }
 
-// The faces of a scene's container at rest; their bodies follow the scene's drive. Front and back are left
-// out when the depth is periodic, the lid when the top is open (the walls then go on upwards without end).
+// The same at a pose of the drive, also of a face whose body turns or follows a path.
+FaceDistance distance_at(const Face& face, const Pose& drive, const Vec3& centre);
+
+// m/s, of the point (m) of a face at a pose of the drive, likewise.
+Vec3 velocity_of(const Face& face, const Pose& drive, const Vec3& point);
+
+// The faces of a scene's container at rest; their bodies follow the scene's drive, but do not turn. Front and
+// back are left out when the depth is periodic, the lid when the top is open (the walls then go on upwards
+// without end).
 std::vector<Face> container_faces(const Container& container, const Drive& drive);
 
 // The scene's own planes, [[wall]].
 std::vector<Face> free_faces(const std::vector<FreeWall>& walls);
 
-// All faces of a scene at rest, in the order of their numbers: those of the container, of the planes, and of
-// the tray below an outlet.
+// All faces of a scene at rest, in the order of their numbers: those of the container, which turn with it, of
+// the planes, and of the tray below an outlet.
 std::vector<Face> faces_of(const Scene& scene);
 
 // 0 when the depth is not periodic.

@@ -21,6 +21,7 @@ std::vector<std::string> face_names(const Scene& scene) {
         names.push_back(part);
     };
     for (const Face& face : faces_of(scene)) add(face.name);
+    for (const SceneMesh& mesh : scene.meshes) add(mesh.name);
     return names;
 }
 

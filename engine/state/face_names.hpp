@@ -1,4 +1,4 @@
-// The faces of a scene as columns of measures and files name them.
+// The walls of a scene as columns of measures and files name them.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace grainreel {
 
-// Container and planes, in the order of the surroundings' faces, as parts of columns: "left_slant". Each name
-// once: of planes of one name the second is "NAME_2".
+// Container and planes, in the order of the surroundings' faces, then the meshes, as parts of columns:
+// "left_slant". Each name once: of walls of one name the second is "NAME_2".
 std::vector<std::string> face_names(const Scene& scene);
 
 }  // namespace grainreel

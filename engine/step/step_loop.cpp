@@ -15,8 +15,11 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
       team_(team),
       rules_(plan, surroundings.period),
       scheme_(scheme_of(plan.integrator)),
+      clock_(plan.clock),
       lists_(rules_, around_, grains_, team_),
-      members_(team.size()) {}
+      members_(team.size()) {
+    check_meshes();
+}
 
 // Runs until step `from` + `count`, and lets grains leave where they may.
 void StepLoop::run(std::int64_t from, std::int64_t count, double step, double drag) {
@@ -35,6 +38,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
         team_.run(std::ref(work));  // by reference: no copy on the heap
         first_step_ = kGoesOn;
         from = members_[0].reached;
+        end_with_fault();
         if (!around_.exits.empty()) let_leave(from);
     }
 }
@@ -56,16 +60,17 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
     copy_foreign(member);
     for (bool first = true; evaluations.step_number() < to; first = false) {
         move(member, first, kicks);  // half a kick and the drift
-        const bool leaves = evaluations.ends_step() && may_leave(member, step);
+        const bool leaves = evaluations.ends_step() && (contacts.fault || may_leave(member, step));
         mine.clock.lap(Cost::integrate);
 
-        mine.walls.set(around_.faces, at.before, at.now, at.since);
+        mine.walls.set(around_, at.before, at.now, at.since);
         if (mine.walls.tally) mine.tally.begin_evaluation(at.acts / step);
         const Told all = exchange(member, {kicks, first}, leaves);
         mine.clock.lap(Cost::other);
         lists_.renew(member, all.fastest, all.parted, at, step, kicks.frame);
         mine.clock.lap(Cost::neighbours);
 
+        const std::int64_t at_step = evaluations.step_number();
         const ForceTimes times{at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since,
                                lists_.life().reach(member).moved};
         evaluations.go_on();
@@ -78,8 +83,9 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
         send_ahead(member, goes_on, kicks);
         // From here to the formula of a contact law: add_contact_forces() -> the law's kernel
         // (docs/notes/step.md).
-        add_contact_forces({rules_, grains_, mine.walls, around_.glued, times}, grains_, contacts,
-                           mine.memory, mine.ahead, mine.clock);
+        add_contact_forces({rules_, grains_, mine.walls, around_.glued, around_.meshes, times}, grains_,
+                           contacts, mine.memory, mine.ahead, mine.clock);
+        if (contacts.fault && contacts.fault->step < 0) contacts.fault->step = at_step;
     }
     end_run(member, step, kicks);
     mine.reached = evaluations.step_number();
@@ -165,7 +171,7 @@ void StepLoop::restart() {
     const Pose rest = around_.motion.at(-1);
     team_.run([&](int member) {
         WallState& walls = members_[member].walls;
-        walls.set(around_.faces, rest, rest, 0);
+        walls.set(around_, rest, rest, 0);
         lists_.rebuild(member, rest, 0, ListLife::kLastsWell);
         // The first half kick needs the forces at the present positions. A step of length zero computes them.
         const std::int32_t begin = lists_.begin(member), end = lists_.end(member);
@@ -174,10 +180,11 @@ void StepLoop::restart() {
         copy_foreign(member);
         Vanguard none;
         CostClock idle;
-        add_contact_forces({rules_, grains_, walls, around_.glued, {}}, grains_, lists_.contacts(member),
-                           members_[member].memory, none, idle);
+        add_contact_forces({rules_, grains_, walls, around_.glued, around_.meshes, {}}, grains_,
+                           lists_.contacts(member), members_[member].memory, none, idle);
     });
     lists_.clear_counts();
+    end_with_fault();
 }
 
 void StepLoop::time_costs(bool on) {

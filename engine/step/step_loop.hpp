@@ -6,6 +6,7 @@
 //   threads/work_shares.hpp       which grains each thread has
 //   forces/contact_forces.hpp     the forces
 //   step_loop_traffic.cpp         grains that leave and enter
+//   step_loop_faults.cpp          what ends a run
 #pragma once
 
 #include <array>
@@ -130,6 +131,8 @@ class StepLoop {
     bool in_exit(std::int32_t grain) const;
     bool may_leave(int member, double step) const;
     void let_leave(std::int64_t step);
+    void check_meshes() const;
+    void end_with_fault() const;
     void take_out(const std::vector<std::int32_t>& leavers, std::int64_t step);
     std::vector<bool> note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step);
     void sum_loads_anew(const std::vector<bool>& of, std::int64_t step);
@@ -141,6 +144,7 @@ class StepLoop {
     Team& team_;
     const ContactRules rules_;
     const Scheme scheme_;
+    const Clock clock_;  // for messages
     BedLists lists_;
     std::vector<Member> members_;
     bool fresh_ = true;                  // after restart(): the next run() sets the step of the lists

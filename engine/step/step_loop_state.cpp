@@ -12,8 +12,8 @@ void StepLoop::visit_contacts(std::int64_t at_step,
                               const std::function<void(const ContactView&)>& visit) const {
     WallState walls;
     const Pose pose = around_.motion.at(at_step);
-    walls.set(around_.faces, pose, pose, 0);
-    const ForceInput in{rules_, grains_, walls, around_.glued, {}};
+    walls.set(around_, pose, pose, 0);
+    const ForceInput in{rules_, grains_, walls, around_.glued, around_.meshes, {}};
     std::vector<ContactView> late;
     const auto keep = [&](const ContactView& seen) { late.push_back(seen); };
     for (std::size_t g = 0; g < rules_.groups.size(); ++g) {
@@ -22,7 +22,8 @@ void StepLoop::visit_contacts(std::int64_t at_step,
         // Threads own stretches of the grains, so those in order are in order on any number of them.
         std::sort(late.begin(), late.end(), [](const ContactView& a, const ContactView& b) {
             if (a.first != b.first) return a.first < b.first;
-            return a.second != b.second ? a.second > b.second : a.glued < b.glued;
+            if (a.second != b.second) return a.second > b.second;
+            return a.glued != b.glued ? a.glued < b.glued : a.triangle < b.triangle;
         });
         for (const ContactView& seen : late) visit(seen);
     }

@@ -2,7 +2,7 @@
 #   cmake -DFOLDER=... -DOUT=... -P embed_page.cmake
 # The scripts become one classic script: what a page opened from a file can run. A later script uses an earlier one's
 # classes.
-set(scripts embedded run_time film charts bed_frames pair_forces camera walls shaders viewer bed fields live main)
+set(scripts embedded run_time film charts bed_frames pair_forces camera walls shaders meshes viewer bed fields live main)
 
 set(script "")
 foreach(name ${scripts})

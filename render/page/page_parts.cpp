@@ -107,10 +107,29 @@ const char* words_of(Container::Shape shape) {
             return "in a box";
         case Container::Shape::cylinder:
             return "in a cylinder";
+        case Container::Shape::mesh:
+            return "in a vessel";
         case Container::Shape::none:
             break;
     }
     return "in empty space";
+}
+
+// "in the vessel “drum” with “screw”" where walls come from files.
+std::string place_words(const FilmedScene& scene) {
+    const bool vessel = scene.container.shape == Container::Shape::mesh;
+    std::vector<std::string> others;
+    for (const SceneMesh& mesh : scene.meshes)
+        if (!vessel || mesh.name != scene.container.mesh) others.push_back(fmt::format("“{}”", mesh.name));
+    std::string words = vessel ? fmt::format("in the vessel “{}”", scene.container.mesh)
+                               : std::string(words_of(scene.container.shape));
+    if (others.empty()) return words;
+    constexpr std::size_t most_named = 4;
+    std::string named = others.size() > most_named ? fmt::format("{} meshes", others.size()) : others.front();
+    for (std::size_t i = 1; i < others.size() && others.size() <= most_named; ++i)
+        named += (i + 1 == others.size() ? " and " : ", ") + others[i];
+    if (scene.container.shape == Container::Shape::none) return "with walls of any shape, " + named;
+    return words + " with " + named;
 }
 
 // "400 sand (and 300 more that are fed)"
@@ -139,7 +158,7 @@ std::string lead_html(const FilmedScene& scene) {
         if (one.all() > 0)  // else it is glued to walls
             species += fmt::format("{}{}", species.empty() ? "" : " and ", number_words(one));
     return fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
-                       words_of(scene.container.shape), drive_words(scene));
+                       html_text(place_words(scene)), drive_words(scene));
 }
 
 std::string end_html(const FilmedScene& scene, const RunFacts& facts, double until) {
@@ -186,7 +205,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
     return html;
 }
 
-std::string bed_about(const BedFrames& bed, const FilmedScene& scene) {
+std::string bed_about(const BedFrames& bed, const PageMeshes& meshes, const FilmedScene& scene) {
     const Vec3 error = 1e6 * bed.error();
     std::string text = fmt::format(
         "Places are rounded to 16 bits over the box that the grains reach: they are off by {:.2g} µm along "
@@ -217,6 +236,10 @@ std::string bed_about(const BedFrames& bed, const FilmedScene& scene) {
             " Of {} moments the page has the pairs that push each other, with their normal forces to 2.3 %.",
             bed.forces.moments.size());
     if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
+    for (std::string note : meshes.notes()) {
+        note.front() = 'T';
+        text += fmt::format(" {}.", note);
+    }
     return html_text(text);
 }
 

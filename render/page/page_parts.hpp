@@ -6,6 +6,7 @@
 #include <string>
 
 #include "render/page/bed/bed_frames.hpp"
+#include "render/page/bed/page_meshes.hpp"
 #include "render/page/facts/run_facts.hpp"
 #include "render/page/film/page_film.hpp"
 #include "render/page/report.hpp"
@@ -26,7 +27,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
                       const std::string& why_not_tied, const std::string& n = "", bool beside = true);
 
 // What the page has of the bed's moments, and how exactly.
-std::string bed_about(const BedFrames& bed, const FilmedScene& scene);
+std::string bed_about(const BedFrames& bed, const PageMeshes& meshes, const FilmedScene& scene);
 
 // The scene's captions, each a button that goes there; empty without any.
 std::string story_html(const FilmedScene& scene);

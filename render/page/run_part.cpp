@@ -111,6 +111,9 @@ std::size_t RunPart::taken() const {
 
 void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
     if (!run_.run) return;
+    constexpr std::size_t share_of_meshes = 4;
+    meshes_ = page_meshes(scene(), most_bytes / share_of_meshes);
+    most_bytes -= meshes_.packed.size();
     const double start = times_.times.empty() ? run_.run->span().from : times_.times.front();
     const auto coloured = [&](const FrameArchive& moments) {
         return film_has_scale(scene())
@@ -171,7 +174,7 @@ std::string RunPart::film(bool beside) const {
 
 std::string RunPart::bed() const {
     if (!run_.run) return fmt::format("<p>{}, so there is no bed to turn.</p>\n", no_moments());
-    return filled(page_files().bed, {{"about", bed_about(bed_, scene())}, {"n", n_}});
+    return filled(page_files().bed, {{"about", bed_about(bed_, meshes_, scene())}, {"n", n_}});
 }
 
 std::string RunPart::fields(int level) const {
@@ -216,12 +219,13 @@ std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) con
 }
 
 std::string RunPart::facts() const {
-    return facts_json({name_, folder().filename().string(), scene(), span(), film_, times_, bed_,
+    return facts_json({name_, folder().filename().string(), scene(), span(), film_, times_, bed_, meshes_,
                        table_.get(), measures_, fields_});
 }
 
 std::string RunPart::bed_blob() const {
-    return blob("bed-bytes" + n_, bed_.packed) + blob("forces-bytes" + n_, bed_.forces.packed);
+    return blob("meshes-bytes" + n_, meshes_.packed) + blob("bed-bytes" + n_, bed_.packed) +
+           blob("forces-bytes" + n_, bed_.forces.packed);
 }
 
 std::string RunPart::late_blobs() const {
@@ -278,6 +282,7 @@ std::vector<std::string> RunPart::news() const {
     for (const std::string& line : lacking_files()) add(line);
     news.insert(news.end(), bed_news_.begin(), bed_news_.end());
     for (const std::string& note : {film_.note, times_.why_not, fields_.why_not}) add(note);
+    for (const std::string& note : meshes_.notes()) news.push_back("on the page " + note);
     if (bed_.moments.size() < bed_.all_moments)
         news.push_back(fmt::format("the page has {} of the run's {} moments; there is no room for the others",
                                    bed_.moments.size(), bed_.all_moments));

@@ -66,6 +66,7 @@ class RunPart {
     std::vector<std::uint8_t> poster_;
     FilmTimes times_;
     BedFrames bed_;
+    PageMeshes meshes_;
     std::vector<std::string> bed_news_;
     PageFields fields_;
     std::string lead_, late_blobs_;

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from bed_states import coherence, over_the_cycle
+from end_state import mean_of, share_of
 from fields import Fields
 from layer_pattern import Pattern
 
@@ -44,6 +45,8 @@ SORT_AND_MIX = ('drive.stage=[{from="3 s", frequency="25 Hz", g_level=7, over=4}
 FINE_ROWS = ("output.measures_interval=5 ms",)
 UPRIGHT = ("container.half_angle=1 deg", "container.half_width=12 mm", "container.height=400 mm", "run.duration=1.5 s")
 ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
+ROLLING = ("run.duration=4 s", "mesh[0].turn.rate=0.99", 'output.instruments=["drum"]')
+CENTRIFUGING = ("run.duration=4 s", "mesh[0].turn.rate=20")
 ON_THE_MOON = ("run.duration=4.922 s", DRAFT)
 
 
@@ -77,6 +80,40 @@ def rate_kept(run):
         return next(time for time, mass in rows if mass >= share * rows[-1][1])
 
     return (when(0.2) - when(0.05)) / (when(0.8) - when(0.65))
+
+
+def slope(run, column, after, until):
+    """Change of a column over time, from the first to the last row between two times."""
+    rows = [row for row in run.rows if after <= row["time"] <= until]
+    return (rows[-1][column] - rows[0][column]) / (rows[-1]["time"] - rows[0]["time"])
+
+
+def beverloo_constant(run):
+    """C of W = C rho_b sqrt(g) (D - 1.4 d)^2.5, with the density of a solid fraction of 0.6."""
+    density, orifice, diameter = 0.6 * 2500, 0.036, 0.004
+    return slope(run, "outflow", 0.3, 0.9) / (density * math.sqrt(9.81) * (orifice - 1.4 * diameter) ** 2.5)
+
+
+def small_lower_left(run):
+    """Share of the small grains in the quarter of the drum that they leave first."""
+    return share_of(run, lambda grain: grain["y"] < 0 and grain["z"] < 0, lambda grain: grain["type"] == 2)
+
+
+def thrown_speed(throw, angle, frequency):
+    """m/s along a trough that throws what lies on it, of a block that sticks where it lands.
+
+    throw: peak acceleration across the trough over g, 1 to 3.3. The part n of a period that it flies follows from
+    throw^2 = 1 + ((cos 2 pi n + 2 pi^2 n^2 - 1) / (2 pi n - sin 2 pi n))^2, which grows with n.
+    """
+    def needed(n):
+        turn = 2 * math.pi * n
+        return math.hypot(1, (math.cos(turn) + turn**2 / 2 - 1) / (turn - math.sin(turn)))
+
+    low, high = 1e-3, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if needed(middle) < throw else (low, middle)
+    return 9.81 * low**2 / (2 * frequency * math.tan(angle))
 
 
 def inverted_pattern(run):
@@ -397,5 +434,90 @@ CHECKS = [
         what="share of the big grains in the bed's top quarter at the end",
         number=lambda run: run.end("big_in_top_quarter"),
         least=0.5,
+    ),
+    Check(
+        name="cone_hopper",
+        claim="a cone empties at C rho sqrt(g) (D - 1.4 d)^2.5 (Beverloo et al. 1961); nine codes' silo has C = 0.60 (Dosta et al. 2024)",
+        scene="cone_hopper",
+        runs=((DRAFT, "run.duration=1 s", "run.precision=mixed"),),
+        control=["contact.friction=0", "contact.wall.friction=0"],
+        what="C from 0.3 to 0.9 s",
+        number=beverloo_constant,
+        least=0.54,
+        most=0.66,
+    ),
+    Check(
+        name="drum",
+        claim="in the first half turn a bed slides over in a drum as nine codes have it: 0.33 of the small grains after 1 s (Dosta et al. 2024)",
+        scene="drum",
+        runs=(("run.duration=1 s",),),
+        control=["contact.pair[2].friction=0", "contact.pair[3].friction=0"],
+        what="share of the small grains in the lower left quarter after 1 s",
+        number=small_lower_left,
+        least=0.28,
+        most=0.38,
+    ),
+    Check(
+        name="drum_rolls",
+        claim="at a Froude number of 0.005 a bed rolls: its surface is flat and stands at the dynamic angle of repose (Mellmann 2001)",
+        scene="drum_mixing",
+        runs=((*ROLLING, DRAFT),),
+        control=["contact.friction=0"],
+        what="dynamic angle of repose from 2 to 4 s, degrees",
+        number=lambda run: run.mean("repose_angle_deg", 2),
+        least=20,
+        most=40,
+    ),
+    Check(
+        name="drum_centrifuges",
+        claim="at a Froude number of 2 all grains stay at the drum's wall (Mellmann 2001: from 1 on)",
+        scene="drum_mixing",
+        runs=((*CENTRIFUGING, DRAFT),),
+        control=["mesh[0].turn.rate=3.13"],
+        what="distance of the centre of mass from the axis over the drum's radius, 3 to 4 s",
+        number=lambda run: math.hypot(run.mean("centre_y", 3), run.mean("centre_z", 3)) / 0.05,
+        most=0.2,
+    ),
+    Check(
+        name="drum_mixes",
+        claim="a few turns of a drum mix grains of one size",
+        scene="drum_mixing",
+        runs=(("run.duration=8 s", "mesh[0].turn.rate=3", DRAFT),),
+        control=["mesh[0].turn.rate=0.1"],
+        what="Lacey's index in the last second",
+        number=lambda run: run.mean("lacey", 7),
+        least=0.8,
+    ),
+    Check(
+        name="drum_lifters",
+        claim="bars along a drum's wall lift grains that would roll without them, and let them fall",
+        scene="drum_lifters",
+        runs=(("run.duration=2 s", DRAFT),),
+        control=["mesh[0].file=shipped:drum.stl"],
+        what="share of the grains higher than 0.3 radii above the axis",
+        number=lambda run: share_of(run, lambda grain: grain["z"] > 0.03),
+        least=0.05,
+    ),
+    Check(
+        name="screw",
+        claim="a screw pushes grains along, one pitch a turn at most",
+        scene="screw_conveyor",
+        runs=(("run.duration=3 s", DRAFT),),
+        control=["mesh[1].turn.rate=12.566"],
+        what="speed of the grains in the middle of the trough over pitch times turns a second",
+        number=lambda run: mean_of(run, "vy", lambda grain: -0.02 < grain["y"] < 0.08) / 0.08,
+        least=0.5,
+        most=1.05,
+    ),
+    Check(
+        name="conveyor",
+        claim="a trough that throws conveys as a block that sticks where it lands: g n^2 / (2 f tan b)",
+        scene="conveyor",
+        runs=(("run.duration=1 s", DRAFT),),
+        control=["drive.direction=[0, 0, 1]"],
+        what="speed of the grains from 0.4 to 1 s over that of the block, 0.25 m/s",
+        number=lambda run: slope(run, "centre_y", 0.4, 1) / thrown_speed(2.5, math.radians(30), 25),
+        least=0.6,
+        most=1.2,
     ),
 ]

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "render/page/facts/differences.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -38,6 +40,17 @@ TEST(Differences, OnlyWhatDiffersIsInTheTable) {
     EXPECT_THAT(table, Not(HasSubstr("run.step")));
     EXPECT_THAT(differences_html({{"a", here / "a.toml"}, {"a", here / "a.toml"}}),
                 HasSubstr("The scenes are the same."));
+}
+
+// Two meshes of one name are told apart by what is in their files.
+TEST(Differences, MeshesDifferByTheirHash) {
+    const test::TemporaryFolder here;
+    const char* mesh = "[[mesh]]\nname = \"drum\"\nfile = \"meshes/drum.stl\"\nhash = \"{}\"\n";
+    test::write_text(here / "a.toml", fmt::format(fmt::runtime(mesh), "0123456789abcdef"));
+    test::write_text(here / "b.toml", fmt::format(fmt::runtime(mesh), "fedcba9876543210"));
+    const std::string table = differences_html({{"first", here / "a.toml"}, {"second", here / "b.toml"}});
+    EXPECT_THAT(table, HasSubstr("<th scope=\"row\">mesh.1.hash</th><td>&quot;0123456789abcdef&quot;</td>"));
+    EXPECT_THAT(table, Not(HasSubstr("mesh.1.file")));
 }
 
 }  // namespace

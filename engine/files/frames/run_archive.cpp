@@ -38,6 +38,7 @@ RunArchive::RunArchive(const fs::path& folder, const Scene& scene, bool for_ques
         throw UserError(fmt::format("{}: holds no frame yet; the run was stopped before its first", name));
     make_world();
     check_species(scene_, world_, name);
+    check_meshes(scene_, world_of(trajectory_.info()), name);
     read_moments();
     clock_ = clock_of(scene_, moments_);
     if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // with one moment at step 0

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "engine/base/nearest_image.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
@@ -18,6 +20,8 @@ namespace {
 constexpr double same_size = 1e-4;   // relative; an early version kept radii as floats
 constexpr double same_time = 1e-6;   // relative, and in turns
 constexpr double same_place = 1e-6;  // of the drive's amplitude or speed, or of a diameter
+constexpr double same_angle = 1e-6;  // rad
+constexpr double same_shape = 1e-9;  // of a mesh's extent
 
 [[noreturn]] void of_two_runs(const std::string& what) {
     throw UserError(what + "; they are of two runs");
@@ -59,12 +63,58 @@ void check_pose(const Drive& drive, const BodyPose& is, const Pose& by_scene, co
         what, along(is.place), along(is.velocity), along(by_scene.offset), along(by_scene.velocity)));
 }
 
+// Of a body that has a motion of its own.
+void check_own_pose(const BodyPose& is, const BodyPose& by_scene, const std::string& what) {
+    const auto near = [](const Vec3& a, const Vec3& b) {
+        return (a - b).norm() <= same_place * std::max({1.0, a.norm(), b.norm()});
+    };
+    const double apart = is.rotation.angularDistance(by_scene.rotation);
+    if (near(is.place, by_scene.place) && near(is.velocity, by_scene.velocity) &&
+        near(is.spin, by_scene.spin) && apart <= same_angle)
+        return;
+    of_two_runs(fmt::format("{} {:.4g} degrees and {:.4g} m off where scene.toml beside it has it then", what,
+                            apart * 180 / std::numbers::pi, (is.place - by_scene.place).norm()));
+}
+
+// Those of the container where it turns, and of the meshes.
+void check_own_poses(const Scene& scene, const Pose& drive, const Frame& moment, const std::string& frame) {
+    const std::vector<Body> bodies = bodies_of(scene);
+    if (scene.container.turn)
+        check_own_pose(moment.container(), bodies[kContainerBody].at(drive), frame + " has the container");
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const std::size_t body = static_cast<std::size_t>(first_mesh_body(scene)) + m;
+        check_own_pose(moment.body(body), bodies[body].at(drive),
+                       fmt::format("{} has the mesh '{}'", frame, scene.meshes[m].name));
+    }
+}
+
 }  // namespace
 
 void check_species(const Scene& scene, const World& world, const std::string& trajectory) {
     if (world.species.size() != scene.species.size())
         of_two_runs(fmt::format("{}: has {} species, but scene.toml beside it has {}", trajectory,
                                 world.species.size(), scene.species.size()));
+}
+
+void check_meshes(const Scene& scene, const World& said, const std::string& trajectory) {
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SceneMesh& mesh = scene.meshes[m];
+        const TriangleMesh& here = mesh.surface->mesh();
+        const std::size_t body = static_cast<std::size_t>(first_mesh_body(scene)) + m;
+        if (body >= said.bodies.size())
+            of_two_runs(
+                fmt::format("{}: has no mesh '{}', but scene.toml beside it has", trajectory, mesh.name));
+        const TriangleMesh& there = said.bodies[body].mesh;
+        const double room = same_shape * mesh.surface->farthest_from(Vec3(0, 0, 0));
+        const bool alike = there.triangles == here.triangles &&
+                           std::equal(there.vertices.begin(), there.vertices.end(), here.vertices.begin(),
+                                      here.vertices.end(),
+                                      [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= room; });
+        if (!alike)
+            of_two_runs(fmt::format(
+                "{}: its mesh '{}' ({} triangles) has another shape than that of scene.toml beside it ({})",
+                trajectory, said.bodies[body].name, there.triangles.size(), here.triangles.size()));
+    }
 }
 
 void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory) {
@@ -100,6 +150,8 @@ void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, co
     if (clock.step <= 0) return;
     const Pose drive = WallMotion(scene.drive, clock).at(moment.step);
     const bool all_moves = scene.drive.moves == Drive::Moves::container;
+    check_own_poses(scene, drive, moment, frame);
+    if (scene.container.turn) return;
     check_pose(scene.drive, moment.floor(), drive, frame + " has the floor");
     check_pose(scene.drive, moment.container(), all_moves ? drive : Pose(), frame + " has the container");
 }

@@ -15,9 +15,12 @@ namespace grainreel {
 
 // trajectory, measures: the files' names, for messages.
 void check_species(const Scene& scene, const World& world, const std::string& trajectory);
+// The shapes of the scene's meshes. said: what the trajectory says of its world.
+void check_meshes(const Scene& scene, const World& said, const std::string& trajectory);
 // How many grains the trajectory has, and in one of its frames how many of each species and of what size.
 void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory);
-// Step, periods and phase of a moment, and where the drive has the container then. frame: "x.nc: frame 3".
+// Step, periods and phase of a moment, and where the drive has the container then, and their motions the
+// meshes. frame: "x.nc: frame 3".
 void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame);
 // Times and periods of the rows, and the grains' centre of mass at a moment that both files have.
 void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,

@@ -23,7 +23,9 @@ World world_of(const TrajectoryInfo& info) {
         cell.periodic[edge] = info.periodic_length[i] > 0;
     }
     world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
-    for (const std::string& plane : info.planes) world.bodies.push_back({plane, {}, {}});
+    for (const std::string& name : info.bodies) world.bodies.push_back({name, {}, {}});
+    for (const auto& [body, shape] : info.meshes) world.bodies.at(body).mesh = shape;
+    world.container_turns = info.container_turns;
     world.most_grains = info.capacity;
     world.traffic = info.traffic;
     world.facts = info.facts;
@@ -38,7 +40,11 @@ TrajectoryInfo trajectory_info(const World& world, const FrameSupply& supply) {
     info.capacity = world.most_grains;
     info.traffic = world.traffic;
     for (std::size_t body = kFirstPlaneBody; body < world.bodies.size(); ++body)
-        info.planes.push_back(world.bodies[body].name);
+        info.bodies.push_back(world.bodies[body].name);
+    for (std::size_t body = 0; body < world.bodies.size(); ++body)
+        if (const TriangleMesh& shape = world.bodies[body].mesh; !shape.empty())
+            info.meshes.push_back({body, shape});
+    info.container_turns = world.container_turns;
     info.orientation = supply.orientations;
     info.contact_numbers = supply.contact_numbers;
     if (world.cell) {

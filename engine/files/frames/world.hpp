@@ -49,14 +49,16 @@ struct World {
     std::vector<WorldBody> bodies;  // by number; container and floor first, or none where nothing is known
     std::size_t most_grains = 0;    // that a frame can have, all that ever come counted
     bool traffic = false;           // grains come and go
+    bool container_turns = false;   // with its floor: their poses have a rotation
     bool time_known = true;
     FileFacts facts = {};  // words for whoever reads the file
 };
 
-// Container, floor, planes and species of a scene.
+// Container, floor, planes, meshes and species of a scene.
 World world_of(const Scene& scene);
 
-// For those who need a scene of a world that has none: its species, in no container.
+// For those who need a scene of a world that has none: its species, in no container, and its meshes where it
+// has no planes.
 Scene scene_of(const World& world);
 
 }  // namespace grainreel

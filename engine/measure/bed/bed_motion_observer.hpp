@@ -10,6 +10,7 @@
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/segregation/segregation.hpp"
+#include "engine/measure/walls/turning.hpp"
 
 namespace grainreel::observers {
 
@@ -76,18 +77,23 @@ class BedMotion final : public Observer {
     static bool has_floor(const Moment& m) {
         return m.scene.container.shape != Container::Shape::none && m.wall_sums != nullptr;
     }
+    // A vessel that is a mesh has no floor of its own and carries the grains as a whole.
+    static const FaceSums& floor_of(const Moment& m) {
+        const std::optional<std::size_t> vessel = vessel_of(m.scene);
+        return m.wall_sums->faces.at(vessel ? m.faces.size() + *vessel : 0);
+    }
     static double height_of(const Moment& m) {
         std::vector<double> heights = heights_above(m.grains, m.floor_height());
         return bed_height(heights);
     }
     void note(const Moment& m) {
         step_ = m.step;
-        if (has_floor(m)) floor_ = m.wall_sums->faces.front();
+        if (has_floor(m)) floor_ = floor_of(m);
     }
     // Mean force of the grains on the floor along gravity since the step before, over their weight. The sums
     // are those of walls/wall_forces.hpp.
     double carried(const Moment& m) const {
-        const FaceSums& now = m.wall_sums->faces.front();
+        const FaceSums& now = floor_of(m);
         double counts = 0, mass = 0;  // counts times m/s2
         for (int a = 0; a < 3; ++a)
             counts += m.gravity[a] *

@@ -39,7 +39,7 @@ double intruder_height(const Scene& scene, const Grains& grains, std::size_t int
         if (i != intruder && near) around.push_back(p);
     }
     if (around.empty()) return kNoValue;
-    const Surface surface = surface_of(around, {-reach, reach, -reach, reach, 0, mean});
+    const BedOutline surface = surface_of(around, {-reach, reach, -reach, reach, 0, mean});
     return (own.position.z() + own.radius - floor) / (surface.mean() - floor);
 }
 

@@ -7,6 +7,24 @@
 #include "engine/measure/energy/energy.hpp"
 
 namespace grainreel {
+namespace {
+
+std::vector<BodyPose> poses_of_meshes(const Surroundings& around, const Pose& pose) {
+    std::vector<BodyPose> poses;
+    for (const MeshWall& mesh : around.meshes) poses.push_back(mesh.body.at(pose));
+    return poses;
+}
+
+// m/s, where the contact is; pose: of the drive.
+Vec3 velocity_of_wall(const Surroundings& around, const std::vector<BodyPose>& meshes, const ContactView& c,
+                      const Pose& pose) {
+    const auto wall = static_cast<std::size_t>(-1 - c.second);
+    const std::size_t faces = around.faces.size();
+    return wall < faces ? velocity_of(around.faces[wall], pose, c.point)
+                        : meshes[wall - faces].velocity_at(c.point);
+}
+
+}  // namespace
 
 EnergyBalance::EnergyBalance(const Surroundings& around, const Grains& grains, const StepLoop& loop,
                              std::int64_t step, double step_length)
@@ -35,6 +53,8 @@ void EnergyBalance::look(std::int64_t step) {
     terms_.stored = 0;
     powers_ = {};
     const Pose pose = around_.motion.at(step);
+    const std::vector<BodyPose> meshes = poses_of_meshes(around_, pose);
+    if (!shown_.empty()) shown_.clear();
     std::swap(before_, contacts_);
     contacts_.clear();
     goes_on_.assign(before_.size(), 0);
@@ -46,7 +66,7 @@ void EnergyBalance::look(std::int64_t step) {
         powers_.damping += c.damping_power;
         if (c.second >= 0) return;
         const Vec3 on_wall = c.normal_force * c.normal + c.tangential;
-        powers_.walls -= on_wall.dot(around_.faces[-1 - c.second].velocity_at(pose));
+        powers_.walls -= on_wall.dot(velocity_of_wall(around_, meshes, c, pose));
     });
     // The grains' count has the last force for a whole step; half of that is still to come.
     note_traffic();
@@ -165,16 +185,23 @@ bool EnergyBalance::are_there(std::uint64_t key) const {
     return there(key >> 32) && (is_at_wall(key) || there(second));
 }
 
-// Grains by id, for their indices change; walls behind all grains. A grain may touch several glued grains of
-// one face: these stand behind the faces.
-std::uint64_t EnergyBalance::key(const ContactView& c) const {
+// A grain may touch several glued grains of one face: these stand behind the faces. It may also touch a mesh
+// in several places, which stand behind these in the order in which they are shown.
+std::uint64_t EnergyBalance::key_at_wall(std::uint64_t first, const ContactView& c) {
+    constexpr std::uint64_t most_places = 64;  // of one grain at one mesh
+    const auto wall = static_cast<std::uint64_t>(-1 - c.second);
+    const std::uint64_t faces = around_.faces.size(), from = first << 32 | (std::uint64_t{1} << 31);
+    if (c.glued >= 0) return from | (faces + static_cast<std::uint64_t>(c.glued));
+    if (wall < faces) return from | wall;
+    const std::uint64_t of_mesh = from | (faces + around_.glued.size() + (wall - faces) * most_places);
+    return of_mesh + shown_[of_mesh]++;
+}
+
+// Grains by id, for their indices change; walls behind all grains.
+std::uint64_t EnergyBalance::key(const ContactView& c) {
     const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
     const std::uint64_t first = id(c.first);
-    if (c.second < 0) {
-        const auto part = c.glued < 0 ? static_cast<std::uint64_t>(-1 - c.second)
-                                      : around_.faces.size() + static_cast<std::uint64_t>(c.glued);
-        return first << 32 | (std::uint64_t{1} << 31) | part;
-    }
+    if (c.second < 0) return key_at_wall(first, c);
     const std::uint64_t second = id(c.second);
     return std::min(first, second) << 32 | std::max(first, second);
 }

@@ -90,7 +90,8 @@ class EnergyBalance {
     bool are_there(std::uint64_t key) const;
     static bool is_at_wall(std::uint64_t key) { return (key >> 31 & 1) != 0; }
     void add_friction(double spent);
-    std::uint64_t key(const ContactView& contact) const;
+    std::uint64_t key(const ContactView& contact);
+    std::uint64_t key_at_wall(std::uint64_t first, const ContactView& contact);
 
     const Surroundings& around_;
     const Grains& grains_;
@@ -109,6 +110,8 @@ class EnergyBalance {
     bool some_left_ = false, opened_ = false;       // in the last step
     std::vector<std::int32_t> present_;             // ids, rising, when that was so
     std::vector<std::size_t> ended_;                // in the last step: places in before_, by rising key
+    // At the step looked at: how often each grain at a mesh has been shown, by the key of its first contact.
+    std::unordered_map<std::uint64_t, std::uint64_t> shown_;
 };
 
 }  // namespace grainreel

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/measure/fields/field_grid.hpp"
+#include "engine/measure/fields/inside_mesh.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -77,6 +78,7 @@ std::vector<double> inside_shares(const FieldGrid& grid, const Scene& scene) {
     const auto& [x, y, z] = grid.axes;
     std::vector<double> shares(static_cast<std::size_t>(grid.cells()), 1.0);
     if (container.shape == Container::Shape::none) return shares;
+    if (container.shape == Container::Shape::mesh) return shares_inside_mesh(grid, scene);
     const bool round = container.shape == Container::Shape::cylinder;
     const std::vector<Face> faces = upright_faces(scene);
     for (std::int64_t k = 0; k < z.count; ++k) {

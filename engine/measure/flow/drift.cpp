@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/measure/no_value.hpp"
-#include "engine/measure/surface/surface_frame.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainreel {
 namespace {
@@ -17,13 +17,15 @@ VelocityGrid cells_of(const Scene& scene) {
     VelocityGrid grid;
     const Container& c = scene.container;
     if (c.shape == Container::Shape::none) return grid;
-    const double cell = kCell * surface_frame(scene).diameter;
+    const double cell = kCell * mean_diameter(scene);
     const double half = std::clamp(std::round((2 * c.half_width / cell - 1) / 2), 1.0, (kMostCells - 1) / 2);
     grid.across = static_cast<std::size_t>(2 * half + 1);
-    grid.high = static_cast<std::size_t>(std::clamp(std::ceil(c.height / cell), 2.0, kMostCells));
+    grid.high =
+        static_cast<std::size_t>(std::clamp(std::ceil((c.height - c.base()) / cell), 2.0, kMostCells));
     grid.left = -c.half_width;
+    grid.bottom = c.base();
     grid.width = 2 * c.half_width / static_cast<double>(grid.across);
-    grid.height = c.height / static_cast<double>(grid.high);
+    grid.height = (c.height - c.base()) / static_cast<double>(grid.high);
     const std::size_t cells = grid.across * grid.high;
     grid.right.assign(cells, 0), grid.up.assign(cells, 0), grid.weight.assign(cells, 0);
     return grid;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/measure/walls/turning.hpp"
+
 namespace grainreel {
 
 SideWalls::SideWalls(const Scene& scene) {
+    const bool stands = !turns_over(scene);  // else its walls are at its sides by turns
     for (const Face& face : container_faces(scene.container, scene.drive))
-        if (face.kind == Face::Kind::cylinder || face.normal.y() != 0) faces_.push_back(face);
+        if (stands && (face.kind == Face::Kind::cylinder || face.normal.y() != 0)) faces_.push_back(face);
     if (scene.species.empty()) return;
     gap_ =
         std::min_element(scene.species.begin(), scene.species.end(), [](const Species& a, const Species& b) {

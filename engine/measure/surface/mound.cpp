@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kLeastBins = 6;
 
 // Of the bins from `first` up to, without, `end`.
-double slope_of(const Surface& s, std::size_t first, std::size_t end) {
+double slope_of(const BedOutline& s, std::size_t first, std::size_t end) {
     const auto count = static_cast<double>(end - first);
     double places = 0, heights = 0;
     for (std::size_t i = first; i < end; ++i) {
@@ -26,7 +26,7 @@ double slope_of(const Surface& s, std::size_t first, std::size_t end) {
 }
 
 // Mean height between two places; a bin counts by the part of it that lies between them.
-double mean_between(const Surface& s, double from, double to) {
+double mean_between(const BedOutline& s, double from, double to) {
     double sum = 0, width = 0;
     for (std::size_t i = 0; i < s.height.size(); ++i) {
         const double low = std::max(from, s.place(i) - 0.5 * s.bin),
@@ -40,7 +40,7 @@ double mean_between(const Surface& s, double from, double to) {
 
 }  // namespace
 
-Mound mound_of(const Surface& s) {
+Mound mound_of(const BedOutline& s) {
     const std::size_t count = s.height.size();
     if (count < kLeastBins) return {kNoValue, kNoValue, kNoValue};
     const double sixth = s.width() / 6, right = s.left + s.width();

@@ -13,6 +13,6 @@ struct Mound {
 
 // Slopes are those of least-squares lines through the bins. A tent of slope s over the width W has s, no
 // tilt, and the height s W / 3; a plane has no slope. NaN with fewer than six bins.
-Mound mound_of(const Surface& surface);
+Mound mound_of(const BedOutline& surface);
 
 }  // namespace grainreel

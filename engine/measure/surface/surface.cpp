@@ -58,8 +58,8 @@ class Columns {
         }
     }
 
-    Surface surface() {
-        Surface s{frame_.left, width_, std::vector<double>(static_cast<std::size_t>(across_), kEmpty)};
+    BedOutline surface() {
+        BedOutline s{frame_.left, width_, std::vector<double>(static_cast<std::size_t>(across_), kEmpty)};
         for (int j = 0; j < across_; ++j) {
             double sum = 0, filled = 0;
             for (int i = 0; i < deep_; ++i) {
@@ -112,7 +112,7 @@ void fill_gaps(std::vector<double>& height) {
 
 }  // namespace
 
-double Surface::mean() const {
+double BedOutline::mean() const {
     return mean_height_of(height);
 }
 
@@ -120,11 +120,11 @@ std::size_t bins_across(const SurfaceFrame& frame) {
     return static_cast<std::size_t>(columns_in(frame.right - frame.left, frame.diameter));
 }
 
-Surface surface_of(std::span<const Place> grains, const SurfaceFrame& frame) {
+BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame) {
     if (grains.empty()) return {};
     Columns columns(frame);
     for (const Place& grain : grains) columns.add(grain);
-    Surface surface = columns.surface();
+    BedOutline surface = columns.surface();
     fill_gaps(surface.height);
     return surface;
 }

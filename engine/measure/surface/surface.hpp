@@ -9,7 +9,7 @@
 namespace grainreel {
 
 // Heights of the surface at the middles of equal bins of y.
-struct Surface {
+struct BedOutline {
     double left = 0, bin = 0;    // m: where the first bin begins, and how wide each is
     std::vector<double> height;  // m, in the room
 
@@ -33,6 +33,6 @@ std::size_t bins_across(const SurfaceFrame& frame);
 // in the column that holds its centre, and with its longest chord there in every other column that it reaches
 // into. Columns that no grain reaches up to their middle have no say: they are beside the bed. A bin without
 // others takes the mean of the nearest ones. Empty without grains.
-Surface surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
+BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
 
 }  // namespace grainreel

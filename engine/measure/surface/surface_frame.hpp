@@ -7,7 +7,7 @@
 namespace grainreel {
 
 // Of the container at rest, as wide as it is free at the height that the grains fill. Bins go by the mean
-// diameter of all grains. Of no width in empty space.
+// diameter of all grains. Of no width in empty space, and in a drum (drum_surface.hpp).
 SurfaceFrame surface_frame(const Scene& scene);
 
 }  // namespace grainreel

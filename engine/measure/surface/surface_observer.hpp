@@ -57,7 +57,7 @@ class BedSurface final : public Observer {
     }
     void look(const Moment& m, std::vector<double>& row) override {
         if (!has_surface(m)) return add_no_values(row, 8);
-        const Surface surface = surface_at(m);
+        const BedOutline surface = surface_at(m);
         if (!spectrum_) spectrum_.emplace(surface.height.size());
         const DominantWave wave = spectrum_->dominant(surface.height, surface.width());
         const Subharmonics shares = compare_with_earlier(m, surface.height);
@@ -101,7 +101,7 @@ class BedSurface final : public Observer {
         return m.clock.cycles(m.step) - m.clock.cycles(earlier.step);
     }
     bool has_surface(const Moment& m) const { return frame_.right > frame_.left && m.grains.size() > 0; }
-    Surface surface_at(const Moment& m) const {
+    BedOutline surface_at(const Moment& m) const {
         SurfaceFrame frame = frame_;
         frame.left += m.pose.offset.y(), frame.right += m.pose.offset.y();
         frame.back += m.pose.offset.x(), frame.front += m.pose.offset.x();

@@ -25,7 +25,9 @@ double largest_radius(const Scene& scene) {
 
 // Each two diameters of the largest grain high, about.
 int slices_of(const Scene& scene) {
-    if (scene.container.shape == Container::Shape::none) return 0;
+    if (scene.container.shape == Container::Shape::none || scene.container.shape == Container::Shape::mesh)
+        return 0;
+    if (scene.container.turn) return 0;  // its walls stand nowhere
     const double slices = scene.container.height / (4 * largest_radius(scene));
     return static_cast<int>(std::clamp(std::round(slices), 1.0, double{kMostSlices}));
 }
@@ -49,7 +51,7 @@ double area_between(const Container& c, const std::string& face, double low, dou
 
 WallScale wall_scale(const Scene& scene, const Plan& plan) {
     double stiffest = 0;
-    for (const std::vector<PairPlan>* walls : {&plan.wall, &plan.glued})
+    for (const std::vector<PairPlan>* walls : {&plan.wall, &plan.glued, &plan.mesh})
         for (const PairPlan& wall : *walls)
             stiffest = std::max({stiffest, wall.loading_stiffness, wall.unloading_stiffness});
     WallScale scale;

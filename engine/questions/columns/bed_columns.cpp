@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/measure/segregation/neighbour_pairs.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"
@@ -23,16 +24,40 @@ std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, co
     for (const std::size_t i : grains) {
         double least = std::numeric_limits<double>::infinity();
         for (const Face& face : faces) {
-            const Vec3 offset = s.frame.body(static_cast<std::size_t>(face.body.number)).place;
-            least = std::min(least, distance_to(face, offset, s.frame.position[i]).distance);
+            const BodyPose pose = s.frame.body(static_cast<std::size_t>(face.body.number));
+            const double gap =
+                face.body.turns()
+                    ? distance_to(face, Vec3(0, 0, 0), pose.at_rest(s.frame.position[i])).distance
+                    : distance_to(face, pose.place, s.frame.position[i]).distance;
+            least = std::min(least, gap);
         }
         gaps.push_back(std::isfinite(least) ? least - s.frame.radius[i] : none);
     }
     return gaps;
 }
 
+// m, from the grain's surface; infinite where no mesh is within a hundred radii.
+double gap_to_meshes(const Snapshot& s, std::size_t i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t m = 0; m < s.scene.meshes.size(); ++m) {
+        const std::size_t body = static_cast<std::size_t>(first_mesh_body(s.scene)) + m;
+        const Vec3 place = s.frame.body(body).at_rest(s.frame.position[i]);
+        std::optional<Surface::Nearest> nearest;
+        for (double reach = 2; !nearest && reach < 200; reach *= 3)
+            nearest = s.scene.meshes[m].surface->nearest(place, reach * s.frame.radius[i]);
+        if (nearest) least = std::min(least, std::sqrt(nearest->point.squared) - s.frame.radius[i]);
+    }
+    return least;
+}
+
 std::vector<double> wall_gap(const Snapshot& s, const GrainList& grains) {
-    return gaps_to_faces(s, grains, [](const Face&) { return true; });
+    std::vector<double> gaps = gaps_to_faces(s, grains, [](const Face&) { return true; });
+    if (s.scene.meshes.empty()) return gaps;
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+        const double gap = std::fmin(gaps[k], gap_to_meshes(s, grains[k]));
+        gaps[k] = std::isfinite(gap) ? gap : none;
+    }
+    return gaps;
 }
 
 std::vector<double> side_gap(const Snapshot& s, const GrainList& grains) {
@@ -53,10 +78,10 @@ LargeArray<Place> places_of_all(const Snapshot& s) {
 std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
     SurfaceFrame frame = surface_frame(s.scene);
     if (!(frame.right > frame.left) || s.frame.size() == 0) return std::vector<double>(grains.size(), none);
-    const Vec3 offset = s.frame.container().place;
+    const Vec3 offset = container_offset(s.scene, s.frame);
     LargeArray<Place> places = places_of_all(s);
     for (Place& one : places) one.position -= Vec3(offset.x(), offset.y(), 0);
-    const Surface surface = surface_of(std::span<const Place>(places.data(), places.size()), frame);
+    const BedOutline surface = surface_of(std::span<const Place>(places.data(), places.size()), frame);
     std::vector<double> depths;
     for (const std::size_t i : grains) {
         const double bin = std::floor((s.frame.position[i].y() - offset.y() - surface.left) / surface.bin);

@@ -30,7 +30,7 @@ double height(const Snapshot& s, std::size_t i) {
 }
 
 double from_axis(const Snapshot& s, std::size_t i) {
-    const Vec3 from = s.frame.position[i] - s.frame.container().place;
+    const Vec3 from = s.frame.position[i] - container_offset(s.scene, s.frame);
     return std::hypot(from.x(), from.y());
 }
 
@@ -87,7 +87,7 @@ std::optional<std::size_t> place_at_start(const Snapshot& s, std::size_t i) {
 
 double start_height(const Snapshot& s, std::size_t i) {
     const auto start = place_at_start(s, i);
-    return start ? (s.start.position[*start] - s.start.floor().place).z() : none;
+    return start ? (s.start.position[*start] - floor_offset(s.scene, s.start)).z() : none;
 }
 
 // Against the container, which moves itself.
@@ -98,8 +98,8 @@ double rise(const Snapshot& s, std::size_t i) {
 double moved(const Snapshot& s, std::size_t i) {
     const auto start = place_at_start(s, i);
     if (!start) return none;
-    return ((s.frame.position[i] - s.frame.container().place) -
-            (s.start.position[*start] - s.start.container().place))
+    return ((s.frame.position[i] - container_offset(s.scene, s.frame)) -
+            (s.start.position[*start] - container_offset(s.scene, s.start)))
         .norm();
 }
 

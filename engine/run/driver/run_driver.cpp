@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/files/former_run.hpp"
+#include "engine/files/mesh_copies.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"
@@ -67,9 +68,11 @@ void RunDriver::put_back() {
     former_kept_ = false;
 }
 
-void RunDriver::use_folder(const FolderLock& folder, const std::string& program_version) {
+void RunDriver::use_folder(const FolderLock& folder, const std::string& program_version,
+                           const std::filesystem::path& previous) {
     folder_ = &folder;
     program_version_ = program_version;
+    keep_mesh_files(scene_, folder.folder(), previous);
     std::string text = resolved_scene(scene_, plan_);
     if (goes_on_) text = with_comments_of(load_scene_file(path_of("scene.toml")), std::move(text));
     replace_file(path_of("scene.toml"), text);

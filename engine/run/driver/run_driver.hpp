@@ -41,9 +41,11 @@ class RunDriver {
     RunDriver(const RunDriver&) = delete;
     RunDriver& operator=(const RunDriver&) = delete;
 
-    // Writes scene.toml there; the other files follow with start(). The lock outlives the run; from here
-    // pack() and next() throw RunError soon after the folder is gone.
-    void use_folder(const FolderLock& folder, const std::string& program_version);
+    // Writes scene.toml and the files of meshes there; the other files follow with start(). The lock outlives
+    // the run; from here pack() and next() throw RunError soon after the folder is gone. previous: as in
+    // keep_mesh_files.
+    void use_folder(const FolderLock& folder, const std::string& program_version,
+                    const std::filesystem::path& previous = {});
     // For a run that goes on, before use_folder(): looks at all its files, and keeps what it was until it has
     // gone past its former end. hands_out: whether frames will be wanted of it, so that film_moments.nc goes
     // on. Throws UserError or RunError; nothing in the folder has changed then.

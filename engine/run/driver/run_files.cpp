@@ -45,7 +45,8 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
     if (plan.trajectory_every == 0) return;
     trajectory_.emplace(folder / "trajectory.nc", info_);
     if (scene.output.contacts)
-        contacts_.emplace(folder / "contacts.nc", scene.title, program_version, info_.facts);
+        contacts_.emplace(folder / "contacts.nc", scene.title, program_version, info_.facts,
+                          !info_.meshes.empty());
 }
 
 RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
@@ -102,7 +103,8 @@ void RunFiles::keep_film_moments() {
 
 void RunFiles::keep_key_moments() {
     key_moments_.emplace(folder_ / kKeyMoments, info_);
-    key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_, info_.facts);
+    key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_, info_.facts,
+                          !info_.meshes.empty());
 }
 
 void RunFiles::keep_key_moments(std::int64_t step) {

@@ -78,7 +78,7 @@ void SceneFolderRun::describe() {
     for (std::string& warning : more_warnings()) warnings.push_back(std::move(warning));
     driver_.describe(desk_.record);
     begin_record(warnings);
-    driver_.use_folder(desk_.folder->lock(), desk_.record.version);
+    driver_.use_folder(desk_.folder->lock(), desk_.record.version, desk_.folder->previous());
     desk_.listener.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
                                       plan.steps, plan.clock.step, plan.step_reason));
     desk_.listener.detail(threads_text());

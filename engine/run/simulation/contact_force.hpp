@@ -19,6 +19,7 @@ struct ContactForce {
     Vec3 point;                  // m
     double smaller_radius;       // m, of the two; of a wall that of the grain
     double stored_energy;        // J, that unloading would give back
+    std::int32_t triangle = -1;  // of a mesh: where it is touched
 
     Vec3 on_second() const { return normal_force * normal + tangential; }  // N
     Vec3 on_first() const { return -on_second(); }

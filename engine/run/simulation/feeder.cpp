@@ -19,14 +19,29 @@ constexpr double kLeastPatience = 20;  // looks
 // the one before it has had time to leave the box; and at least some looks.
 double patience(const Scene& scene, double look) {
     const double gravity = scene.gravity.norm();
-    const double fall = gravity > 0 ? std::sqrt(2 * scene.container.height / gravity) : 0;
+    const double height = scene.container.height - scene.container.base();
+    const double fall = gravity > 0 ? std::sqrt(2 * height / gravity) : 0;
     return std::max(2 * fall, kLeastPatience * look);
+}
+
+// Whether the vessel's room holds a part of the box. Grains then come in the room alone: a box may lie across
+// the walls of a vessel.
+bool reaches_into_vessel(const Scene& scene, const Feed& feed) {
+    constexpr int places = 9;  // along each axis
+    for (int at = 0; at < places * places * places; ++at) {
+        const Vec3 share = Vec3(at % places, at / places % places, at / (places * places)) / (places - 1);
+        if (scene.container.room->holds(feed.low + share.cwiseProduct(feed.high - feed.low))) return true;
+    }
+    return false;
 }
 
 }  // namespace
 
 Feeder::Feeder(const Scene& scene, const Plan& plan, const Surroundings& around)
-    : scene_(scene), clock_(plan.clock), around_(around), given_(scene.feeds.size(), 0) {}
+    : scene_(scene), clock_(plan.clock), around_(around), given_(scene.feeds.size(), 0) {
+    const bool mesh = scene.container.shape == Container::Shape::mesh;
+    for (const Feed& feed : scene.feeds) into_vessel_.push_back(mesh && reaches_into_vessel(scene, feed));
+}
 
 std::int64_t Feeder::next_look(std::int64_t step) const {
     if (given_.empty()) return std::numeric_limits<std::int64_t>::max();
@@ -42,6 +57,8 @@ std::vector<NewGrain> Feeder::take(std::int64_t step, const Grains& grains) {
         if (given_[k] >= due) continue;
         const double largest = 0.5 * scene_.species[feed.species].diameter.largest;
         FreePlaces free(around_, around_.motion.at(step), grains, feed.low, feed.high, largest);
+        if (into_vessel_[k])
+            free.only_where([this](const Vec3& place) { return scene_.container.room->holds(place); });
         for (const NewGrain& other : more) free.add({other.position, other.radius});
         for (; given_[k] < due; ++given_[k]) {
             NewGrain grain = fed_grain(scene_, k, given_[k]);

@@ -36,6 +36,7 @@ class Feeder {
     const Clock clock_;
     const Surroundings& around_;
     std::vector<std::int64_t> given_;  // by feed
+    std::vector<bool> into_vessel_;    // by feed: its grains come in the room of a vessel of triangles
 };
 
 }  // namespace grainreel

@@ -57,7 +57,7 @@ void Simulation::Impl::take_gathered(const std::string& bytes) {
     if (observers.need_wall_sums()) {
         const WallScale scale = wall_scale(scene, plan);
         const bool there = !sums.faces.empty();
-        if (there && !is_sound(sums, around.faces.size(), scale)) in.fail();
+        if (there && !is_sound(sums, around.faces.size() + around.meshes.size(), scale)) in.fail();
         if (in.failed()) throw damaged_checkpoint(scene);
         there ? loop->go_on_tallying(sums, scale) : loop->tally_walls(scale, step);
     }

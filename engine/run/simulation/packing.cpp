@@ -25,12 +25,12 @@ double solid_fraction(const Container& container, const Grains& grains) {
     std::vector<double> heights;
     for (const Place& p : grains.place) heights.push_back(p.position.z());
     if (container.shape == Container::Shape::none || grains.size() == 0) return 0;
-    const double top = std::clamp(bed_height(heights), 0.0, container.height);
+    const double top = std::clamp(bed_height(heights), container.base(), container.height);
     double solid = 0;
     for (const Place& p : grains.place) {
         if (p.position.z() <= top) solid += 4.0 / 3.0 * std::numbers::pi * std::pow(p.radius, 3);
     }
-    return top > 0 ? solid / container.volume_below(top) : 0;
+    return top > container.base() ? solid / container.volume_below(top) : 0;
 }
 
 }  // namespace
@@ -45,9 +45,9 @@ void Simulation::Impl::take_grains() {
     check_grains_possible(scene, grains);
     check_grains_numbered(scene, grains);
     check_grains_match(scene, grains);
-    check_grains_fit(scene, around.faces, grains);
+    check_grains_fit(scene, around, grains);
     begin_with_taken();
-    check_grains_clear(scene, around.faces, grains, *loop);
+    check_grains_clear(scene, around, grains, *loop);
 }
 
 // Where the checkpoint's contacts follow the same law here, with their histories. Latches of the others are

@@ -27,7 +27,7 @@ struct Simulation::Impl {
           plan(p),
           team(threads > 0 ? threads : usable_processors()),
           around(make_surroundings(s, p)),
-          bodies(bodies_of(s.drive, s.walls)),
+          bodies(bodies_of(s)),
           limits(health_limits(s, p)),
           observers(all_observers(), scene, plan),
           may_change(changes),

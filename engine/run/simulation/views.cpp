@@ -1,6 +1,7 @@
 // What leaves a simulation: frames, measures, fields and contacts.
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "engine/run/simulation/simulation_impl.hpp"
 #include "engine/step/grid/neighbours.hpp"
@@ -80,11 +81,12 @@ std::vector<ContactRecord> Simulation::contacts() const {
     impl_->loop->visit_contacts(impl_->step, [&](const ContactView& c) {
         if (c.normal_force <= 0) return;
         const std::int32_t second = c.second >= 0 ? impl_->grains.id[c.second] : c.second;
-        records.push_back({impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point});
+        records.push_back(
+            {impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point, c.triangle});
     });
     // Each thread shows its own, which is no order to go by.
     std::sort(records.begin(), records.end(), [](const ContactRecord& a, const ContactRecord& b) {
-        return a.first != b.first ? a.first < b.first : a.second < b.second;
+        return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
     });
     return records;
 }
@@ -97,15 +99,19 @@ std::vector<ContactForce> Simulation::contact_forces() const {
     std::vector<ContactForce> forces;
     m.loop->visit_contacts(m.step, [&](const ContactView& c) {
         const bool pair = c.second >= 0;
+        const std::int32_t mesh = -1 - c.second - static_cast<std::int32_t>(m.around.faces.size());
         const PairPlan& law =
-            pair ? m.plan.between(species(c.first), species(c.second)) : m.plan.wall[species(c.first)];
+            pair ? m.plan.between(species(c.first), species(c.second))
+            : mesh >= 0
+                ? m.plan.mesh[static_cast<std::size_t>(mesh) * m.scene.species.size() + species(c.first)]
+                : m.plan.wall[species(c.first)];
         forces.push_back({m.grains.id[c.first], pair ? m.grains.id[c.second] : c.second, c.normal, c.overlap,
                           c.normal_force, c.tangential, c.torque_on_first,
                           pair ? c.torque_on_second : Vec3::Zero(), law.friction, c.point, c.smaller_radius,
-                          c.stored_energy});
+                          c.stored_energy, c.triangle});
     });
     std::sort(forces.begin(), forces.end(), [](const ContactForce& a, const ContactForce& b) {
-        return a.first != b.first ? a.first < b.first : a.second < b.second;
+        return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
     });
     return forces;
 }

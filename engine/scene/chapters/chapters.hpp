@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/scene/chapters/reasons.hpp"
 #include "engine/scene/keys/document.hpp"
@@ -25,12 +26,20 @@ void write_species(SceneText& out, const Scene& scene);
 
 // Written with the reasons for each stiffness.
 void list_contact(keys::Keys& all);
-void read_contact(Document& document, Scene& scene);  // after the species
+void read_contact(Document& document, Scene& scene);  // after species and meshes
 void write_contact(SceneText& out, const Scene& scene, const Reasons& reasons);
 
 void list_container(keys::Keys& all);
 void read_container(Document& document, Scene& scene);
 void write_container(SceneText& out, const Scene& scene);
+
+void list_meshes(keys::Keys& all);
+void read_meshes(Document& document, Scene& scene);  // before contacts and container; loads their files
+void write_meshes(SceneText& out, const Scene& scene);
+
+void list_exits(keys::Keys& all);
+void read_exits(Document& document, Scene& scene);
+void write_exits(SceneText& out, const Scene& scene);
 
 void list_walls(keys::Keys& all);
 void read_walls(Document& document, Scene& scene);
@@ -63,11 +72,18 @@ void list_fields(keys::Keys& all);
 void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains
 void write_fields(SceneText& out, const Scene& scene);
 
-// Gives empty space the size of what happens in it, when all else is read.
+// Finds the box that each mesh moves in, when all else is read.
+void measure_meshes(Scene& scene);
+
+// Gives empty space the size of what happens in it, after that.
 void size_empty_space(Scene& scene);
 
 // What can be wrong between keys that are right by themselves. Throws UserError.
 void check_scene(const Scene& scene);
+void check_meshes(const Scene& scene);  // likewise, of meshes, exits and turning containers
+
+// What is likely a slip in a mesh's size, as lines for the user.
+std::vector<std::string> doubts_of_meshes(const Scene& scene);
 
 // Whether a species of this number and name is that of a feed, before the feeds are read.
 bool is_fed(Document& document, std::size_t number, const std::string& name);
@@ -77,5 +93,8 @@ std::size_t species_named(Document& document, const Scene& scene, const std::str
 
 // Makes a direction a unit vector. Throws UserError where it is zero.
 void make_unit(const Document& document, const std::string& path, Vec3& direction);
+
+// Throws UserError where the box of a table with 'low' and 'high' has no room.
+void check_corners(const Document& document, const std::string& table, const Vec3& low, const Vec3& high);
 
 }  // namespace grainreel

@@ -96,6 +96,18 @@ void check_wedge(const Scene& scene) {
                 c.half_width, taken));
 }
 
+void check_grain_sizes_in_mesh(const Scene& scene) {
+    const Container& c = scene.container;
+    const double across = std::min({c.height - c.base(), 2 * c.half_width, c.depth});
+    for (std::size_t i = 0; i < scene.species.size(); ++i)
+        if (const double largest = scene.species[i].diameter.largest; clearly_more(largest, across))
+            fail(scene, fmt::format("species[{}].diameter", i),
+                 fmt::format(
+                     "of {:.6g} m does not fit in the container, the mesh \"{}\", whose room is {:.6g} m "
+                     "across; use smaller grains, or raise the mesh's 'scale'",
+                     largest, excerpt(c.mesh), across));
+}
+
 void check_grain_sizes(const Scene& scene) {
     const Container& c = scene.container;
     if (c.shape == Container::Shape::none) return;
@@ -103,6 +115,7 @@ void check_grain_sizes(const Scene& scene) {
         double size;
         const char* key;
     };
+    if (c.shape == Container::Shape::mesh) return check_grain_sizes_in_mesh(scene);
     std::vector<Extent> extents{{c.height, "height"}};
     const bool wedge = c.shape == Container::Shape::wedge;
     const bool cylinder = c.shape == Container::Shape::cylinder;
@@ -137,6 +150,13 @@ void check_room(const Scene& scene) {
     if (!scene.start.packs()) return;
     const double solid = solid_at_start(scene);
     const double room = FreeSpace(scene).volume();
+    if (room <= 0 && scene.start.region)
+        fail(scene, "start.region",
+             "has no room to pack grains in: it lies outside the container or behind a plane; move it");
+    if (room <= 0 && scene.walls.empty())
+        throw UserError(
+            fmt::format("{}: the meshes leave no room in the container to start layers in; move them",
+                        scene.where("mesh")));
     if (room <= 0)
         throw UserError(
             fmt::format("{}: the planes leave no room in the container to start layers in; move "
@@ -147,13 +167,19 @@ void check_room(const Scene& scene) {
             fmt::format("{}: {} grains of {:.4g} m3 fill {:.1f} % of the {}'s {:.4g} m3, more than the "
                         "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
                         scene.where("species"), scene.grains_at_start(), solid, 100 * solid / room,
-                        scene.walls.empty() ? "container" : "room", room, 100 * most_solid));
+                        scene.start.region                                                       ? "region"
+                        : scene.walls.empty() && scene.meshes.size() == (scene.vessel() ? 1 : 0) ? "container"
+                                                                                                 : "room",
+                        room, 100 * most_solid));
 }
 
 // All that a feed is to give must find room, unless grains leave.
 void check_feeds(const Scene& scene) {
-    if (scene.feeds.empty() || scene.container.shape == Container::Shape::none) return;
-    const double solid = solid_volume(scene), room = FreeSpace(scene).volume();
+    if (scene.feeds.empty() || scene.container.shape == Container::Shape::none || !scene.exits.empty())
+        return;
+    Scene whole = scene;
+    whole.start.region.reset();
+    const double solid = solid_volume(scene), room = FreeSpace(whole).volume();
     if (solid > closest_packing * room)
         throw UserError(fmt::format(
             "{}: with what is fed, {} grains fill {:.1f} % of the container's {:.4g} m3, more than the "
@@ -163,7 +189,7 @@ void check_feeds(const Scene& scene) {
 
 // Layers are to lie on something.
 void check_gravity(const Scene& scene) {
-    const bool held = scene.container.lid || !scene.walls.empty();
+    const bool held = scene.container.lid || !scene.walls.empty() || !scene.meshes.empty();
     if (scene.start.method != Start::Method::layers || held || scene.gravity.z() <= 0) return;
     fail(scene, "gravity",
          fmt::format(
@@ -191,6 +217,7 @@ void check_drive(const Scene& scene) {
 void check_scene(const Scene& scene) {
     check_names(scene);
     check_wedge(scene);
+    check_meshes(scene);
     check_grain_sizes(scene);
     check_room(scene);
     check_feeds(scene);

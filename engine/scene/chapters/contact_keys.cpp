@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 #include "engine/base/utf8.hpp"
 #include "engine/scene/chapters/chapters.hpp"
@@ -108,41 +109,49 @@ PairContact resolved(const PairText& text, const Scene& scene) {
     return pair;
 }
 
-// Whom an exception is about: indices of species; the number of species for "wall".
+// Whom an exception is about: the index of a species; the number of species for "wall"; behind it the meshes
+// in their order.
 struct Partners {
     std::size_t one = 0, other = 0;
 };
 
-// Throws UserError where the name is neither a species nor "wall".
+// Throws UserError where the name is neither a species nor "wall" nor a mesh.
 std::size_t partner(const Document& document, const Scene& scene, const std::string& path,
                     const std::string& name) {
     if (name == "wall") return scene.species.size();
     for (std::size_t i = 0; i < scene.species.size(); ++i)
         if (scene.species[i].name == name) return i;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        if (scene.meshes[i].name == name) return scene.species.size() + 1 + i;
     std::string known;
     for (const Species& s : scene.species) known += excerpt(s.name) + ", ";
-    document.fail(
-        path, fmt::format("names \"{}\", which is no species; there are {}and wall", excerpt(name), known));
+    for (const SceneMesh& mesh : scene.meshes) known += excerpt(mesh.name) + ", ";
+    document.fail(path, fmt::format("names \"{}\", which is no species{}; there are {}and wall",
+                                    excerpt(name), scene.meshes.empty() ? "" : " and no mesh", known));
 }
 
 void read_partners(Document& document, const Scene& scene, const std::string& path, Partners& partners) {
     const auto names = document.names(path);
     partners.one = partner(document, scene, path, (*names)[0]);
     partners.other = partner(document, scene, path, (*names)[1]);
-    if (std::min(partners.one, partners.other) == scene.species.size())
+    if (std::min(partners.one, partners.other) >= scene.species.size())
         document.fail(path, "names two walls; at least one must be a species");
 }
 
 std::string partners_text(const Partners& partners, const Scene& scene) {
+    const std::size_t wall = scene.species.size();
     const auto name = [&](std::size_t index) {
-        return quoted(index < scene.species.size() ? scene.species[index].name : "wall");
+        return quoted(index < wall    ? scene.species[index].name
+                      : index == wall ? "wall"
+                                      : scene.meshes[index - wall - 1].name);
     };
     return toml_list({name(partners.one), name(partners.other)});
 }
 
 const KeyTable<Partners>& partners_table() {
     static const KeyTable<Partners> table{bound_by<Partners>(
-        entry("between", KeyKind::species_pair, required(), "Two names of species, or one and \"wall\"."),
+        entry("between", KeyKind::species_pair, required(),
+              "Two names of species, or one and \"wall\", all walls, or one and that of a mesh."),
         read_partners, partners_text)};
     return table;
 }
@@ -168,7 +177,7 @@ void forget_glued(PairText& pair) {
 }
 
 struct ContactText {
-    std::vector<PairText> grain, wall;  // as in Contact
+    std::vector<PairText> grain, wall, mesh;  // as in Contact
 };
 
 bool has_glued(Document& document, const Scene& scene, const Partners& partners) {
@@ -176,19 +185,39 @@ bool has_glued(Document& document, const Scene& scene, const Partners& partners)
            is_glued(document, partners.other, scene.species[partners.other].name);
 }
 
-void read_exception(Document& document, const Scene& scene, const std::string& table, ContactText& contact) {
-    Partners partners;
-    partners_table().read(document, scene, table, partners);
+void read_exception(Document& document, const Scene& scene, const std::string& table,
+                    const Partners& partners, ContactText& contact) {
     const auto [a, b] = partners;
-    const std::size_t count = scene.species.size();
-    if (a == count || b == count) {
+    const std::size_t count = scene.species.size(), species = std::min(a, b), other = std::max(a, b);
+    if (other >= count) {
         refuse_glued(document, table, "a wall itself is smooth; name the two species");
-        return read_pair(document, scene, table, contact.wall[std::min(a, b)]);
+        return read_pair(
+            document, scene, table,
+            other == count ? contact.wall[species] : contact.mesh[(other - count - 1) * count + species]);
     }
     if (!has_glued(document, scene, partners))
         refuse_glued(document, table, "'container.wall_grains' glues grains of neither species");
     read_pair(document, scene, table, contact.grain[a * count + b]);
     contact.grain[b * count + a] = contact.grain[a * count + b];
+}
+
+// What is said of "wall" holds for meshes too, wherever it stands in the file; what is said of a mesh comes
+// on top of it.
+void read_exceptions(Document& document, const Scene& scene, ContactText& contact) {
+    const std::size_t count = scene.species.size();
+    std::vector<std::pair<std::string, Partners>> of_meshes;
+    for (std::size_t i = 0; i < document.size("contact.pair"); ++i) {
+        const std::string table = fmt::format("contact.pair[{}]", i);
+        Partners partners;
+        partners_table().read(document, scene, table, partners);
+        if (std::max(partners.one, partners.other) > count)
+            of_meshes.emplace_back(table, partners);
+        else
+            read_exception(document, scene, table, partners, contact);
+    }
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+        contact.mesh.insert(contact.mesh.end(), contact.wall.begin(), contact.wall.end());
+    for (const auto& [table, partners] : of_meshes) read_exception(document, scene, table, partners, contact);
 }
 
 // Above the stiffness of that kind of contact, where there is one.
@@ -230,15 +259,15 @@ void read_contact(Document& document, Scene& scene) {
     forget_glued(wall);
     read_pair(document, scene, "contact.wall", wall);
     const std::size_t count = scene.species.size();
-    ContactText text{std::vector(count * count, grain), std::vector(count, wall)};
-    for (std::size_t i = 0; i < document.size("contact.pair"); ++i)
-        read_exception(document, scene, fmt::format("contact.pair[{}]", i), text);
+    ContactText text{std::vector(count * count, grain), std::vector(count, wall), {}};
+    read_exceptions(document, scene, text);
 
     for (std::size_t k = 0; k < count * count; ++k)
         if (!has_glued(document, scene, {k / count, k % count})) forget_glued(text.grain[k]);
     Contact& contact = scene.contact;
     for (const PairText& pair : text.grain) contact.grain.push_back(resolved(pair, scene));
     for (const PairText& pair : text.wall) contact.wall.push_back(resolved(pair, scene));
+    for (const PairText& pair : text.mesh) contact.mesh.push_back(resolved(pair, scene));
     if (grain.value.tangential == TangentialLaw::none && !contact.rubs())
         document.refuse("contact.arms", "'friction_law' is \"none\"");
     common_table().read(document, scene, "contact", contact);
@@ -258,6 +287,10 @@ void write_contact(SceneText& out, const Scene& scene, const Reasons& reasons) {
         }
         put_reason(out, stiffness_key(scene.contact.wall[a]), reasons.wall, a);
         write_pair(out, scene, scene.contact.wall[a], {a, count});
+    }
+    for (std::size_t k = 0; k < scene.contact.mesh.size(); ++k) {
+        put_reason(out, stiffness_key(scene.contact.mesh[k]), reasons.mesh, k);
+        write_pair(out, scene, scene.contact.mesh[k], {k % count, count + 1 + k / count});
     }
 }
 

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/utf8.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/mesh_files.hpp"
 #include "engine/scene/chapters/outlet_keys.hpp"
 #include "engine/scene/chapters/tray_keys.hpp"
+#include "engine/scene/chapters/turn_keys.hpp"
 #include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
@@ -19,21 +22,42 @@ using namespace keys;
 using C = Container;
 using Shape = Container::Shape;
 
-const Words<Shape> shape_words{
-    {"wedge", Shape::wedge}, {"box", Shape::box}, {"cylinder", Shape::cylinder}, {"none", Shape::none}};
+const Words<Shape> shape_words{{"wedge", Shape::wedge},
+                               {"box", Shape::box},
+                               {"cylinder", Shape::cylinder},
+                               {"mesh", Shape::mesh},
+                               {"none", Shape::none}};
 const Words<bool> top_words{{"lid", true}, {"open", false}};
+
+// Neither is there where the container's shape comes from a file.
+const char* without_container(const C& container) {
+    if (container.shape == Shape::mesh) return "the mesh that 'mesh' names says the container's whole shape";
+    return container.shape == Shape::none ? "there is no container" : nullptr;
+}
 
 // What says why a key means nothing: `reason` unless the container is one of `shapes`.
 BoundKey<C>::Useless only_of(std::initializer_list<Shape> shapes, const char* reason) {
     return [shapes = std::vector<Shape>(shapes), reason](const C& container) -> const char* {
-        if (container.shape == Shape::none) return "there is no container";
+        if (const char* none = without_container(container)) return none;
         const bool has = std::find(shapes.begin(), shapes.end(), container.shape) != shapes.end();
         return has ? nullptr : reason;
     };
 }
 
-const char* without_container(const C& container) {
-    return container.shape == Shape::none ? "there is no container" : nullptr;
+const char* without_floor(const C& container) {
+    if (container.shape == Shape::mesh)
+        return "a mesh has no floor of its own; grains leave through [[exit]]";
+    return without_container(container);
+}
+
+const char* without_faces(const C& container) {
+    if (container.shape == Shape::mesh) return "grains can be glued to no mesh";
+    return without_container(container);
+}
+
+const char* turned_elsewhere(const C& container) {
+    if (container.shape == Shape::mesh) return "a mesh is turned by the 'turn' of its own [[mesh]]";
+    return without_container(container);
 }
 
 const char* not_of_wedge_or_box(const C& container) {
@@ -48,6 +72,28 @@ const char* not_of_box(const C& container) {
 
 BoundKey<C> length(const char* name, double C::*member, Fallback fallback, const char* about) {
     return quantity(name, member, Dimension::length, positive, std::move(fallback), about).needed();
+}
+
+BoundKey<C> mesh_key() {
+    const auto read = [](Document& document, const Scene& scene, const std::string& path, C& container) {
+        container.mesh = document.required_text(path);
+        if (scene.mesh_named(container.mesh) != nullptr) return;
+        std::string known;
+        for (const SceneMesh& mesh : scene.meshes)
+            known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", excerpt(mesh.name));
+        document.fail(
+            path, fmt::format("names \"{}\", which is no [[mesh]]; {}", excerpt(container.mesh),
+                              known.empty() ? std::string("there is none; add one") : "there is " + known));
+    };
+    return bound_by<C>(
+               entry("mesh", KeyKind::text, note("required; mesh"),
+                     "Name of the [[mesh]] that is the container. Its room is what is enclosed on all "
+                     "sides, lid or not; sizes follow from it."),
+               read, [](const C& container, const Scene&) { return quoted(container.mesh); })
+        .needed()
+        .useless_for([](const C& container) {
+            return container.shape == Shape::mesh ? nullptr : "only shape = \"mesh\" has it";
+        });
 }
 
 // The scene says twice of what is kept.
@@ -95,7 +141,9 @@ const KeyTable<C>& container_table() {
     static const KeyTable<C> table{
         choice(
             "shape", &C::shape, shape_words, required(),
-            "none: empty space. The origin is the middle of the floor; x along the depth, y across, z up."),
+            "mesh: that of a [[mesh]]; none: empty space. The origin is the middle of the floor; x along the "
+            "depth, y across, z up."),
+        mesh_key(),
         length("height", &C::height, required(), "Floor to lid or rim.")
             .useless_for(without_container)
             .placed_at(of_all),
@@ -123,15 +171,46 @@ const KeyTable<C>& container_table() {
         choice("top", &C::lid, top_words, initial(), "Sealed, or open above.")
             .useless_for(without_container)
             .placed_at(of_all),
-        outlet_key().useless_for(without_container).placed_at(of_all),
-        tray_key().useless_for(without_container).placed_at(of_all),
-        wall_grains_key().useless_for(without_container).placed_at(of_all),
+        outlet_key().useless_for(without_floor).placed_at(of_all),
+        tray_key().useless_for(without_floor).placed_at(of_all),
+        wall_grains_key().useless_for(without_faces).placed_at(of_all),
+        turn_key(&C::turn, "Or a table: all walls turn steadily about an axis, a cylinder's about its own.")
+            .useless_for(turned_elsewhere)
+            .placed_at(of_all),
         flag("periodic_depth", &C::periodic_depth, initial(),
              "No front and back walls: what leaves at one enters at the other.")
             .useless_for(not_of_wedge_or_box)
             .placed_at(of_depth),
     };
     return table;
+}
+
+// The sizes of a mesh's room. Half-width and depth are the largest of its levels.
+void measure_room(const Document& document, const Scene& scene, C& c) {
+    constexpr int levels = 64;
+    c.room.of = room_of(scene.vessel()->surface.of);
+    const EnclosedRoom& room = *c.room;
+    if (!room.encloses_anything())
+        document.fail(
+            "container.mesh",
+            fmt::format("names \"{}\", which encloses nothing: from no place in it do walls stand on "
+                        "all sides; close it, stand it upright by 'rotation', or write shape = "
+                        "\"none\" and start.region",
+                        excerpt(c.mesh)));
+    c.half_width = c.depth = 0;
+    for (int k = 0; k <= levels; ++k) {
+        const double z = room.base() + (room.top() - room.base()) * k / levels;
+        c.half_width = std::max(c.half_width, room.half_width_at(z));
+        c.depth = std::max(c.depth, 2 * room.half_depth_at(z));
+    }
+    c.height = room.top();
+    c.lid = !room.open_above();
+    if (c.height <= 0)
+        document.fail(
+            "container.mesh",
+            fmt::format("names \"{}\", which lies below z = 0, its top at {:.6g} m; raise it by its "
+                        "'position'",
+                        excerpt(c.mesh), c.height));
 }
 
 }  // namespace
@@ -142,6 +221,7 @@ void list_container(Keys& all) {
 
 void read_container(Document& document, Scene& scene) {
     container_table().read(document, scene, "container", scene.container);
+    if (scene.container.shape == Shape::mesh) measure_room(document, scene, scene.container);
 }
 
 void write_container(SceneText& out, const Scene& scene) {

@@ -11,7 +11,7 @@ struct Reasons {
     std::string step;
     // Of stiffness, or of the modulus with Hertz. By kind of contact as in Contact; `glued`: of its contacts
     // with grains glued to walls. Without an entry where nothing was filled in.
-    std::vector<std::string> grain, wall, glued;
+    std::vector<std::string> grain, wall, mesh, glued;
 };
 
 }  // namespace grainreel

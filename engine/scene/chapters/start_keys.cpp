@@ -28,6 +28,43 @@ const char* without_settling(const Start& start) {
                                         : "grains placed by hand do not settle";
 }
 
+const char* without_packing(const Start& start) {
+    return start.packs() ? nullptr : "only layers and rain fill a box";
+}
+
+const KeyTable<Region>& region_table() {
+    using R = Region;
+    static const KeyTable<R> table{
+        vector("low", &R::low, Dimension::length, required(), "Lowest corner."),
+        vector("high", &R::high, Dimension::length, required(), "Highest corner."),
+    };
+    return table;
+}
+
+BoundKey<Start> region_key() {
+    const auto read = [](Document& document, const Scene& scene, const std::string& path, Start& start) {
+        if (!document.has(path)) return;
+        if (!document.is_table(path))
+            document.fail(path,
+                          fmt::format("is {}; write {{ low = [-0.1, -0.1, 0], high = [0.1, 0.1, 0.2] }}",
+                                      document.written_value(path)));
+        Region region;
+        region_table().read(document, scene, path, region);
+        check_corners(document, path, region.low, region.high);
+        start.region = region;
+    };
+    return bound_by<Start>(entry("region", KeyKind::text, note("the container's room"),
+                                 "Or a table: a box to pack the grains in, also where there is no container; "
+                                 "layers and rain only."),
+                           read,
+                           [](const Start& start, const Scene& scene) {
+                               return start.region ? region_table().inline_text(scene, *start.region)
+                                                   : std::string();
+                           })
+        .useless_for(without_packing)
+        .holding(region_table());
+}
+
 const char* without_rain(const Start& start) {
     return start.method != Method::rain ? "only rain has a rate" : nullptr;
 }
@@ -81,6 +118,7 @@ const KeyTable<Start>& start_table() {
                  note("a thin rain, chosen by the plan"),
                  "Grains a second that appear above the bed; rain only.")
             .useless_for(without_rain),
+        region_key(),
     };
     return table;
 }
@@ -97,10 +135,13 @@ void read_start(Document& document, Scene& scene) {
     check_listed(document, start);
     if (start.grains.empty() && start.method == Method::grains)
         document.fail("start.method", "is \"grains\", but none is listed; write [[grain]] and its position");
-    const bool none = scene.container.shape == Container::Shape::none;
+    // A box of one's own may lie on meshes or planes.
+    const bool none = scene.container.shape == Container::Shape::none && !start.region;
     if (start.method == Method::layers && none)
-        document.fail("container.shape",
-                      "is \"none\", so nothing holds layers; list the grains or start from a file");
+        document.fail(
+            "container.shape",
+            fmt::format("is \"none\", so nothing holds layers; list the grains or start from a file{}",
+                        scene.meshes.empty() ? "" : ", or say where to put them by start.region"));
     if (start.method != Method::rain) return;
     if (none) document.fail("container.shape", "is \"none\", so nothing holds the rain; list the grains");
     if (scene.gravity.z() >= 0)

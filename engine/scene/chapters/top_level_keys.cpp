@@ -51,4 +51,10 @@ void make_unit(const Document& document, const std::string& path, Vec3& directio
     if (std::abs(length - 1) >= 1e-15) direction /= length;
 }
 
+void check_corners(const Document& document, const std::string& table, const Vec3& low, const Vec3& high) {
+    if ((high - low).minCoeff() <= 0)
+        document.fail(table + ".low",
+                      "must lie below 'high' along x, y and z; exchange the two, or widen the box");
+}
+
 }  // namespace grainreel

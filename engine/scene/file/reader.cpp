@@ -70,9 +70,11 @@ void read_scene_into(Scene& scene, const NamedText& from, const Assignments& set
     scene.written = document.written();
     read_top_level(document, scene);
     read_species(document, scene, further);
+    read_meshes(document, scene);
     read_contact(document, scene);
     read_container(document, scene);
     read_walls(document, scene);
+    read_exits(document, scene);
     read_feeds(document, scene);
     read_grains(document, scene);
     read_drive(document, scene);
@@ -84,9 +86,11 @@ void read_scene_into(Scene& scene, const NamedText& from, const Assignments& set
     if (measurable) scene.measurable = measurable(scene);
     check_instruments(document, scene);
     if (further != nullptr) further->read_tables(document);
+    measure_meshes(scene);
     size_empty_space(scene);
     document.check_all_read();
     check_scene(scene);
+    for (std::string& doubt : doubts_of_meshes(scene)) scene.notes.push_back(std::move(doubt));
     if (further != nullptr) further->check();
 }
 

@@ -14,7 +14,8 @@ class TableReader;
 
 // Reads a TOML file, or the shipped scene of that name where there is no such file. `sets` take precedence
 // over it, "run.duration=2 s" or "species.big.count=30"; their values are TOML, or else taken as text. A
-// relative start.file becomes absolute, counted from the scene's folder. Throws UserError at the first
+// relative start.file becomes absolute, counted from the scene's folder, and so do the files of meshes and
+// paths, which are loaded. Throws UserError at the first
 // mistake: keys that are unknown or of no use, values of the wrong kind, unit or size, and what does not go
 // together. measurable: what output.instruments may name (measurable_in() of engine/measure/columns.hpp);
 // without it, nothing. [film], which must be a table, and the species' colours are kept as text,

@@ -12,6 +12,8 @@ const std::vector<Key>& scene_keys() {
         list_contact(all);
         list_container(all);
         list_walls(all);
+        list_meshes(all);
+        list_exits(all);
         list_grains(all);
         list_drive(all);
         list_start(all);

@@ -12,6 +12,8 @@ std::string written_scene(const Scene& scene, const Reasons& reasons) {
     write_contact(out, scene, reasons);
     write_container(out, scene);
     write_walls(out, scene);
+    write_meshes(out, scene);
+    write_exits(out, scene);
     write_grains(out, scene);
     write_feeds(out, scene);
     write_drive(out, scene);

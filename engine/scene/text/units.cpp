@@ -33,8 +33,9 @@ class UnitSystem {
             throw UserError(
                 "the units database udunits2.xml is missing; install the package libudunits2-data or set "
                 "UDUNITS2_XML_PATH to the file");
-        // udunits knows degrees by name and by the degree sign only.
+        // udunits knows degrees by name and by the degree sign only, and revolutions by name.
         if (const Unit degree = parse("degree")) ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
+        if (const Unit turn = parse("revolution")) ut_map_symbol_to_unit("rev", UT_ASCII, turn.get());
     }
     ~UnitSystem() { ut_free_system(system_); }
     UnitSystem(const UnitSystem&) = delete;

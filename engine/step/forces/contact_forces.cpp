@@ -4,7 +4,9 @@
 #include <cstddef>
 
 #include "engine/step/forces/loads.hpp"
+#include "engine/step/forces/mesh_contacts.hpp"
 #include "engine/step/forces/new_contacts.hpp"
+#include "engine/step/forces/point_loads.hpp"
 #include "engine/step/lists/large_bed.hpp"
 
 namespace grainreel {
@@ -23,7 +25,10 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
                                  group.rolling ? &memory.rolling : nullptr,
                                  rounded,
                                  sorted};
-    group.of_pairs ? add_pairs(forces, grains) : add_walls({forces, in.walls, in.times.acts, grains});
+    if (group.of_pairs) return add_pairs(forces, grains);
+    const WallForces at_walls{forces, in.walls, in.times.acts, grains};
+    const bool at_points = group.of_mesh || (in.walls.turning && !group.of_glued);
+    at_points ? add_at_points(at_walls, group.of_mesh) : add_walls(at_walls);
 }
 
 }  // namespace
@@ -36,13 +41,14 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
         const ContactGroup& group = in.rules.groups[g];
         const bool rounded = group.number_size() == sizeof(float);
         ContactTable& table = contacts.tables[g];
-        add_new_contacts(in, g, contacts);
+        group.of_mesh ? find_patches(in, g, contacts, memory.matcher) : add_new_contacts(in, g, contacts);
         table.each_chunk([&](std::int32_t c, int count) {
             const bool sorted = c < table.sorted(), large = group.of_pairs && sorted && is_large_bed(grains);
             memory.touch.ahead = large ? &memory.ahead : nullptr;
             if (large) look_ahead(grains, rounded, table, c, count, memory.ahead);
             const auto [first, second] = contacts.bodies_of(in.rules, g, c, count);
-            const Chunk chunk{table.first() + c, table.second() + c, first, second, count};
+            const MeshTouch* const mesh = group.of_mesh ? contacts.meshes[g].touch.data() + c : nullptr;
+            const Chunk chunk{table.first() + c, table.second() + c, first, second, count, mesh};
 
             const LawInput law = law_input(in, group, chunk, rounded, memory);
             table.note_touching(c, memory.touch.touching);
@@ -55,6 +61,7 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
             step(law, history, memory.force);
             if (group.rolling)
                 group.rolling->step(for_rolling(group, law), behind_law(group, history), memory.force);
+            if (group.of_mesh) remember_patches(group, mesh, memory, c, count, table.histories());
             clock.lap(group.of_pairs ? Cost::contacts : Cost::walls);
 
             add_loads(in, group, chunk, rounded, sorted, memory, grains);

@@ -22,6 +22,7 @@ struct ForceInput {
     const Grains& grains;
     const WallState& walls;
     const GluedGrains& glued;
+    const std::vector<MeshWall>& meshes;
     ForceTimes times;
 };
 

@@ -7,6 +7,7 @@
 
 #include "engine/laws/law_kernel.hpp"
 #include "engine/step/forces/force_input.hpp"
+#include "engine/step/forces/match_patches.hpp"
 
 namespace grainreel {
 
@@ -15,6 +16,7 @@ struct Chunk {
     const std::int32_t *first, *second;        // the two bodies; at a wall: grain and face
     const std::int32_t *first_at, *second_at;  // where to read them; of other threads' grains: the copies
     int count;
+    const MeshTouch* mesh = nullptr;  // of contacts with meshes: where they touch
 };
 
 // Memory for a chunk on its way through geometry, law and loads.
@@ -25,6 +27,7 @@ struct ChunkMemory {
     std::int32_t kind[kChunk] = {};  // of the chunk's contacts, where there are several
     std::int32_t face[kChunk] = {};  // of glued grains: on which they stand
     Ahead ahead;
+    PatchMatcher matcher;
 };
 
 // Computes the geometry of the chunk into memory.touch, in floats if `rounded`. Returns the input of its law.

@@ -1,6 +1,7 @@
 // The geometry of contacts between a grain and a wall.
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/geometry/plate_geometry.hpp"
+#include "engine/step/geometry/wall_point.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/geometry/wall_geometry.cpp"
@@ -126,6 +127,7 @@ std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, co
 }
 
 void touch_walls(const GeometryInput& in, const WallState& state, TouchChunk& out) {
+    if (state.turning) return touch_turning_walls(in, state, out);
     if (!state.ends.empty()) return touch_plates(in, state, out);
     HWY_DYNAMIC_DISPATCH(walls)(in, state, out);
 }

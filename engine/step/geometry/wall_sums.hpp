@@ -1,5 +1,5 @@
-// What grains do to each face, summed over all steps: force, moment, and how the pressure spreads over
-// height.
+// What grains do to each face and mesh, summed over all steps: force, moment, and how the pressure spreads
+// over height.
 //
 // The sums are the same bits at any number of threads, in whatever order contacts are computed, and however a
 // run is cut into pieces: they are sums of whole numbers. A force is rounded once, to a multiple of a
@@ -40,7 +40,7 @@ struct FaceSums {
 struct WallSums {
     WallScale scale;
     double felt = 0;              // of the last forces: the share that the grains have felt
-    std::vector<FaceSums> faces;  // in the order of the surroundings'
+    std::vector<FaceSums> faces;  // in the order of the surroundings': of faces, then of meshes
     std::vector<WideInt> slices;  // face after face: normal forces by height, the last among them
 };
 
@@ -52,14 +52,19 @@ bool are_sound(const std::vector<WideInt>& slices);
 // Of one thread.
 class WallTally {
   public:
-    void begin(const std::vector<Face>& faces, const WallScale& scale) {
+    // bases: m, the height of each wall's point at rest; of the faces, then of the meshes.
+    void begin(const std::vector<double>& bases, const WallScale& scale) {
         scale_ = scale;
-        now_.assign(faces.size(), {});
-        sums_.assign(faces.size(), {});
-        slices_.assign(faces.size() * static_cast<std::size_t>(scale.slices), 0);
-        base_.clear();
-        for (const Face& face : faces) base_.push_back(face.point.z());
+        now_.assign(bases.size(), {});
+        sums_.assign(bases.size(), {});
+        slices_.assign(bases.size() * static_cast<std::size_t>(scale.slices), 0);
+        base_ = bases;
         set_share(1);
+    }
+    void begin(const std::vector<Face>& faces, const WallScale& scale) {
+        std::vector<double> bases;
+        for (const Face& face : faces) bases.push_back(face.point.z());
+        begin(bases, scale);
     }
 
     // Forgets all evaluations but the last one, whose forces are still to act.
@@ -79,11 +84,13 @@ class WallTally {
         set_share(share);
     }
 
-    // A contact. force: N, on the face; normal: N; arm: m, from the face's point to the contact.
-    void add(std::int32_t face, const Vec3& force, double normal, Vec3 arm) {
+    // A contact. force: N, on the face; normal: N; arm: m, from the face's point to the contact; couple: N m,
+    // on the face beside the force.
+    void add(std::int32_t face, const Vec3& force, double normal, Vec3 arm,
+             const Vec3& couple = Vec3(0, 0, 0)) {
         const auto f = static_cast<std::size_t>(face);
         if (scale_.period > 0) arm.x() = nearest_image(arm.x(), scale_.period);
-        const Vec3 moment = arm.cross(force);
+        const Vec3 moment = arm.cross(force) + couple;
         for (int a = 0; a < 3; ++a) {
             now_[f].force[a] += count(force[a] * per_force_);
             now_[f].moment[a] += count(moment[a] * per_moment_);

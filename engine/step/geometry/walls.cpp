@@ -12,23 +12,71 @@ FaceEnd end_of(const Face& face, const Vec3& offset) {
     return {face.along, face.along.dot(face.edge + offset), out_x, out_y, face.gap, face.ends ? 1.0 : 0.0};
 }
 
+// Of a face with this normal, of which `point` is where it is now.
+FaceRecord record_of(const Face& face, const Vec3& its_normal, const Vec3& point) {
+    const bool plane = face.kind == Face::Kind::plane;
+    const Vec3 normal = plane ? its_normal : Vec3::Zero();
+    return {normal, normal.dot(point), point, plane ? 0.0 : face.radius};
+}
+
+FaceMotion motion_of(const Vec3& gone, double step, const Vec3& velocity) {
+    return {step > 0 ? Vec3(gone / step) : velocity, 0, velocity, 0};
+}
+
 }  // namespace
+
+void WallPose::set(const Body& body, const Vec3& rest_point, const Pose& before_drive, const Pose& now_drive,
+                   double step) {
+    const BodyPose before = body.at(before_drive);
+    now = body.at(now_drive);
+    turned = now.rotation.toRotationMatrix();
+    point = now.moved(rest_point);
+    point_before = before.moved(rest_point);
+    if (step > 0) {
+        const Eigen::AngleAxisd turn(now.rotation * before.rotation.conjugate());
+        moved = (now.place - before.place) / step;
+        rate = (turned - before.rotation.toRotationMatrix()) / step;
+        spin = turn.angle() / step * turn.axis();
+    } else {
+        moved = now.velocity;
+        for (int a = 0; a < 3; ++a) rate.col(a) = now.spin.cross(turned.col(a));
+        spin = now.spin;
+    }
+}
+
+void WallState::set(const Surroundings& around, const Pose& before, const Pose& now, double step) {
+    set(around.faces, before, now, step);
+    if (!turning && around.meshes.empty()) return;
+    poses.resize(around.faces.size() + around.meshes.size());
+    for (std::size_t f = 0; turning && f < around.faces.size(); ++f) {
+        const Face& face = around.faces[f];
+        poses[f].set(face.body, face.point, before, now, step);
+        if (face.body.turn) poses[f].point = poses[f].now.moved(face.body.turn->through);
+        poses[f].normal_before = face.body.at(before).rotation * face.normal;
+    }
+    for (std::size_t m = 0; m < around.meshes.size(); ++m)
+        poses[around.faces.size() + m].set(around.meshes[m].body, around.meshes[m].point, before, now, step);
+}
 
 void WallState::set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step) {
     faces.resize(from.size());
     motion.resize(from.size());
-    any_round = false;
+    any_round = turning = false;
     const bool any_ends = std::any_of(from.begin(), from.end(), [](const Face& face) { return face.ends; });
     ends.resize(any_ends ? from.size() : 0);
     for (std::size_t f = 0; f < from.size(); ++f) {
-        const Vec3 there = from[f].displacement(now), velocity = from[f].velocity_at(now);
-        const Vec3 point = from[f].point + there;
-        const bool plane = from[f].kind == Face::Kind::plane;
-        any_round |= !plane;
-        const Vec3 normal = plane ? from[f].normal : Vec3::Zero();
-        faces[f] = {normal, normal.dot(point), point, plane ? 0.0 : from[f].radius};
-        const Vec3 mean = step > 0 ? Vec3((there - from[f].displacement(before)) / step) : velocity;
-        motion[f] = {mean, 0, velocity, 0};
+        any_round |= from[f].kind != Face::Kind::plane;
+        if (from[f].body.has_own_motion()) {
+            turning = true;
+            const BodyPose was = from[f].body.at(before), is = from[f].body.at(now);
+            const Vec3 point = is.moved(from[f].point);
+            faces[f] = record_of(from[f], is.rotation * from[f].normal, point);
+            motion[f] = motion_of(point - was.moved(from[f].point), step, is.velocity_at(point));
+            continue;
+        }
+        const Vec3 there = from[f].displacement(now);
+        faces[f] = record_of(from[f], from[f].normal, from[f].point + there);
+        motion[f] = motion_of(there - from[f].displacement(before), step, from[f].velocity_at(now));
         if (any_ends) ends[f] = end_of(from[f], there);
     }
 }

@@ -1,10 +1,12 @@
 // The walls over one step, as the vector code reads them.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/state/container_faces.hpp"
 #include "engine/step/geometry/wall_sums.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 
@@ -24,8 +26,7 @@ struct alignas(64) FaceEnd {
     double two_sided;     // 1 for a face that ends
 };
 
-// The velocity of every point of the face, because no body turns. When a body turns, its spin will stand here
-// too, and touch_walls() (wall_geometry.cpp) will add spin x arm.
+// The velocity of every point of the face. Where a body turns, WallPose has those of its points.
 struct alignas(64) FaceMotion {
     Vec3 velocity;  // m/s, mean over the step
     double unused_one;
@@ -33,15 +34,40 @@ struct alignas(64) FaceMotion {
     double unused_two;
 };
 
+// A wall whose points move in different ways, over one step.
+struct WallPose {
+    BodyPose now;
+    Eigen::Matrix3d turned;       // now, from rest
+    Vec3 moved{0, 0, 0};          // m/s, mean velocity of the body's origin
+    Eigen::Matrix3d rate;         // 1/s, mean, by which `turned` grows
+    Vec3 spin{0, 0, 0};           // rad/s, mean over the step
+    Vec3 point{0, 0, 0};          // m, now: about which the moment counts; of a face that turns on its axis
+    Vec3 point_before{0, 0, 0};   // m, of a face: its point a step ago
+    Vec3 normal_before{0, 0, 0};  // of a face: its normal a step ago
+
+    // From `before` to `now` within `step` seconds; point: m, at rest.
+    void set(const Body& body, const Vec3& rest_point, const Pose& before, const Pose& now, double step);
+    // m/s, of a point that is given in the body's frame: its way in the step over the step.
+    Vec3 mean_velocity(const Vec3& at_rest) const { return moved + rate * at_rest; }
+    // From the scene to the body's frame, m.
+    Vec3 at_rest(const Vec3& place) const { return turned.transpose() * (place - now.place); }
+};
+
 struct WallState {
     std::vector<FaceRecord> faces;  // where they are at the step's end
     std::vector<FaceMotion> motion;
-    std::vector<FaceEnd> ends;   // empty where no face ends
-    bool any_round = false;      // a cylinder among them
-    WallTally* tally = nullptr;  // sums up what grains do to the faces, where somebody wants to know
+    std::vector<FaceEnd> ends;    // empty where no face ends
+    std::vector<WallPose> poses;  // of all faces and, behind them, meshes; empty where nothing needs them
+    bool any_round = false;       // a cylinder among the faces
+    bool turning = false;         // a face among them whose body turns
+    WallTally* tally = nullptr;   // sums up what grains do to the walls, where somebody wants to know
 
     // From `before` to `now` within `step` seconds; without a step the velocity is that of `now`.
+    void set(const Surroundings& around, const Pose& before, const Pose& now, double step);
     void set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step);
+    const WallPose& pose_of_mesh(std::int32_t mesh) const {
+        return poses[faces.size() + static_cast<std::size_t>(mesh)];
+    }
 };
 
 }  // namespace grainreel

@@ -107,7 +107,7 @@ void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose
     for (std::int32_t i = begin; i < end; ++i) {
         const Place& p = grains.place[i];
         for (std::size_t f = 0; f < faces.size(); ++f) {
-            if (distance_to(faces[f], faces[f].displacement(pose), p.position).distance < p.radius + skin)
+            if (distance_at(faces[f], pose, p.position).distance < p.radius + skin)
                 part.push_back({i, static_cast<std::int32_t>(f)});
         }
     }

@@ -30,13 +30,14 @@ struct NeighbourList {
 
 struct WallNeighbour {
     std::int32_t grain;
-    std::int32_t face;  // or the number of a glued grain
+    std::int32_t face;  // or the number of a glued grain, or of a mesh
 };
 
 struct NeighbourLists {
     NeighbourList pairs;
-    std::vector<WallNeighbour> walls;  // by rising grain, then face
-    std::vector<WallNeighbour> glued;  // by rising grain, then glued grain
+    std::vector<WallNeighbour> walls;   // by rising grain, then face
+    std::vector<WallNeighbour> glued;   // by rising grain, then glued grain
+    std::vector<WallNeighbour> meshes;  // by rising grain, then mesh
 };
 
 // Wraps positions into the period, puts the grains in spatial order and lays the cells over them. Sets

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/ticks.hpp"
+#include "engine/step/grid/mesh_search.hpp"
 #include "engine/step/lists/candidates.hpp"
 #include "engine/step/lists/hand_over.hpp"
 
@@ -89,6 +90,8 @@ void BedLists::search(int thread, const Pose& pose) {
     list_walls(grains_, around_.faces, pose, life_.next_skin(), begin, end,
                alone ? lists_.walls : mine.walls_near);
     glued_.list(grains_, pose, life_.next_skin(), begin, end, alone ? lists_.glued : mine.glued_near);
+    list_meshes(grains_, around_.meshes, pose, life_.next_skin(), begin, end,
+                alone ? lists_.meshes : mine.meshes_near);
     shares_.searched(thread, static_cast<double>(ticks() - since + 1));
 }
 
@@ -107,12 +110,14 @@ void BedLists::join_parts(const TeamMember& me) {
         all.farthest_partner = farthest;
         lists_.walls.resize(found_before(team_.size(), &Thread::walls_near));
         lists_.glued.resize(found_before(team_.size(), &Thread::glued_near));
+        lists_.meshes.resize(found_before(team_.size(), &Thread::meshes_near));
     }
     me.wait();
     const Thread& mine = threads_[me.member];
     all.put(mine.pairs, shares_.search_begin(me.member), pairs_before);
-    for (const auto& [part, whole] :
-         {std::pair{&Thread::walls_near, &lists_.walls}, {&Thread::glued_near, &lists_.glued}})
+    for (const auto& [part, whole] : {std::pair{&Thread::walls_near, &lists_.walls},
+                                      {&Thread::glued_near, &lists_.glued},
+                                      {&Thread::meshes_near, &lists_.meshes}})
         std::copy((mine.*part).begin(), (mine.*part).end(), whole->begin() + found_before(me.member, part));
 }
 
@@ -146,7 +151,7 @@ void BedLists::place_halos() {
 }
 
 Nearby BedLists::nearby(const Pose& now, double skin) const {
-    return {grains_, lists_, around_.faces, around_.glued, now, skin};
+    return {grains_, lists_, around_.faces, around_.glued, around_.meshes, now, skin};
 }
 
 // Refreshes the contact lists. Between two rebuilds, this is the only time that a thread reads grains of

@@ -84,7 +84,7 @@ class BedLists {
         ThreadContacts contacts;
         std::vector<KeptContacts> leaving;  // for other threads, by group
         NeighbourList pairs;                // its part of the search, where there are several threads
-        std::vector<WallNeighbour> walls_near, glued_near;
+        std::vector<WallNeighbour> walls_near, glued_near, meshes_near;
     };
 
     std::int32_t grains() const { return static_cast<std::int32_t>(grains_.size()); }

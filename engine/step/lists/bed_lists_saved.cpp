@@ -50,6 +50,7 @@ void BedLists::transfer(Lists& lists, Kept& kept, std::int32_t& steps, ReachType
     each(lists.lists_.pairs.farthest_partner);
     each(lists.lists_.walls);
     if (!lists.around_.glued.empty()) each(lists.lists_.glued);
+    if (!lists.around_.meshes.empty()) each(lists.lists_.meshes);
     ListLife::transfer(lists.life_, each);
     each(reach);
 }
@@ -83,21 +84,23 @@ void BedLists::load(Bytes& in, const Pose& now) {
     }
 }
 
-// A contact of two threads' grains stands in the tables of both.
+// A contact of two threads' grains stands in the tables of both. All patches that a grain touches of a mesh
+// take one history.
 void BedLists::take_histories(const HistoryOf& history_of) {
     for (Thread& thread : threads_) {
-        for (std::size_t g = 0; g < thread.contacts.tables.size(); ++g)
+        for (std::size_t g = 0; g < thread.contacts.tables.size(); ++g) {
+            const ContactGroup& group = rules_.groups[g];
             thread.contacts.tables[g].take_histories(
-                [&](std::int32_t first, std::int32_t second, double* to) {
-                    return history_of(g, first, second, to);
+                group.law_size(), [&](std::int32_t first, std::int32_t second, double* to) {
+                    return history_of(g, first, group.of_mesh ? mesh_of(second) : second, to);
                 });
+        }
     }
 }
 
 // Of what load() read: whether the loop could have made it, with these grains and faces.
 bool BedLists::is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const {
-    const WallParts walls{static_cast<std::int32_t>(around_.faces.size()),
-                          static_cast<std::int32_t>(around_.glued.size())};
+    const WallParts walls = parts_of(around_);
     bool sound = steps >= 0 && steps <= kMostStepsOfLists && are_sound(lists_, grains(), walls) &&
                  life_.is_sound(grains(), reach);
     for (std::size_t g = 0; sound && g < kept.size(); ++g)

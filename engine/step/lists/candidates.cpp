@@ -39,8 +39,8 @@ void list_near_walls(const ContactRules& rules, const Nearby& nearby, ThreadCont
     for (std::int32_t at = first_wall_slot(list, contacts.begin); at < last; ++at) {
         const auto [grain, face] = list[at];
         const Place& place = nearby.grains.place[grain];
-        const Vec3 moved = nearby.faces[face].displacement(nearby.pose);
-        if (distance_to(nearby.faces[face], moved, place.position).distance < place.radius + nearby.skin)
+        if (distance_at(nearby.faces[face], nearby.pose, place.position).distance <
+            place.radius + nearby.skin)
             contacts.tables[rules.group_of_wall[nearby.grains.species[grain]]].offer(grain, face);
     }
 }
@@ -58,6 +58,25 @@ void list_near_glued(const ContactRules& rules, const Nearby& nearby, ThreadCont
     }
 }
 
+// Of meshes no candidates are listed, but the triangles that grains may touch.
+void list_near_meshes(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
+    if (nearby.meshes.empty()) return;
+    for (MeshLists& lists : contacts.meshes) lists.clear();
+    std::vector<BodyPose> poses;
+    for (const MeshWall& mesh : nearby.meshes) poses.push_back(mesh.body.at(nearby.pose));
+    const std::vector<WallNeighbour>& list = nearby.lists.meshes;
+    const std::int32_t last = first_wall_slot(list, contacts.end);
+    for (std::int32_t at = first_wall_slot(list, contacts.begin); at < last; ++at) {
+        const auto [grain, mesh] = list[at];
+        const Place& place = nearby.grains.place[grain];
+        contacts.meshes[rules.group_of(mesh, nearby.grains.species[grain])].add(
+            grain, mesh, *nearby.meshes[mesh].surface, poses[mesh].at_rest(place.position),
+            place.radius + nearby.skin);
+    }
+    for (std::size_t g = 0; g < contacts.meshes.size(); ++g)
+        if (rules.groups[g].of_mesh) contacts.meshes[g].find_contacts(contacts.tables[g]);
+}
+
 }  // namespace
 
 void list_candidates(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
@@ -65,6 +84,7 @@ void list_candidates(const ContactRules& rules, const Nearby& nearby, ThreadCont
     list_near_pairs(rules, nearby, contacts);
     list_near_walls(rules, nearby, contacts);
     list_near_glued(rules, nearby, contacts);
+    list_near_meshes(rules, nearby, contacts);
     for (ContactTable& table : contacts.tables) table.end_candidates();
     for (std::size_t g = 0; g < contacts.tables.size(); ++g)
         if (rules.groups[g].of_pairs && !is_large_bed(nearby.grains))

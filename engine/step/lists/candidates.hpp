@@ -6,6 +6,7 @@
 
 #include "engine/state/glued_grains.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 
@@ -15,6 +16,7 @@ struct Nearby {
     const NeighbourLists& lists;
     const std::vector<Face>& faces;
     const GluedGrains& glued;
+    const std::vector<MeshWall>& meshes;
     const Pose& pose;
     double skin;  // m; pairs that are closer than this become candidates
 };

@@ -64,6 +64,7 @@ std::vector<std::int32_t> add_groups(const std::vector<PairPlan>& kinds, bool of
 }  // namespace
 
 bool ContactGroup::turns(int number) const {
+    if (number >= law_size()) return false;  // a wall never changes places
     return number < law->history_size ? law->turns[number] : rolling->turns[number - law->history_size];
 }
 
@@ -79,6 +80,9 @@ ContactRules::ContactRules(const Plan& plan, double period_of_x)
     const std::size_t before_glued = groups.size();
     group_of_glued = add_groups(plan.glued, false, groups);
     for (std::size_t g = before_glued; g < groups.size(); ++g) groups[g].of_glued = true;
+    const std::size_t before_meshes = groups.size();
+    group_of_mesh = add_groups(plan.mesh, false, groups);
+    for (std::size_t g = before_meshes; g < groups.size(); ++g) groups[g].of_mesh = true;
 }
 
 }  // namespace grainreel

@@ -132,9 +132,20 @@ void ContactTable::end_candidates() {
     admitted_.assign((candidates_ + 63) / 64, 0);
 }
 
+// Before the first contact that begins in a step.
+void ContactTable::begin_batch() {
+    if (batches_.empty() || batches_.back().step != step_) batches_.push_back({size_, step_});
+}
+
+std::int32_t ContactTable::add_new(std::int32_t i, std::int32_t j) {
+    begin_batch();
+    add(i, j);
+    return size_ - 1;
+}
+
 void ContactTable::add_candidates(std::int32_t c, std::uint64_t which) {
     admitted_[c / 64] |= which;
-    if (batches_.empty() || batches_.back().step != step_) batches_.push_back({size_, step_});
+    begin_batch();
     for (; which != 0; which &= which - 1) {
         const std::int32_t at = c + std::countr_zero(which);
         add(near_first_[at], near_second_[at]);

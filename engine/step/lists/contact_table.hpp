@@ -71,6 +71,9 @@ class ContactTable {
     void admit(std::int32_t c, std::uint64_t touching) {
         if (const std::uint64_t news = touching & ~admitted_[c / 64]; news != 0) add_candidates(c, news);
     }
+    // Likewise adds a contact that was no candidate, and returns its place. Contacts of one step must come by
+    // rising bodies.
+    std::int32_t add_new(std::int32_t i, std::int32_t j);
     std::int32_t end_step();  // the first contact that began; size() if none did
     // One bit for each of the 64 candidates from c on: whether it has become a contact.
     std::uint64_t admitted(std::int32_t c) const { return admitted_[c / 64]; }
@@ -85,15 +88,15 @@ class ContactTable {
     // keep() appends contact c to `kept`; take() adds contact k of `kept` to the table.
     void keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const;
     void take(const KeptContacts& kept, std::size_t k);
-    // Calls history_of(first, second, numbers) for each contact that touches; where it says true, the contact
-    // has this history from now on.
+    // Calls history_of(first, second, numbers) for each contact that touches; where it says true, the first
+    // `size` numbers are the contact's history from now on.
     template <class HistoryOf>
-    void take_histories(const HistoryOf& history_of) {
+    void take_histories(int size, const HistoryOf& history_of) {
         double numbers[Histories::kMostNumbers];
         each_stretch([&](std::int32_t begin, std::int32_t end) {
             for (std::int32_t c = begin; c < end; ++c) {
                 if (!touches(c) || !history_of(first_[c], second_[c], numbers)) continue;
-                for (int k = 0; k < histories_.numbers(); ++k) histories_.set(c, k, numbers[k]);
+                for (int k = 0; k < size; ++k) histories_.set(c, k, numbers[k]);
             }
         });
     }
@@ -129,6 +132,7 @@ class ContactTable {
     void add(std::int32_t i, std::int32_t j);
     void reserve(std::size_t room);
     void make_room_for_candidates();
+    void begin_batch();
     void add_candidates(std::int32_t c, std::uint64_t which);
     static std::uint64_t key(std::int32_t i, std::int32_t j) {
         return std::uint64_t{static_cast<std::uint32_t>(i)} << 32 | static_cast<std::uint32_t>(j);

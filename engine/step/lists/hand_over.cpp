@@ -121,6 +121,7 @@ void leave_out(const std::vector<std::int32_t>& index, NeighbourLists& lists) {
     leave_out(lists.pairs, index);
     leave_out(lists.walls, index);
     leave_out(lists.glued, index);
+    leave_out(lists.meshes, index);
 }
 
 }  // namespace grainreel

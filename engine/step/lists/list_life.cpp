@@ -6,7 +6,7 @@
 namespace grainreel {
 
 ListLife::ListLife(const Surroundings& around, int threads)
-    : around_(around), threads_(threads), skin_(around.skin), next_skin_(around.skin) {}
+    : around_(around), ways_(around), threads_(threads), skin_(around.skin), next_skin_(around.skin) {}
 
 void ListLife::restart() {
     skin_ = around_.skin;
@@ -52,20 +52,6 @@ Vec3 ListLife::frame(const Evaluation& at, double step) const {
     return (drift(at.time, step) - drift(last, step)) / at.since;
 }
 
-namespace {
-
-// The largest displacement (m) of any face between two poses, relative to a frame displaced by `flown`.
-double farthest_face(const std::vector<Face>& faces, const Pose& before, const Pose& now, const Vec3& flown) {
-    double squared = 0;
-    for (const Face& face : faces) {
-        const Vec3 gone = face.displacement(now) - face.displacement(before) - flown;
-        squared = std::max(squared, gone.squaredNorm());
-    }
-    return std::sqrt(squared);
-}
-
-}  // namespace
-
 bool ListLife::contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
                                 const Evaluation& at, const Vec3& drift) {
     constexpr std::int64_t kRefresh = 16;  // a refresh takes as long as this many contacts a grain
@@ -75,14 +61,13 @@ bool ListLife::contacts_expired(int thread, const Vec3& fastest, std::int64_t pa
     reach.moved += reach.fastest * std::abs(at.since);
     const Vec3 flown = drift - reach.drift;
     return 2 * reach.moved > reach.skin || reach.parted > kRefresh * grains ||
-           reach.moved + farthest_face(around_.faces, reach.pose, at.now, flown) > reach.skin;
+           reach.moved + ways_.farthest(reach.pose, at.now, flown) > reach.skin;
 }
 
 void ListLife::set_reach(int thread, const Pose& now, const Vec3& drift, const Vec3& frame, double step) {
     constexpr double kStepsPerRefresh = 48, kLeastShare = 1e-3, kMostShare = 0.4;
     Reach& reach = threads_[thread].reach;
-    double wall = 0;
-    for (const Face& face : around_.faces) wall = std::max(wall, (face.velocity_at(now) - frame).norm());
+    const double wall = ways_.fastest(now, frame);
     const double wanted = kStepsPerRefresh * step * (reach.fastest + std::max(reach.fastest, wall));
     reach.skin = std::clamp(wanted, kLeastShare * skin_, kMostShare * skin_);
     reach.moved = 0;
@@ -105,7 +90,7 @@ void ListLife::measure(int thread, const Grains& grains, std::int32_t begin, std
 
 bool ListLife::lists_expired(int thread, const Pose& now, const Vec3& drift) const {
     const double moved = farthest();
-    const double used = moved + std::max(moved, farthest_face(around_.faces, listed_pose_, now, drift));
+    const double used = moved + std::max(moved, ways_.farthest(listed_pose_, now, drift));
     return used + threads_[thread].reach.skin > skin_;
 }
 

@@ -10,6 +10,7 @@
 
 #include "engine/state/grains.hpp"
 #include "engine/step/evaluation.hpp"
+#include "engine/step/lists/wall_ways.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {
@@ -91,6 +92,7 @@ class ListLife {
     static constexpr double kLeastSkin = 0.5, kMostSkin = 2.8;  // over that of the surroundings
 
     const Surroundings& around_;
+    const WallWays ways_;
     std::vector<Thread> threads_;
     double skin_, next_skin_;  // m
     // State of the grains and walls when the neighbour lists were made.

@@ -9,13 +9,18 @@
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_rules.hpp"
 #include "engine/step/lists/contact_table.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 
 // How many there are.
 struct WallParts {
     std::int32_t faces, glued;
+    std::vector<std::int32_t> triangles = {};  // of each mesh
+
+    std::int32_t meshes() const { return static_cast<std::int32_t>(triangles.size()); }
 };
+WallParts parts_of(const Surroundings& around);
 
 constexpr std::int32_t kMostStepsOfLists = 1'000'000'000;  // without a refresh, even of a bed at rest
 

@@ -25,6 +25,7 @@ void ThreadContacts::own(const ContactRules& rules, const NeighbourLists& lists,
     tables.resize(rules.groups.size());
     found.resize(rules.groups.size());
     soon.resize(rules.groups.size());
+    meshes.resize(rules.groups.size());
     for (std::size_t g = 0; g < tables.size(); ++g)
         tables[g].shape(rules.groups[g].history_size(), rules.groups[g].number_size());
 }

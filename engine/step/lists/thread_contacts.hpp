@@ -13,6 +13,7 @@
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_rules.hpp"
 #include "engine/step/lists/contact_table.hpp"
+#include "engine/step/lists/mesh_near.hpp"
 #include "engine/step/lists/soon.hpp"
 #include "engine/step/motion/loaded.hpp"
 #include "engine/step/threads/halo.hpp"
@@ -32,6 +33,8 @@ struct ThreadContacts {
     std::vector<ContactTable> tables;  // one a group
     std::vector<Found> found;          // one a group
     std::vector<Soon> soon;            // one a group, of pairs
+    std::vector<MeshLists> meshes;     // one a group, of meshes
+    std::optional<MeshFault> fault;    // the first one; it ends the run
     double skin = 0;                   // m, of the candidates
     std::vector<Pair> incoming;        // listed pairs of a grain of an earlier thread and an own grain
     Halo halo;                         // copies of other threads' grains

@@ -24,7 +24,8 @@ void print_model(const FilmedScene& scene, const Plan& plan, Listing& list) {
     const auto any = [&](auto&& is) {
         const auto of = [&](const PairPlan& pair) { return is(pair.model); };
         return std::any_of(plan.grain.begin(), plan.grain.end(), of) ||
-               std::any_of(plan.wall.begin(), plan.wall.end(), of);
+               std::any_of(plan.wall.begin(), plan.wall.end(), of) ||
+               std::any_of(plan.mesh.begin(), plan.mesh.end(), of);
     };
     const auto note = [&](bool used, const char* what) {
         if (used) in.push_back(what);
@@ -89,8 +90,12 @@ std::vector<Kind> kinds_of(const FilmedScene& scene, const Plan& plan, const Spe
             if (second.all() > 0 && (a != b || first.all() > 1))  // a single grain never meets its like
                 add(first.name + " - " + second.name, plan.between(a, b), first, &second);
         }
-        if (scene.container.shape != Container::Shape::none || !scene.walls.empty())
-            add(first.name + " - wall", plan.wall[a], first, nullptr);
+        const Container::Shape shape = scene.container.shape;
+        const bool has_faces = shape != Container::Shape::none && shape != Container::Shape::mesh;
+        if (has_faces || !scene.walls.empty()) add(first.name + " - wall", plan.wall[a], first, nullptr);
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+            add(fmt::format("{} - {}", first.name, scene.meshes[m].name),
+                plan.mesh[m * scene.species.size() + a], first, nullptr);
         if (glued) add(first.name + " - glued", plan.glued[a], first, glued);
     }
     return kinds;
@@ -104,6 +109,9 @@ void print_contacts(const FilmedScene& scene, const Plan& plan, std::ostream& ou
     std::size_t widest = 8, longest = 6;
     const std::vector<Kind> kinds = kinds_of(scene, plan, rough ? &glued : nullptr);
     for (const Species& s : scene.species) widest = std::max(widest, 2 * s.name.size() + 3);
+    for (const SceneMesh& mesh : scene.meshes)
+        for (const Species& s : scene.species)
+            widest = std::max(widest, s.name.size() + mesh.name.size() + 3);
     for (const Kind& kind : kinds) longest = std::max(longest, kind.restitution.size());
     fmt::print(out, "{:<13}{:<{}}{:>14}  {:<13}{:>{}}{:>8}{:>10}{:>12}{:>9}\n", "contacts", "", widest,
                "stiffness", "chosen for", "e", longest, "error", "friction", "duration", "steps");

@@ -37,6 +37,11 @@ std::string metres_text(double metres);
 std::string span_text(double seconds);
 std::string grouped(std::int64_t count);  // 1234567 as "1,234,567"
 
+std::string turn_text(const BodyTurn& turn);     // "turns at 30 rpm about ..."
+std::string motion_text(const SceneMesh& mesh);  // "stands still"
+
+// Three lines a mesh, and one for each kind of fault that was mended.
+void print_meshes(const Scene& scene, Listing& list);
 void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list);
 void print_model(const FilmedScene& scene, const Plan& plan, Listing& list);
 void print_contacts(const FilmedScene& scene, const Plan& plan, std::ostream& out);

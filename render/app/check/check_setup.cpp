@@ -25,6 +25,14 @@ std::string diameter_text(const SizeSpread& d) {
     return fmt::format("{} +- {}", metres_text(d.mean), metres_text(d.deviation));
 }
 
+std::string vessel_text(const Container& c) {
+    const double low = c.base(), high = c.height;
+    return fmt::format("the mesh {}, with room for {:.3g} l from z = {} to {}, width {}, depth {}, {}",
+                       c.mesh, 1e3 * c.volume(), metres_text(low), metres_text(high),
+                       metres_text(2 * c.half_width), metres_text(c.depth),
+                       c.room->open_above() ? "open above" : "closed above");
+}
+
 std::string container_text(const Container& c) {
     const std::string top = c.lid ? "closed by a lid" : "open above";
     switch (c.shape) {
@@ -40,6 +48,8 @@ std::string container_text(const Container& c) {
             return fmt::format("box, width {}, depth {}{}, height {}, {}", metres_text(2 * c.half_width),
                                metres_text(c.depth), c.periodic_depth ? " (periodic)" : "",
                                metres_text(c.height), top);
+        case Container::Shape::mesh:
+            return vessel_text(c);
         case Container::Shape::none:
             return "none";
         case Container::Shape::cylinder:
@@ -62,6 +72,11 @@ std::string wall_text(const FreeWall& wall) {
                                    wall.normal.y(), wall.normal.z());
     if (wall.velocity.norm() > 0) text += fmt::format(", moving at {:.3g} m/s", wall.velocity.norm());
     return wall.moves ? text + ", follows the drive" : text;
+}
+
+std::string box_text(const Vec3& low, const Vec3& high) {
+    return fmt::format("the box from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m", low.x(),
+                       low.y(), low.z(), high.x(), high.y(), high.z());
 }
 
 std::string feed_text(const FilmedScene& scene, const Feed& feed) {
@@ -125,15 +140,22 @@ void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list) {
     }
     for (const Feed& feed : scene.feeds) list.line("feed", feed_text(scene, feed));
     list.line("container", container_text(scene.container));
+    if (scene.container.turn) list.line("", turn_text(*scene.container.turn));
     if (scene.container.wall_grains) list.line("", rough_text(scene));
     if (const auto& tray = scene.container.tray)
         list.line("", fmt::format("tray {} below the floor, width {}", metres_text(tray->depth),
                                   metres_text(2 * tray->half_width)));
     for (const FreeWall& wall : scene.walls) list.line("", wall_text(wall));
+    print_meshes(scene, list);
+    for (const ExitBox& box : scene.exits)
+        list.line("exit", box_text(box.low, box.high) +
+                              (box.outside ? ": grains leave outside of it" : ": grains leave in it"));
+    if (const auto& region = scene.start.region) list.line("filled", box_text(region->low, region->high));
     if (scene.start.method != Start::Method::grains)
         list.line("bed",
                   fmt::format("about {} high at rest, {:.0f} % of the container's height",
-                              metres_text(plan.bed_height), 100 * plan.bed_height / scene.container.height));
+                              metres_text(plan.bed_height),
+                              100 * plan.bed_height / (scene.container.height - scene.container.base())));
     list.line("gravity", fmt::format("{:.4g} m/s2", scene.gravity.norm()));
     list.line("drive", drive_text(scene));
     print_stages(scene, list);

@@ -126,6 +126,24 @@ FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const F
 
 }  // namespace
 
+namespace {
+
+// From the bottom of a box upwards, as far as they go.
+Frame stacked_in(const FilmedScene& scene, const std::vector<std::size_t>& species, double pitch,
+                 const Region& box) {
+    Frame frame;
+    for (double z = box.low.z() + pitch / 2; z < box.high.z(); z += pitch)
+        for (double x = box.low.x() + pitch / 2; x < box.high.x(); x += pitch)
+            for (double y = box.low.y() + pitch / 2; y < box.high.y(); y += pitch) {
+                if (frame.size() == species.size()) return frame;
+                const std::size_t of = species[frame.size()];
+                add_grain(frame, of, scene.species[of].diameter.mean / 2, Vec3(x, y, z));
+            }
+    return frame;
+}
+
+}  // namespace
+
 Frame stacked_bed(const FilmedScene& scene) {
     Frame frame;
     if (scene.start.method == Start::Method::grains) {
@@ -139,10 +157,13 @@ Frame stacked_bed(const FilmedScene& scene) {
     const double pitch =
         std::cbrt(solid_volume(scene) / static_cast<double>(species.size()) / solid_fraction);
     const double most = pitch * static_cast<double>(species.size());  // m, of a row of all grains
-    const double deep = std::min(most, c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2);
-    const double high = std::min(most, c.height);
-    for (double z = pitch / 2; z < high && frame.size() < species.size(); z += pitch) {
+    if (const auto& region = scene.start.region) return stacked_in(scene, species, pitch, *region);
+    const bool vessel = c.shape == Container::Shape::mesh;
+    const double widest = std::min(most, c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2);
+    const double high = std::min(most, c.height - c.base()) + c.base();
+    for (double z = c.base() + pitch / 2; z < high && frame.size() < species.size(); z += pitch) {
         const double wide = std::min(most, c.half_width_at(z));
+        const double deep = vessel ? std::min(most, c.room->half_depth_at(z)) : widest;
         for (double x = -deep + pitch / 2; x < deep && frame.size() < species.size(); x += pitch)
             for (double y = -wide + pitch / 2; y < wide && frame.size() < species.size(); y += pitch) {
                 if (c.shape == Container::Shape::cylinder && x * x + y * y > wide * wide) continue;

@@ -13,6 +13,7 @@
 #include "engine/questions/answer_forces.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/counts_over_time.hpp"
 #include "engine/questions/histogram.hpp"
 #include "engine/questions/mean_answer.hpp"
 #include "engine/questions/questions.hpp"
@@ -122,8 +123,10 @@ class Inspect final : public Verb {
         const Record* const record = asked_->record;
         tell_news(*record, reporter);
         MomentFinder finder(*record);
-        Answer answer =
-            average_ ? mean_answer(finder, *record, reporter) : single_answer(finder, *record, reporter);
+        Answer answer = over_time_
+                            ? named("--where", [&] { return counts_over_time(finder, *record, *where_); })
+                        : average_ ? mean_answer(finder, *record, reporter)
+                                   : single_answer(finder, *record, reporter);
         answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
         print_result(json_ ? json_of(answer) : csv_ ? csv_of(answer) : text_of(answer));
         if (csv_) tell_beside(answer, reporter);
@@ -138,6 +141,10 @@ class Inspect final : public Verb {
         if (average_ && compare_)
             throw UserError(
                 "--average: --compare is between two moments, of which there is no mean; leave one out");
+        if (over_time_ && !picture_.empty())
+            throw UserError("--over-time: --png is of one moment; leave one out");
+        if (over_time_ && (moment_.at || moment_.frame || moment_.cycle))
+            throw UserError("--over-time: is of all kept moments; leave the moment out");
         if (average_ && !pixel_.empty())
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
         const bool draws = !picture_.empty() || !pixel_.empty();
@@ -162,10 +169,11 @@ class Inspect final : public Verb {
                             "This grain: place, velocity, contacts, what pushes it, neighbours")
                 ->type_name("ID"),
             parser
-                .add_option("--wall", wall_,
-                            "This wall, as in floor or \"left slant\" (the overview lists them): force and "
-                            "moment on it, "
-                            "pressure by height, who touches it, how many of each species")
+                .add_option(
+                    "--wall", wall_,
+                    "This wall or mesh, as in floor, \"left slant\" or drum (the overview lists them): "
+                    "force and moment on it, "
+                    "pressure by height, who touches it, how many of each species")
                 ->type_name("NAME"),
             parser.add_flag("--largest-overlap", largest_overlap_, "The contacts that overlap most"),
             parser.add_option("--where", where_, "Grains for which this holds: count, statistics, list")
@@ -185,6 +193,11 @@ class Inspect final : public Verb {
                 ->expected(2)};
         for (std::size_t i = 0; i < questions.size(); ++i)
             for (std::size_t k = 0; k < i; ++k) questions[i]->excludes(questions[k]);
+        parser
+            .add_flag("--over-time", over_time_,
+                      "With --where: how many of each species at every moment that was kept")
+            ->needs(parser.get_option("--where"))
+            ->excludes(parser.get_option("--average"));
         parser.add_flag("--through", through_, "With --pixel: what lies behind it, too")
             ->needs(questions.back());
         parser.add_option("--bins", bins_, "With --histogram: how many [20]")
@@ -416,7 +429,8 @@ class Inspect final : public Verb {
     double phase_ = 0;
     std::optional<std::int64_t> grain_;
     std::optional<std::string> wall_, where_, profile_, slice_, histogram_;
-    bool pairs_ = false, largest_overlap_ = false, no_replay_ = false, json_ = false, csv_ = false;
+    bool pairs_ = false, largest_overlap_ = false, no_replay_ = false, json_ = false, csv_ = false,
+         over_time_ = false;
     std::vector<std::string> missing_;  // what an answer lacks
     int bins_ = 20;
     std::size_t limit_ = 10;

@@ -167,9 +167,11 @@ class Resume final : public Verb {
         const std::size_t equals = one.find('=');
         const std::string key = one.substr(0, equals), value = one.substr(equals);
         if (key != "contact.friction" && key != "contact.rolling_friction") return {{one, "--accept"}};
-        const std::size_t species = read_filmed_scene(file, {}, measurable_in).species.size();
+        const FilmedScene scene = read_filmed_scene(file, {}, measurable_in);
+        const std::size_t species = scene.species.size();
+        const std::size_t pairs = species * (species + 3) / 2 + scene.contact.mesh.size();
         Assignments all;
-        for (std::size_t k = 0; k < species * (species + 3) / 2; ++k)
+        for (std::size_t k = 0; k < pairs; ++k)
             all.push_back({fmt::format("contact.pair[{}].{}{}", k, key.substr(sizeof "contact." - 1), value),
                            "--accept"});
         return all;

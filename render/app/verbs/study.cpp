@@ -150,7 +150,7 @@ class StudyVerb final : public Verb {
     }
 
     int tell_commands(const Study& study) const {
-        make_study_folder(study, folder_);
+        make_study_folder(study, members_, folder_);
         for (const Member* member : pending()) {
             std::vector<std::string> words{own_program()};
             for (std::string& word : run_command(study, *member, folder_, request_.films))
@@ -163,7 +163,7 @@ class StudyVerb final : public Verb {
 
     int work(const Study& study, const std::vector<std::vector<ReferencePoint>>& references,
              Reporter& reporter) {
-        make_study_folder(study, folder_);
+        make_study_folder(study, members_, folder_);
         const FolderLock lock = locked_folder();
         Stopwatch since_table;
         run_members(study, members_, folder_, request_, results_, reporter, [&] {

@@ -105,7 +105,7 @@ void add_cylinder(std::vector<Slab>& slabs, const Container& container) {
 void add_container(std::vector<Slab>& slabs, const Container& container) {
     if (container.shape == Container::Shape::cylinder)
         add_cylinder(slabs, container);
-    else if (container.shape != Container::Shape::none)
+    else if (container.shape == Container::Shape::wedge || container.shape == Container::Shape::box)
         add_prism(slabs, container);
 }
 

@@ -2,6 +2,8 @@
 #include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -56,7 +58,7 @@ constexpr Source sources[] = {
 class LawWords {
   public:
     explicit LawWords(const Plan& plan) {
-        for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall})
+        for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.mesh})
             for (const PairPlan& pair : *pairs) take(pair);
         if (plan.rolls()) {
             words_.insert("rolling meets a spring with a cap [Iwashita1998]");
@@ -130,11 +132,21 @@ std::string words_of(const std::vector<std::pair<std::string, std::string>>& lin
 template <class Value>
 std::string range_text(const Plan& plan, const Value& value) {
     std::vector<double> values;
-    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall})
+    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.mesh})
         for (const PairPlan& pair : *pairs) values.push_back(value(pair));
     if (values.empty()) return "-";
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return *low == *high ? fmt::format("{:.3g}", *low) : fmt::format("{:.3g} to {:.3g}", *low, *high);
+}
+
+// "drum (drum.stl, 720 triangles, XXH64 0123456789abcdef)"
+std::string meshes_text(const FilmedScene& scene) {
+    std::vector<std::string> texts;
+    for (const SceneMesh& mesh : scene.meshes)
+        texts.push_back(fmt::format("{} ({}, {} triangles{})", mesh.name,
+                                    std::filesystem::path(mesh.file).filename().string(),
+                                    mesh.surface->size(), mesh.hash.empty() ? "" : ", XXH64 " + mesh.hash));
+    return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::string program_entry(const RunFacts& facts) {
@@ -163,6 +175,14 @@ Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& fact
         range_text(plan, [](const PairPlan& pair) { return pair.restitution; }),
         range_text(plan, [](const PairPlan& pair) { return pair.friction; }), name_of(plan.integrator),
         plan.clock.step, plan.steps, scene.run.seed);
+    if (!scene.meshes.empty())
+        result.paragraph += fmt::format(
+            " Walls from triangle meshes: {}. A grain has one contact with each connected patch of a surface "
+            "that it "
+            "touches, at the nearest point of its faces, edges and corners; triangles that turn by less than "
+            "{:.3g} "
+            "degrees from their neighbours are one patch.",
+            meshes_text(scene), kSmoothAngle * 180 / std::numbers::pi);
     if (!facts.state_hash.empty())
         result.paragraph += fmt::format(" The hash of the end state is {}.", facts.state_hash);
     result.bibtex = program_entry(facts);

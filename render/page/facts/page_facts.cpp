@@ -8,6 +8,7 @@
 
 #include "engine/scene/text/fitting_unit.hpp"
 #include "render/page/bed/slabs.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/picture/grains/colour_map.hpp"
 #include "render/picture/grains/colour_scale.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -19,6 +20,16 @@ using Json = nlohmann::json;
 
 Json of_vector(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
+}
+
+// Place, and where it is turned a unit quaternion w, x, y, z behind it.
+Json of_pose(const BodyPose& pose) {
+    Json numbers = of_vector(pose.place);
+    const Quaternion& turn = pose.rotation;
+    if (turn.vec().isZero(0)) return numbers;
+    for (const double part : {turn.w(), turn.x(), turn.y(), turn.z()})
+        numbers.push_back(std::strtod(fmt::format("{:.7f}", part).c_str(), nullptr));
+    return numbers;
 }
 
 Json of_points(const std::vector<Vec3>& points) {
@@ -56,6 +67,22 @@ Json slabs_json(const std::vector<Slab>& slabs) {
         if (slab.until) one["until"] = *slab.until;
         list.push_back(std::move(one));
     }
+    return list;
+}
+
+Json meshes_json(const PageMeshes& meshes) {
+    Json list = Json::array();
+    for (const PageMesh& mesh : meshes.meshes)
+        if (mesh.triangles > 0)
+            list.push_back({{"body", mesh.body},
+                            {"name", mesh.name},
+                            {"vertices", mesh.vertices},
+                            {"triangles", mesh.triangles},
+                            {"glass", mesh.glass},
+                            {"sided", mesh.sided},
+                            {"edges", mesh.edges},
+                            {"low", of_vector(mesh.low)},
+                            {"high", of_vector(mesh.high)}});
     return list;
 }
 
@@ -100,36 +127,44 @@ Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
             {"colours", colours}};
 }
 
-Json bed_json(const FilmedScene& scene, const BedFrames& bed) {
+Json bed_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes) {
     const std::vector<Slab> slabs = slabs_of(scene);
-    const Extent box = box_of(slabs, scene);
+    Extent box = box_of(slabs, scene);
+    take_meshes(box, scene, bed.moments);
     Json times = Json::array(), bodies = Json::array();
     for (const Frame& moment : bed.moments) {
         times.push_back(moment.time);
         Json places = Json::array();
-        for (const BodyPose& pose : moment.bodies) places.push_back(of_vector(pose.place));
+        for (const BodyPose& pose : moment.bodies) places.push_back(of_pose(pose));
         bodies.push_back(std::move(places));
     }
     const Camera& camera = scene.film.camera;
+    const bool upright = camera.up == Vec3(0, 0, 1);
     constexpr double usual_field_of_view = 25;  // degrees, where the film has none (orthographic)
-    return {{"grains", bed.grains},
-            {"times", times},
-            {"low", of_vector(bed.low)},
-            {"high", of_vector(bed.high)},
-            {"speed", {{"lowest", bed.lowest_speed}, {"highest", bed.highest_speed}}},
-            {"contacts", bed.counted > 0},
-            {"film", film_colours_json(scene, bed)},
-            {"forces", forces_json(bed.forces)},
-            {"period", scene.container.periodic_depth ? scene.container.depth : 0.0},
-            {"bodies", bodies},
-            {"slabs", slabs_json(slabs)},
-            {"box", {{"low", of_vector(box.low)}, {"high", of_vector(box.high)}}},
-            {"species", species_json(scene)},
-            {"view",
-             {{"azimuth", camera.azimuth},
-              {"elevation", camera.elevation},
-              {"fov", camera.field_of_view > 0 ? camera.field_of_view : usual_field_of_view}}},
-            {"ramps", {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}}}};
+    Json json = {{"grains", bed.grains},
+                 {"times", times},
+                 {"low", of_vector(bed.low)},
+                 {"high", of_vector(bed.high)},
+                 {"speed", {{"lowest", bed.lowest_speed}, {"highest", bed.highest_speed}}},
+                 {"contacts", bed.counted > 0},
+                 {"film", film_colours_json(scene, bed)},
+                 {"forces", forces_json(bed.forces)},
+                 {"period", scene.container.periodic_depth ? scene.container.depth : 0.0},
+                 {"bodies", bodies},
+                 {"slabs", slabs_json(slabs)},
+                 {"box", {{"low", of_vector(box.low)}, {"high", of_vector(box.high)}}},
+                 {"species", species_json(scene)},
+                 {"view",
+                  {{"azimuth", camera.azimuth},
+                   {"elevation", camera.elevation},
+                   {"fov", camera.field_of_view > 0 ? camera.field_of_view : usual_field_of_view}}},
+                 {"ramps", {{"sequential", ramp(ColourMap::viridis)}, {"diverging", ramp(ColourMap::vik)}}}};
+    if (!upright) {
+        json["view"]["up"] = of_vector(camera.up);
+        json["view"]["front"] = of_vector(front_of(camera.up));
+    }
+    if (!scene.meshes.empty()) json["meshes"] = meshes_json(meshes);
+    return json;
 }
 
 Json ramps_json() {
@@ -206,8 +241,8 @@ std::string live_facts_json(const FilmedScene& scene) {
                          {"charts", Json::array()}});
 }
 
-std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed) {
-    return text_of_json(bed_json(scene, bed));
+std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes) {
+    return text_of_json(bed_json(scene, bed, meshes));
 }
 
 std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures) {
@@ -220,11 +255,12 @@ std::string all_measures_json(const MeasureTable& table, const PageMeasures& mea
 }
 
 std::string facts_json(const PageFacts& facts) {
-    Json json = {{"name", facts.name},
-                 {"folder", facts.folder},
-                 {"begin", facts.span.from},
-                 {"end", facts.span.to},
-                 {"bed", facts.bed.moments.empty() ? Json() : bed_json(facts.scene, facts.bed)}};
+    Json json = {
+        {"name", facts.name},
+        {"folder", facts.folder},
+        {"begin", facts.span.from},
+        {"end", facts.span.to},
+        {"bed", facts.bed.moments.empty() ? Json() : bed_json(facts.scene, facts.bed, facts.meshes)}};
     json["frequency"] = frequency_json(facts.scene.drive);
     json["film"] = facts.film.bytes.empty() ? Json()
                                             : Json{{"type", facts.film.type},

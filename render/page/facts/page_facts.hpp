@@ -7,6 +7,7 @@
 #include "engine/measure/measure_table.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/page/bed/bed_frames.hpp"
+#include "render/page/bed/page_meshes.hpp"
 #include "render/page/film/film_times.hpp"
 #include "render/page/film/page_film.hpp"
 #include "render/page/page_fields.hpp"
@@ -23,6 +24,7 @@ struct PageFacts {
     const PageFilm& film;
     const FilmTimes& film_times;
     const BedFrames& bed;
+    const PageMeshes& meshes;
     const MeasureTable* table;  // null without measures
     const PageMeasures& measures;
     const PageFields& fields;
@@ -34,7 +36,7 @@ std::string facts_json(const PageFacts& facts);
 // For live.js: what is known of a run before it has measured anything; its newest moments of the bed; the
 // rows of its measures, of all columns.
 std::string live_facts_json(const FilmedScene& scene);
-std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed);
+std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes);
 std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);
 
 }  // namespace grainreel

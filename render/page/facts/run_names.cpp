@@ -45,6 +45,7 @@ std::string path_of(const std::string& key) {
 bool tells(const std::string& key) {
     for (const char* other : {"film.", "output.", "title", "run.threads"})
         if (key.starts_with(other)) return false;
+    if (key.starts_with("mesh.") && key.ends_with("hash")) return false;  // of a file that its path names
     const Key* known = find_key(path_of(key), filmed_scene_keys());
     return known == nullptr || !known->often_chosen;
 }

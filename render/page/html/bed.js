@@ -2,8 +2,11 @@
 const asInFilm = 6; // the colouring of the film's grains, where that is none of the others (shaders.js)
 
 class BedPanel {
-    /** n: what the ids of its elements end in, where the page has several beds. forceBytes: of key moments, or nothing. */
-    constructor(facts, bytes, runTime, n = "", forceBytes = null) {
+    /**
+     * n: what the ids of its elements end in, where the page has several beds. forceBytes: of key moments, meshBytes: of
+     * walls of any shape; or nothing.
+     */
+    constructor(facts, bytes, runTime, n = "", forceBytes = null, meshBytes = null) {
         this.n = n;
         this.frames = new BedFrames(facts, bytes);
         this.facts = facts;
@@ -13,6 +16,7 @@ class BedPanel {
         this.canvas = this.part("bed");
         const camera = new Camera(facts.view, facts.box);
         this.viewer = new Viewer(this.canvas, this.frames, new Walls(facts.slabs, facts.box), camera);
+        if (meshBytes) this.viewer.setMeshes(facts.meshes, meshBytes);
         this.shown = facts.species.map((species) => (species.hidden ? 0 : species.ghost ? 128 : 255));
         this.fillColours();
         this.fillSpecies();

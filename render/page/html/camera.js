@@ -1,8 +1,14 @@
 // A camera that turns about a point, with the film's angles: azimuth 0 looks along -x, and the eye goes to the
-// right as it grows; elevation counts from the horizon. z is up.
+// right as it grows; elevation counts from the horizon. z is up, or what the film has: the drum that lies, say.
 class Camera {
-    /** view: {azimuth, elevation, fov} in degrees; box: {low, high} in m, which the picture has whole. */
+    /**
+     * view: {azimuth, elevation, fov} in degrees, and where z is not up: up, and front, where azimuth 0 looks from. box: {low,
+     * high} in m, which the picture has whole.
+     */
     constructor(view, box) {
+        this.up = view.up ?? [0, 0, 1];
+        this.front = view.front ?? [1, 0, 0];
+        this.side = cross(this.up, this.front);
         this.start = view;
         this.box = box;
         this.aspect = 1;
@@ -37,8 +43,9 @@ class Camera {
 
     axes() {
         const a = (this.azimuth * Math.PI) / 180, e = (this.elevation * Math.PI) / 180;
-        const forward = [-Math.cos(e) * Math.cos(a), -Math.cos(e) * Math.sin(a), -Math.sin(e)];
-        const right = [-Math.sin(a), Math.cos(a), 0];
+        const along = (front, side, up) => [0, 1, 2].map((k) => front * this.front[k] + side * this.side[k] + up * this.up[k]);
+        const forward = along(-Math.cos(e) * Math.cos(a), -Math.cos(e) * Math.sin(a), -Math.sin(e));
+        const right = along(-Math.sin(a), Math.cos(a), 0);
         return {forward, right, up: cross(right, forward)};
     }
 

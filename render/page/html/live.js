@@ -95,13 +95,20 @@ class Live {
             if (this.bed) {
                 this.bed.take(facts, packed);
             } else {
-                this.bed = new BedPanel(facts, packed, this.runTime);
+                this.bed = new BedPanel(facts, packed, this.runTime, "", null, await this.meshes(facts));
                 report.bed = this.bed;
             }
         } catch (problem) {
             say("bed-says", `The bed in three dimensions is not shown: ${problem.message}.`);
             this.has.bed = state.bed;
         }
+    }
+
+    // Walls of any shape come once.
+    async meshes(facts) {
+        if (!facts.meshes?.length) return null;
+        const answer = await fetch("./live/meshes", {cache: "no-store"});
+        return answer.ok ? inflated(new Uint8Array(await answer.arrayBuffer())) : null;
     }
 
     // The old picture stays until the new one is there.

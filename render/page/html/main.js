@@ -32,8 +32,9 @@ async function openBed(run, n) {
     const packed = run.bed ? bytesOf("bed-bytes" + n) : null;
     if (!packed) return null;
     try {
-        const forces = bytesOf("forces-bytes" + n);
-        return new BedPanel(run.bed, await inflated(packed), runTime, n, forces && (await inflated(forces)));
+        const [forces, meshes] = ["forces-bytes", "meshes-bytes"].map((id) => bytesOf(id + n));
+        return new BedPanel(run.bed, await inflated(packed), runTime, n, forces && (await inflated(forces)),
+                            meshes && (await inflated(meshes)));
     } catch (problem) {
         say("bed-says" + n, `The bed in three dimensions is not shown: ${problem.message}. Film and charts do without it.`);
         return null;

@@ -1,5 +1,5 @@
 // The bed in three dimensions, by WebGL 2: a call for all grains, one for the faces of walls, one for segments: edges,
-// the way of a grain, force chains. All moments lie on the graphics card; to show another one sends the walls' corners,
+// the way of a grain, force chains; and four for each mesh. All moments lie on the graphics card; to show another one sends the walls' corners,
 // segments, and at a key moment a byte a grain.
 const numbersASegment = 10; // from, to, width, colour
 const shrunk = 0.35; // radii where force chains are shown
@@ -27,6 +27,7 @@ class Viewer {
         this.loadGrains();
         this.loadWalls();
         this.loadSegments();
+        this.meshes = null;
         this.speciesTexture = this.gl.createTexture();
         this.rampTexture = this.gl.createTexture();
     }
@@ -38,6 +39,11 @@ class Viewer {
         for (const buffer of this.grainBuffers) this.gl.deleteBuffer(buffer);
         this.gl.deleteVertexArray(this.grainArray);
         this.loadGrains();
+    }
+
+    /** Walls of any shape: meshes of the bed's facts, and their bytes. They belong to all moments. */
+    setMeshes(facts, bytes) {
+        this.meshes = new Meshes(this.gl, facts, bytes);
     }
 
     loadGrains() {
@@ -231,7 +237,17 @@ class Viewer {
         gl.polygonOffset(1, 1);
         gl.drawArrays(gl.TRIANGLES, 0, faces.length);
         gl.disable(gl.POLYGON_OFFSET_FILL);
+        const poses = frames.bodies[this.frame];
+        if (this.meshes) this.meshes.drawSolid(poses, this.sight(), this.colours);
         this.drawSegments(edges);
+        if (this.meshes) this.meshes.drawGlass(poses, this.sight(), this.colours);
+    }
+
+    // From where, and how large, the canvas is looked at.
+    sight() {
+        const pen = Math.min(2, devicePixelRatio || 1); // pixels of the canvas
+        return {eye: this.camera.eye(), view: this.camera.view(), projection: this.camera.projection(),
+                height: this.canvas.height, pen};
     }
 
     // edges: [from, to, colour].

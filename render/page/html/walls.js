@@ -1,6 +1,8 @@
 // Walls as the film has them: solid where the eye looks at their inner side, bare edges where they would stand
 // before the grains.
 //
+// Bodies have poses, moment by moment: slabs and meshes go with them.
+//
 // A slab is {body, inner, outer, from, until}: a flat convex piece of wall, m, in the frame of its body. outer is
 // the other side of its thickness, corner by corner, or empty for a pane. It is there from one time (s) until
 // another, where it has them.
@@ -18,16 +20,45 @@ class Walls {
         const faces = [], edges = [];
         for (const slab of this.slabs) {
             if (time < (slab.from ?? -Infinity) || time >= (slab.until ?? Infinity)) continue;
-            const offset = places[slab.body] ?? [0, 0, 0];
-            const moved = (points) => points.map((point) => point.map((value, axis) => value + offset[axis]));
+            const pose = poseOf(places, slab.body);
+            const moved = (points) => points.map((point) => movedBy(pose, point));
             const inner = moved(slab.inner), outer = moved(slab.outer);
             const toEye = eye.map((value, axis) => value - inner[0][axis]);
-            const solid = dot(toEye, slab.normal) < 0;
+            const solid = dot(toEye, turnedBy(pose.turn, slab.normal)) < 0;
             if (solid) addSolid(faces, slab, inner, outer, colours);
             addEdges(edges, inner, outer, solid ? colours.edge : colours.glass, slab.seams);
         }
         return {faces, edges};
     }
+}
+
+/** Where a body is: places has [x, y, z] of each, m, and of one that is turned a unit quaternion w, x, y, z behind it. */
+function poseOf(places, body) {
+    const [x, y, z, ...turn] = places[body] ?? [0, 0, 0];
+    return {place: [x, y, z], turn: turn.length ? turn : null};
+}
+
+/** A vector turned by a unit quaternion, or as it is where there is none. */
+function turnedBy(turn, vector) {
+    if (!turn) return vector;
+    const [w, ...axis] = turn;
+    const twice = cross(axis, vector).map((value) => 2 * value), aside = cross(axis, twice);
+    return vector.map((value, k) => value + w * twice[k] + aside[k]);
+}
+
+/** From rest to where the body is now, and back; m. */
+function movedBy({place, turn}, point) {
+    return turnedBy(turn, point).map((value, axis) => value + place[axis]);
+}
+
+function atRest({place, turn}, point) {
+    return turnedBy(turn && [turn[0], -turn[1], -turn[2], -turn[3]], point.map((value, axis) => value - place[axis]));
+}
+
+/** The same as a matrix, columns first. */
+function matrixOf({place, turn}) {
+    const columns = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => [...turnedBy(turn, axis), 0]);
+    return new Float32Array([...columns.flat(), ...place, 1]);
 }
 
 function outwardNormal(slab, middle) {

@@ -103,6 +103,7 @@ void LiveRun::read_scene_again() {
         scene_ = read_filmed_scene(file, {}, measurable_in);
         scene_->name = folder_.filename().string();
         scene_time_ = time;
+        meshes_.reset();
         page_status_.clear();
     } catch (const UserError&) {
         // Half written, perhaps; the next look tells.
@@ -143,15 +144,26 @@ void LiveRun::read_bed_again() {
         BedContacts beside;
         beside.film = film ? &*film : nullptr;
         const BedFrames bed = bed_frames_of(run.frames(), shown_of(moments.size()), kNoPageProgress, beside);
+        make_meshes(run.scene());
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;
-        auto bytes = shared(with_length(bed_facts_json(run.scene(), bed), bed.packed));
+        auto bytes = shared(with_length(bed_facts_json(run.scene(), bed, *meshes_), bed.packed));
         const std::scoped_lock lock(mutex_);
         now_.bed = std::move(bytes);
     } catch (const UserError&) {
         // No whole moment yet.
     } catch (const RunError&) {
     }
+}
+
+// Shapes never change, so they are made once.
+void LiveRun::make_meshes(const FilmedScene& scene) {
+    if (meshes_) return;
+    constexpr std::size_t most_bytes = 2'000'000;
+    meshes_ = page_meshes(scene, most_bytes);
+    auto bytes = shared(std::string(meshes_->packed.begin(), meshes_->packed.end()));
+    const std::scoped_lock lock(mutex_);
+    now_.meshes = std::move(bytes);
 }
 
 std::optional<fs::path> LiveRun::film() const {

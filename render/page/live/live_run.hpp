@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "render/page/bed/page_meshes.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -24,6 +25,7 @@ struct LiveSnapshot {
     Bytes picture;   // JPEG: the film's newest; empty without one
     Bytes bed;       // uint32 length of JSON, little-endian; JSON; packed places. Empty before there are any
     Bytes measures;  // JSON; empty likewise
+    Bytes meshes;    // as page_meshes.hpp has them, packed; they belong to every bed. Empty without any
 };
 
 using Planner = std::function<std::optional<PlannedScene>(const FilmedScene&)>;
@@ -54,6 +56,7 @@ class LiveRun {
     void read_measures_again();
     void read_bed_again();
     void read_picture_again();
+    void make_meshes(const FilmedScene& scene);
     void make_page();
     void make_state();
     double remaining(double time, double end) const;
@@ -68,7 +71,8 @@ class LiveRun {
     std::filesystem::file_time_type scene_time_, trajectory_time_;
     std::uintmax_t measures_size_ = 0, film_size_ = 0;
     std::size_t rows_ = 0;
-    double begin_ = 0, time_ = 0;  // s, of the first row of measures and the last
+    double begin_ = 0, time_ = 0;       // s, of the first row of measures and the last
+    std::optional<PageMeshes> meshes_;  // of the scene that was read
     std::int64_t bed_step_ = -1;
     double bed_time_ = 0;
     int pictures_ = 0;

@@ -120,6 +120,7 @@ class Watch {
         if (request.path == "/live/state") return part(now.state, "application/json");
         if (request.path == "/live/measures") return part(now.measures, "application/json");
         if (request.path == "/live/picture") return part(now.picture, "image/jpeg");
+        if (request.path == "/live/meshes") return part(now.meshes, "application/octet-stream");
         if (request.path == "/live/bed") return part(now.bed, "application/octet-stream");
         return run_file(folder_, request.path);
     }

@@ -16,9 +16,9 @@ constexpr int page_width = 1920, gap = 16;  // pixels
 // Tiles kept for each one shown: a page is then even to an eighth of its spacing.
 constexpr std::size_t kept_for_one = 8;
 
-using Surface = std::shared_ptr<cairo_surface_t>;
+using Canvas = std::shared_ptr<cairo_surface_t>;
 
-Surface make_surface(int width, int height) {
+Canvas make_surface(int width, int height) {
     return {cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height), cairo_surface_destroy};
 }
 
@@ -28,8 +28,8 @@ struct Destroy {
 using Context = std::unique_ptr<cairo_t, Destroy>;
 
 // Cairo wants 0xAARRGGBB with the colours multiplied by alpha.
-Surface surface_of(const Picture& picture) {
-    Surface surface = make_surface(picture.width, picture.height);
+Canvas surface_of(const Picture& picture) {
+    Canvas surface = make_surface(picture.width, picture.height);
     unsigned char* pixels = cairo_image_surface_get_data(surface.get());
     const int stride = cairo_image_surface_get_stride(surface.get());
     const auto weighed = [](unsigned value, unsigned alpha) { return (value * alpha + 127) / 255; };
@@ -83,8 +83,8 @@ ContactSheet::ContactSheet(const Film& film)
       ink_(make_palette(film.background).ink) {}
 
 ContactSheet::Tile ContactSheet::tile(const Picture& picture, double time) const {
-    const Surface full = surface_of(picture);
-    Surface small = make_surface(width_, height_);
+    const Canvas full = surface_of(picture);
+    Canvas small = make_surface(width_, height_);
     const Context on(cairo_create(small.get()));
     set_colour(on.get(), background_);
     cairo_paint(on.get());
@@ -133,8 +133,7 @@ std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const 
 }
 
 Picture ContactSheet::draw(const Picture& last) const {
-    const Surface page =
-        make_surface(columns_ * (width_ + gap) + gap, rows_ * (height_ + label_ + gap) + gap);
+    const Canvas page = make_surface(columns_ * (width_ + gap) + gap, rows_ * (height_ + label_ + gap) + gap);
     const Context on(cairo_create(page.get()));
     set_colour(on.get(), background_);
     cairo_paint(on.get());

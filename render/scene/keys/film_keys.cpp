@@ -218,7 +218,7 @@ void list_film(Keys& all) {
     scenery_table().list(all, "film");
     list_marks(all);
     list_cut(all);
-    list_walls(all);
+    list_film_walls(all);
     list_camera(all);
     list_segments(all);
     list_captions(all);
@@ -229,7 +229,7 @@ void list_film(Keys& all) {
 void read_film(Document& document, FilmedScene& scene) {
     Film& film = scene.film;
     read_look(document, scene);
-    read_walls(document, scene);
+    read_film_walls(document, scene);
     file_table().read(document, scene, "film", film);
     picture_table().read(document, scene, "film", film);
     settle_film_file(document, scene);
@@ -249,7 +249,7 @@ void write_film(SceneText& out, const FilmedScene& scene) {
     write_look(out, scene);
     write_marks(out, scene);
     write_cut(out, scene);
-    write_walls(out, scene);
+    write_film_walls(out, scene);
     write_shows(out, scene);
     write_camera(out, scene);
     write_segments(out, scene);

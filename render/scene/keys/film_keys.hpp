@@ -23,9 +23,9 @@ void write_look(SceneText& out, const FilmedScene& scene);
 void write_cut(SceneText& out, const FilmedScene& scene);
 
 // How meshes are drawn.
-void list_walls(keys::Keys& all);
-void read_walls(Document& document, FilmedScene& scene);
-void write_walls(SceneText& out, const FilmedScene& scene);
+void list_film_walls(keys::Keys& all);
+void read_film_walls(Document& document, FilmedScene& scene);
+void write_film_walls(SceneText& out, const FilmedScene& scene);
 
 // What is hidden, ringed and written beside the grains; and with what has tables of its own.
 void list_marks(keys::Keys& all);

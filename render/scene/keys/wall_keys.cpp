@@ -53,11 +53,11 @@ const KeyTable<FilmWalls>& walls_table() {
 
 }  // namespace
 
-void list_walls(Keys& all) {
+void list_film_walls(Keys& all) {
     walls_table().list(all, "film.walls");
 }
 
-void read_walls(Document& document, FilmedScene& scene) {
+void read_film_walls(Document& document, FilmedScene& scene) {
     FilmWalls& walls = scene.film.look.walls;
     walls_table().read(document, scene, "film.walls", walls);
     for (const std::string& name : walls.solid)
@@ -66,7 +66,7 @@ void read_walls(Document& document, FilmedScene& scene) {
                           fmt::format("names \"{}\", which 'solid' names too; take one out", excerpt(name)));
 }
 
-void write_walls(SceneText& out, const FilmedScene& scene) {
+void write_film_walls(SceneText& out, const FilmedScene& scene) {
     if (scene.film.look.walls == FilmWalls()) return;
     out.table("film.walls");
     walls_table().write(out, scene, scene.film.look.walls);

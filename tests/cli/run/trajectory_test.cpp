@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <netcdf.h>
 
+#include <array>
 #include <cmath>
 #include <thread>
 
@@ -118,14 +119,14 @@ TEST(Trajectory, ReadsBackWhatWasWritten) {
 TEST(Trajectory, SaysWhereAllBodiesAre) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
-    info.planes = {"paddle", "sieve"};
+    info.bodies = {"paddle", "sieve"};
     Frame frame = made_frame(2, 1);
     for (const double seed : {5.1, 6.2})
         frame.bodies.push_back({vector_of(seed), Quaternion(seed, 1, -2, 0.3).normalized(),
                                 vector_of(2 * seed), vector_of(3 * seed)});
     TrajectoryWriter(here / "t.nc", info).write(frame);
     const TrajectoryReader reader(here / "t.nc");
-    EXPECT_EQ(reader.info().planes, info.planes);
+    EXPECT_EQ(reader.info().bodies, info.bodies);
     expect_same(reader.read(0), frame);
     EXPECT_EQ(reader.read_moment(0).bodies, frame.bodies);
 }
@@ -133,7 +134,7 @@ TEST(Trajectory, SaysWhereAllBodiesAre) {
 TEST(Trajectory, ABodyThatNoRunHasIsDamage) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
-    info.planes = {"paddle"};
+    info.bodies = {"paddle"};
     const auto writes = [&](const BodyPose& pose) {
         Frame frame = made_frame(2, 1);
         frame.bodies.push_back(pose);
@@ -144,6 +145,106 @@ TEST(Trajectory, ABodyThatNoRunHasIsDamage) {
     EXPECT_THROW(writes({Vec3(0, NAN, 0), {1, 0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).read(0), DamagedFrame);
     EXPECT_THROW(writes({Vec3(0, 0, 0), {0.9, 0, 0, 0}, {0, 0, 0}, {0, 0, 0}}).read(0), DamagedFrame);
     EXPECT_THROW(writes({Vec3(0, 0, 0), {1, 0, 0, 0}, {0, 0, 0}, {0, INFINITY, 0}}).read(0), DamagedFrame);
+}
+
+// A tetrahedron and a square of two triangles.
+std::vector<TrajectoryMesh> made_meshes() {
+    return {
+        {2,
+         {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1.0 / 3}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}},
+        {4, {{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}}, {{0, 1, 2}, {0, 2, 3}}}}};
+}
+
+Frame with_bodies(Frame frame, int bodies) {
+    for (int b = 0; b < bodies; ++b)
+        frame.bodies.push_back({vector_of(b + 1), Quaternion(b + 1, 1, -2, 0.3).normalized(),
+                                vector_of(2 * b), vector_of(3 * b)});
+    return frame;
+}
+
+// The shape once, at rest; where it is in every frame.
+TEST(Trajectory, KeepsTheShapesOfMeshes) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(2);
+    info.bodies = {"drum", "plane", "vane"};
+    info.meshes = made_meshes();
+    {
+        TrajectoryWriter writer(here / "t.nc", info);
+        for (const int i : {1, 2}) writer.write(with_bodies(made_frame(2, i), 3));
+    }
+    const TrajectoryReader reader(here / "t.nc");
+    EXPECT_EQ(reader.info().bodies, info.bodies);
+    ASSERT_EQ(reader.info().meshes.size(), 2u);
+    for (std::size_t m = 0; m < 2; ++m) {
+        EXPECT_EQ(reader.info().meshes[m].body, info.meshes[m].body);
+        EXPECT_EQ(reader.info().meshes[m].shape.vertices, info.meshes[m].shape.vertices);
+        EXPECT_EQ(reader.info().meshes[m].shape.triangles, info.meshes[m].shape.triangles);
+    }
+    expect_same(reader.read(1), with_bodies(made_frame(2, 2), 3));
+    EXPECT_FALSE(reader.info().container_turns);
+}
+
+TEST(Trajectory, GoesOnOnlyWithTheSameMeshes) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(2);
+    info.bodies = {"drum", "plane", "vane"};
+    info.meshes = made_meshes();
+    TrajectoryWriter(here / "t.nc", info).write(with_bodies(made_frame(2, 1), 3));
+    EXPECT_TRUE(TrajectoryWriter::goes_on_with(info, here / "t.nc"));
+    info.meshes[0].shape.vertices[3].z() += 1e-12;
+    EXPECT_THROW(TrajectoryWriter::goes_on_with(info, here / "t.nc"), UserError);
+    info.meshes.pop_back();
+    EXPECT_THROW(TrajectoryWriter::goes_on_with(info, here / "t.nc"), UserError);
+}
+
+TEST(Trajectory, SaysHowFarTheContainerHasTurned) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(2);
+    info.container_turns = true;
+    Frame frame = made_frame(2, 1);
+    frame.container().rotation = Quaternion(1, 2, 3, 4).normalized();
+    frame.floor().rotation = Quaternion(4, -3, 2, 1).normalized();
+    frame.container().spin = {1, 2, 3}, frame.floor().spin = {-1, 0.5, 7};
+    TrajectoryWriter(here / "t.nc", info).write(frame);
+    const TrajectoryReader reader(here / "t.nc");
+    EXPECT_TRUE(reader.info().container_turns);
+    expect_same(reader.read(0), frame);
+}
+
+// What is in a file with neither is not changed by what a file may have.
+TEST(Trajectory, AFileWithoutMeshesHasNoneOfTheirVariables) {
+    const TemporaryFolder here;
+    TrajectoryWriter(here / "t.nc", made_info(2)).write(made_frame(2, 1));
+    int file = -1, variable = -1;
+    ASSERT_EQ(nc_open((here / "t.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+    for (const char* name : {"mesh_body", "vertices", "triangles", "wall_rotation", "body_place"})
+        EXPECT_EQ(nc_inq_varid(file, name, &variable), NC_ENOTVAR) << name;
+    nc_close(file);
+}
+
+// A vertex, a count, a corner: each byte of the shapes.
+TEST(Trajectory, DamagedShapesAreRefused) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(2);
+    info.bodies = {"drum", "plane", "vane"};
+    info.meshes = made_meshes();
+    const auto damaged = [&](const char* name, std::size_t at, int to) {
+        TrajectoryWriter(here / "t.nc", info).write(with_bodies(made_frame(2, 1), 3));
+        int file = -1, variable = -1;
+        nc_open((here / "t.nc").c_str(), NC_WRITE, &file);
+        EXPECT_EQ(nc_inq_varid(file, name, &variable), NC_NOERR) << name;
+        const std::size_t second = 0;
+        const std::array<std::size_t, 2> place{at, second};
+        EXPECT_EQ(nc_put_var1_int(file, variable, place.data(), &to), NC_NOERR);
+        nc_close(file);
+        return here / "t.nc";
+    };
+    EXPECT_NO_THROW(TrajectoryReader(damaged("mesh_body", 0, 2)));
+    EXPECT_THROW(TrajectoryReader(damaged("mesh_body", 0, 3)), UserError);
+    EXPECT_THROW(TrajectoryReader(damaged("mesh_vertices", 1, 1000000000)), UserError);
+    EXPECT_THROW(TrajectoryReader(damaged("mesh_triangles", 0, -1)), UserError);
+    EXPECT_THROW(TrajectoryReader(damaged("vertices", 3, 7)), UserError);
+    EXPECT_THROW(TrajectoryReader(damaged("triangles", 2, 3)), UserError);
 }
 
 TEST(Trajectory, GrainsMayComeAndGo) {
@@ -537,6 +638,32 @@ TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
         }
     }
     nc_close(file);
+}
+
+TEST(ContactsFile, HasTheTrianglesOfMeshes) {
+    const TemporaryFolder here;
+    const auto touch = [](std::int32_t grain, std::int32_t triangle) {
+        return ContactRecord{grain, -7, 0.5, vector_of(1), vector_of(2), triangle};
+    };
+    {
+        ContactsWriter writer(here / "c.nc", "A test", "1.2.3", {}, true);
+        writer.write(0, {touch(0, 12), touch(0, 15)});
+    }
+    ContactsWriter(here / "c.nc", 1).write(1, {touch(3, 9), {4, 5, 1, {}, {}}});
+    const ContactsReader reader(here / "c.nc");
+    EXPECT_EQ(reader.touches(0).size(), 2u);  // two parts of one mesh
+    EXPECT_EQ(reader.touches(1).size(), 2u);
+    int file = -1, variable = -1;
+    ASSERT_EQ(nc_open((here / "c.nc").c_str(), NC_WRITE, &file), NC_NOERR);
+    ASSERT_EQ(nc_inq_varid(file, "triangle", &variable), NC_NOERR);
+    std::array<int, 4> triangles{};
+    nc_get_var_int(file, variable, triangles.data());
+    EXPECT_THAT(triangles, testing::ElementsAre(12, 15, 9, -1));
+    const std::size_t row = 2;
+    const int other = 10;
+    nc_put_var1_int(file, variable, &row, &other);
+    nc_close(file);
+    EXPECT_THROW(ContactsReader(here / "c.nc").touches(1), UserError);  // the row's checksum counts it
 }
 
 TEST(ContactsFile, IsReadFrameByFrame) {

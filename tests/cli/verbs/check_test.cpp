@@ -8,6 +8,7 @@
 
 #include <thread>
 
+#include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace test;
 using testing::HasSubstr;
+using testing::Not;
 
 class CheckProgram : public testing::Test {
   protected:
@@ -164,6 +166,40 @@ TEST_F(CheckProgram, KeepsWhatItMeasuredOfTheMachine) {
         EXPECT_EQ(line_with(first.out, line), line_with(second.out, line));
     const Ended nowhere = run_program({"check", scene.string()}, {here.path(), {"XDG_CACHE_HOME=/dev/null"}});
     EXPECT_EQ(nowhere.status, 0) << nowhere.err;
+}
+
+TEST_F(CheckProgram, TellsWhatEachMeshIsAndWhatWasMended) {
+    write_mesh_scene(here.path());
+    const Ended ended = check({"plate.toml"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    for (const char* line :
+         {"plate: plate.stl, ASCII STL, 2 triangles, 200 mm x 200 mm x 0 mm from (-0.1, -0.1, 0) to (0.1, "
+          "0.1, 0) m",
+          "1 solid, open: 4 edges of one triangle alone", "stands still",
+          "paddle: plate.obj, OBJ, 2 triangles, 200 mm x 200 mm x 0 mm", "scaled by 0.001", "mended: ",
+          "turns at 30 rpm about the axis (0, 0, 1) through (0, 0, 0) m, from 0.01 s, begun over 0.02 s",
+          "ball - plate", "ball - paddle"})
+        EXPECT_THAT(ended.out, HasSubstr(line));
+    EXPECT_THAT(ended.out, Not(HasSubstr("ball - wall"))) << "there is none";
+}
+
+// A plate of 200 m beside grains of 10 mm.
+TEST_F(CheckProgram, HintsAtMillimetres) {
+    write_mesh_scene(here.path());
+    const Ended small = check({"plate.toml"});
+    EXPECT_THAT(small.out, Not(HasSubstr("scale = 0.001")));
+    const Ended large = check({"plate.toml", "--set", "mesh.plate.file=plate.obj"});
+    EXPECT_EQ(large.status, 0) << large.err;
+    EXPECT_THAT(large.out + large.err, HasSubstr("scale = 0.001"));
+}
+
+TEST_F(CheckProgram, SetsKeysOfAMeshByNameAndByNumber) {
+    write_mesh_scene(here.path());
+    const Ended ended =
+        check({"plate.toml", "--set", "mesh.paddle.turn.rate=60 rpm", "--set", "mesh.0.scale=0.5"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("turns at 60 rpm"));
+    EXPECT_THAT(ended.out, HasSubstr("plate: plate.stl, ASCII STL, 2 triangles, 100 mm x 100 mm x 0 mm"));
 }
 
 }  // namespace

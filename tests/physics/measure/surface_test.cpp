@@ -35,7 +35,7 @@ SurfaceFrame frame_of(double width, double depth) {
 
 TEST(Surface, FollowsTheTopmostGrains) {
     const auto h = [](double y) { return 10 + 0.1 * y; };
-    const Surface surface = surface_of(bed_of(40, 6, h), frame_of(40, 6));
+    const BedOutline surface = surface_of(bed_of(40, 6, h), frame_of(40, 6));
     ASSERT_EQ(surface.height.size(), 20u);
     EXPECT_NEAR(surface.bin, 2, 1e-12);
     // Of the two stacks in a bin the higher one counts, half a diameter to the right of the bin's middle.
@@ -59,7 +59,7 @@ TEST(Surface, IsThatOfALargeGrainWhereItLies) {
     for (const Place& p : bed_of(40, 6, [](double) { return 10; }))
         if ((p.position - Vec3(0, 0, 10)).norm() > 3.5) grains.push_back(p);
     grains.push_back({{0, 0, 10}, 3});
-    const Surface surface = surface_of(grains, frame_of(40, 6));
+    const BedOutline surface = surface_of(grains, frame_of(40, 6));
     for (std::size_t j = 0; j < 20; ++j) {
         double expected = 0;
         const double y = std::max(0.0, std::abs(surface.place(j)) - 1);  // of the column's nearest edge
@@ -82,7 +82,7 @@ TEST(Surface, HasNoHolesAboveALargeGrain) {
 
 TEST(Surface, FillsBinsWithoutGrainsFromTheNearest) {
     const std::vector<Place> grains{{{0, -9, 3}, 0.5}, {{0, 9, 5}, 0.5}};
-    const Surface surface = surface_of(grains, frame_of(20, 2));
+    const BedOutline surface = surface_of(grains, frame_of(20, 2));
     ASSERT_EQ(surface.height.size(), 10u);
     EXPECT_EQ(surface.height[0], 3.5);
     EXPECT_EQ(surface.height[4], 4.5);
@@ -93,7 +93,7 @@ TEST(Surface, FillsBinsWithoutGrainsFromTheNearest) {
 TEST(Surface, FindsGrainsPastAPeriodicEnd) {
     SurfaceFrame frame = frame_of(20, 4);
     frame.period = 4;
-    const Surface surface = surface_of(std::vector<Place>{{{3, 0, 3}, 0.5}, {{-1, 0, 7}, 0.5}}, frame);
+    const BedOutline surface = surface_of(std::vector<Place>{{{3, 0, 3}, 0.5}, {{-1, 0, 7}, 0.5}}, frame);
     EXPECT_EQ(surface.height[5], 3.5);  // in one column, and the other grain is too far above
 }
 
@@ -146,7 +146,7 @@ TEST(Spectrum, FindsTheWavelengthOfASineSurface) {
     for (const double waves : {2.0, 3.0, 4.5}) {
         for (const double phase : {0.0, 0.7, 1.5, 2.6}) {
             const auto h = [&](double y) { return 12 + 2 * std::sin(2 * pi * waves * y / 90 + phase); };
-            const Surface surface = surface_of(bed_of(90, 4, h), frame_of(90, 4));
+            const BedOutline surface = surface_of(bed_of(90, 4, h), frame_of(90, 4));
             Spectrum spectrum(surface.height.size());
             const DominantWave wave = spectrum.dominant(surface.height, surface.width());
             EXPECT_NEAR(wave.wavelength, 90 / waves, 1e-9) << waves << " " << phase;
@@ -224,8 +224,8 @@ TEST(Subharmonics, OfFlatSurfacesAreUndefined) {
     EXPECT_TRUE(std::isnan(shares_of([](int, int) { return 0.5; }).half));
 }
 
-Surface made(std::size_t bins, double width, const std::function<double(double)>& h) {
-    Surface s{-0.5 * width, width / static_cast<double>(bins), {}};
+BedOutline made(std::size_t bins, double width, const std::function<double(double)>& h) {
+    BedOutline s{-0.5 * width, width / static_cast<double>(bins), {}};
     for (std::size_t i = 0; i < bins; ++i)
         s.height.push_back(h(-0.5 * width + s.bin * (static_cast<double>(i) + 0.5)));
     return s;
@@ -244,7 +244,7 @@ TEST(Mound, OfATentHasItsSlope) {
 // Seven bins that rise as 1, 2 and 4 towards the middle one, which belongs to neither half: slopes are those
 // of three bins each, (4 - 1) / 2.
 TEST(Mound, LeavesTheMiddleBinOut) {
-    Surface s{0, 1, {1, 2, 4, 9, 4, 2, 1}};
+    BedOutline s{0, 1, {1, 2, 4, 9, 4, 2, 1}};
     EXPECT_NEAR(mound_of(s).slope, 1.5, 1e-12);
 }
 

@@ -75,8 +75,7 @@ class Checkpoint final : public FrameArchive {
         frame_.time = clock.time(frame_.step);
         frame_.cycles = clock.cycles(frame_.step);
         frame_.phase = clock.phase(frame_.step);
-        frame_.bodies =
-            poses_of(bodies_of(scene_.drive, scene_.walls), WallMotion(scene_.drive, clock).at(frame_.step));
+        frame_.bodies = poses_of(bodies_of(scene_), WallMotion(scene_.drive, clock).at(frame_.step));
         if (moment_fault(frame_) || grains_fault(frame_, scene_.species.size())) damaged(path);
         moments_ = {moment_of(frame_)};
         world_.most_grains = frame_.size();

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "engine/scene/file/kept_files.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/scene/read_scene.hpp"
@@ -46,6 +47,21 @@ std::string name_of_member(const Study& study, const Member& member, std::uint64
                             study.variations[i].values[member.at[i]].words);
     if (member.seed) name += fmt::format("seed-{}_", *member.seed);
     return fmt::format("{}_{:016x}", file_name_part(name.substr(0, name.size() - 1)), hash);
+}
+
+std::vector<MemberFile> files_of(const Scene& scene) {
+    const Scene kept = naming_kept_files(scene);
+    std::vector<MemberFile> files;
+    const auto add = [&](std::size_t mesh, const char* key, const std::string& from, const std::string& name,
+                         const std::string& hash) {
+        if (from != name) files.push_back({fmt::format("mesh[{}].{}", mesh, key), from, hash});
+    };
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SceneMesh &mesh = scene.meshes[m], &there = kept.meshes[m];
+        add(m, "file", mesh.file, there.file, mesh.hash);
+        add(m, "path", mesh.path_file, there.path_file, mesh.path_hash);
+    }
+    return files;
 }
 
 // Two members that are the same run, at the first value in which they differ.
@@ -96,6 +112,7 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
         if (scene.start.method == Start::Method::file)
             member.sets.push_back("start.file=" +
                                   quoted(std::filesystem::absolute(scene.start.file).string()));
+        member.files = files_of(scene);
         for (std::size_t s = 0; s < study.seed_count(); ++s) {
             Member seeded = member;
             seeded.seed_index = s;

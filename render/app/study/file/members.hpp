@@ -16,12 +16,19 @@ namespace grainreel {
 constexpr std::size_t most_members_unasked = 10'000;
 constexpr std::size_t most_members = 1'000'000;  // about a gigabyte of lists
 
+// A file of a mesh or of a path, which the study keeps.
+struct MemberFile {
+    std::string key;         // of the scene, "mesh[0].file"
+    std::string from, hash;  // where it is, and what is in it
+};
+
 struct Member {
     std::size_t setting = 0;      // of the grid; all its seeds have it
     std::vector<std::size_t> at;  // of each variation, which value
     std::size_t seed_index = 0;
     std::optional<std::uint64_t> seed;
     Assignments sets;  // the study's, the values, where it starts from, the seed
+    std::vector<MemberFile> files;
     // Of its folder: what it is in short, and a hash of its scene with every value as resolved, so that a
     // study that has changed finds the members that have not. The film is left out.
     std::string name;

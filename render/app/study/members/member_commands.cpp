@@ -2,10 +2,14 @@
 
 #include <xxhash.h>
 
+#include <set>
+
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
+#include "engine/files/mesh_copies.hpp"
+#include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel {
 
@@ -14,7 +18,24 @@ std::filesystem::path StudyFolder::scene(const Study& study) const {
     return path / "scenes" / fmt::format("{:016x}", hash) / study.scene.filename();
 }
 
-void make_study_folder(const Study& study, const StudyFolder& folder) {
+namespace {
+
+void keep_files(const std::vector<Member>& members, const StudyFolder& folder) {
+    std::set<std::filesystem::path> kept;
+    for (const Member& member : members) {
+        for (const MemberFile& file : member.files) {
+            const std::filesystem::path copy = folder.copy_of(file);
+            if (!kept.insert(copy).second) continue;
+            std::error_code ignored;
+            std::filesystem::create_directories(copy.parent_path(), ignored);
+            keep_file(file.from, file.hash, copy);
+        }
+    }
+}
+
+}  // namespace
+
+void make_study_folder(const Study& study, const std::vector<Member>& members, const StudyFolder& folder) {
     const std::filesystem::path scene = folder.scene(study);
     std::error_code failure;
     for (const auto& wanted : {folder.path / "members", folder.path / "posters", scene.parent_path()})
@@ -24,6 +45,7 @@ void make_study_folder(const Study& study, const StudyFolder& folder) {
                                     failure.message()));
     replace_file(folder.path / "study.toml", study.text);
     replace_file(scene, study.scene_text);
+    keep_files(members, folder);
 }
 
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
@@ -38,6 +60,10 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
     for (const Assignment& assignment : member.sets) {
         words.push_back("--set");
         words.push_back(assignment.text);
+    }
+    for (const MemberFile& file : member.files) {
+        words.push_back("--set");
+        words.push_back(file.key + "=" + quoted(folder.copy_of(file).string()));
     }
     return words;
 }

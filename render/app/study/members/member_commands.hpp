@@ -17,6 +17,11 @@ struct StudyFolder {
     // still to be run.
     std::filesystem::path scene(const Study& study) const;
 
+    // Likewise of a mesh or a path: two files of one name may lie beside each other.
+    std::filesystem::path copy_of(const MemberFile& file) const {
+        return path / "meshes" / file.hash / std::filesystem::path(file.from).filename();
+    }
+
     std::filesystem::path member(const Member& member) const { return path / "members" / member.name; }
     std::filesystem::path poster(const Member& member) const {
         return path / "posters" / (member.name + ".png");
@@ -25,7 +30,7 @@ struct StudyFolder {
 };
 
 // Makes the folder with all that the commands need. Throws UserError when that cannot be done.
-void make_study_folder(const Study& study, const StudyFolder& folder);
+void make_study_folder(const Study& study, const std::vector<Member>& members, const StudyFolder& folder);
 
 // Runs it on one thread: what was there of it before is replaced.
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,

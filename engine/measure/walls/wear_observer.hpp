@@ -1,0 +1,159 @@
+// What grains do to the surfaces of meshes: the work of impacts and of rubbing on each mesh, and on each of
+// its triangles how hard they press and how they wear it.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/measure/no_value.hpp"
+#include "engine/measure/observer.hpp"
+#include "engine/measure/walls/mesh_wear.hpp"
+#include "engine/state/face_names.hpp"
+
+namespace grainreel::observers {
+
+class Wear final : public Observer {
+  public:
+    static constexpr const char* instrument = "wear";
+
+    static std::vector<ColumnGroup> columns(const Scene& scene) {
+        std::vector<ColumnGroup> groups;
+        for (const std::string& name : mesh_names(scene)) {
+            groups.push_back(
+                {{{name + "_impact_work_J", "impact work on " + name, Dimension::energy}},
+                 "J",
+                 "of a mesh: work of the normal forces while grains come nearer to it, since the "
+                 "drive started"});
+            groups.push_back({{{name + "_shear_work_J", "shear work on " + name, Dimension::energy}},
+                              "J",
+                              "of a mesh: work of the tangential forces, since the drive started"});
+        }
+        return groups;
+    }
+
+    Wear(const Scene& scene, const Plan& plan) : records_(plan.fields), tally_(scene) {
+        const std::vector<std::string> names = mesh_names(scene);
+        for (std::size_t k = 0; k < names.size(); ++k) add_mesh(scene, k, names[k]);
+    }
+
+    bool needs_contacts() const override { return true; }
+    void begin(const Moment&) override { tally_.begin(); }
+    void contact(const Moment& m, const ContactView& c) override { tally_.contact(m, c); }
+    const FieldSet* fields() const override { return areas_.empty() ? nullptr : &set_; }
+    std::int64_t gathers_after(std::int64_t step) const override {
+        return std::min((step + kLookSteps) / kLookSteps * kLookSteps, records_.next_end(step + 1));
+    }
+    void start(const Moment& m) override {
+        step_ = m.step;
+        record_ = {m.step, presses()};
+        record_before_ = {m.step, {}};
+    }
+    void gather(const Moment& m) override {
+        tally_.add(m.clock.step * static_cast<double>(m.step - step_));
+        step_ = m.step;
+        if (!records_.ends_record(m.step)) return;
+        record_before_ = std::move(record_);
+        record_ = {m.step, presses()};
+    }
+    void look(const Moment&, std::vector<double>& row) override {
+        for (const WearSums& mesh : tally_.sums())
+            row.insert(row.end(), {std::accumulate(mesh.impact.begin(), mesh.impact.end(), 0.0),
+                                   std::accumulate(mesh.shear.begin(), mesh.shear.end(), 0.0)});
+    }
+    FieldValues look_at_fields(const Moment& m) override {
+        const Record& from = record_.step < m.step ? record_ : record_before_;
+        const double time = m.clock.step * static_cast<double>(m.step - from.step);
+        FieldValues values;
+        for (std::size_t k = 0; k < areas_.size(); ++k) {
+            const WearSums& sums = tally_.sums()[k];
+            std::vector<double> pressure(areas_[k].size(), kNoValue), wear;
+            for (std::size_t t = 0; t < areas_[k].size(); ++t) {
+                if (!from.press.empty() && time > 0)
+                    pressure[t] = (sums.press[t] - from.press[k][t]) / (time * areas_[k][t]);
+                wear.push_back(sums.shear[t] / areas_[k][t]);
+            }
+            values.push_back(std::move(pressure));
+            values.push_back(std::move(wear));
+        }
+        return values;
+    }
+
+    void save(std::ostream& out) const override { name_all(*this, Writing{out}); }
+    void load(const Moment& m, Bytes& in) override {
+        record_.press.resize(areas_.size());
+        record_before_.press.resize(areas_.size());
+        name_all(*this, Reading{in});
+        const auto fits = [&](const Record& record) {
+            std::vector<WearSums> sums;
+            for (const std::vector<double>& press : record.press) sums.push_back({press, press, press});
+            return tally_.fits(sums);
+        };
+        const bool ended_before = !record_before_.press.empty() && !record_before_.press.front().empty();
+        if (!ended_before) record_before_.press.clear();
+        if (step_ < 0 || step_ > m.step || record_.step > step_ || record_before_.step > record_.step ||
+            record_before_.step < 0 || !tally_.fits(tally_.sums()) || !fits(record_) ||
+            (ended_before && !fits(record_before_)))
+            in.fail();
+    }
+
+  private:
+    // Where a record began: the sums of the normal forces then, of each mesh; none: not known.
+    struct Record {
+        std::int64_t step = 0;
+        std::vector<std::vector<double>> press;  // N s
+    };
+    template <class Self, class Each>
+    static void name_all(Self& self, const Each& each) {
+        each(self.step_);
+        for (auto& mesh : self.tally_.sums()) each(mesh.press), each(mesh.impact), each(mesh.shear);
+        for (auto* record : {&self.record_, &self.record_before_}) {
+            each(record->step);
+            for (std::size_t k = 0; k < self.areas_.size(); ++k) {
+                auto none = std::vector<double>();
+                each(k < record->press.size() ? record->press[k] : none);
+            }
+        }
+    }
+
+    // As face_names() has them, behind those of the faces.
+    static std::vector<std::string> mesh_names(const Scene& scene) {
+        const std::vector<std::string> names = face_names(scene);
+        return {names.end() - static_cast<std::ptrdiff_t>(scene.meshes.size()), names.end()};
+    }
+
+    void add_mesh(const Scene& scene, std::size_t k, const std::string& name) {
+        const Surface& surface = *scene.meshes[k].surface;
+        FieldAxis axis{"triangle_of_" + name, "1", "triangle of the mesh, as trajectory.nc has them", {}};
+        areas_.emplace_back();
+        for (std::int32_t t = 0; t < surface.size(); ++t) {
+            axis.at.push_back(t);
+            areas_.back().push_back(surface.area(t));
+        }
+        set_.axes.push_back(axis);
+        set_.fields.push_back({pressure_field(name),
+                               "pressure on " + scene.meshes[k].name,
+                               "Pa",
+                               "mean normal force over area, of the record",
+                               {axis.name}});
+        set_.fields.push_back({wear_field(name),
+                               "wear of " + scene.meshes[k].name,
+                               "J m-2",
+                               "work of the tangential forces over area, since the drive started until the "
+                               "end of the record",
+                               {axis.name}});
+    }
+    std::vector<std::vector<double>> presses() const {
+        std::vector<std::vector<double>> all;
+        for (const WearSums& mesh : tally_.sums()) all.push_back(mesh.press);
+        return all;
+    }
+
+    const FieldTimes records_;
+    WearTally tally_;
+    FieldSet set_;
+    std::vector<std::vector<double>> areas_;  // m2, of each triangle of each mesh
+    std::int64_t step_ = 0;                   // of the last look
+    Record record_, record_before_;           // where the last two records began
+};
+
+}  // namespace grainreel::observers

@@ -1,0 +1,47 @@
+#include "engine/mesh/edge_table.hpp"
+
+#include <algorithm>
+
+namespace grainreel {
+namespace {
+
+bool before(const EdgeSide& a, const EdgeSide& b) {
+    return a.high != b.high ? a.high < b.high : a.side < b.side;
+}
+
+// Few lie on one vertex as a rule.
+void sort_few(EdgeSide* first, EdgeSide* end) {
+    constexpr std::ptrdiff_t few = 24;
+    if (end - first > few) {
+        std::sort(first, end, before);
+        return;
+    }
+    for (EdgeSide* next = first + 1; next < end; ++next) {
+        const EdgeSide moved = *next;
+        EdgeSide* place = next;
+        for (; place > first && before(moved, place[-1]); --place) *place = place[-1];
+        *place = moved;
+    }
+}
+
+}  // namespace
+
+EdgeTable::EdgeTable(const TriangleMesh& mesh) : begins_(mesh.vertices.size() + 1, 0) {
+    for (const TriangleMesh::Triangle& t : mesh.triangles)
+        for (std::size_t e = 0; e < 3; ++e)
+            ++begins_[static_cast<std::size_t>(std::min(t[e], t[(e + 1) % 3])) + 1];
+    for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+    sides_.resize(3 * mesh.triangles.size());
+    std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
+    std::int32_t side = 0;
+    for (const TriangleMesh::Triangle& t : mesh.triangles)
+        for (std::size_t e = 0; e < 3; ++e, ++side) {
+            const std::int32_t a = t[e], b = t[(e + 1) % 3];
+            sides_[next[static_cast<std::size_t>(std::min(a, b))]++] = {std::max(a, b), side};
+        }
+    for (std::size_t i = 0; i + 1 < begins_.size(); ++i)
+        if (begins_[i + 1] - begins_[i] > 1)
+            sort_few(sides_.data() + begins_[i], sides_.data() + begins_[i + 1]);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,213 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "engine/base/utf8.hpp"
+#include "engine/mesh/file/mesh_bytes.hpp"
+#include "engine/mesh/file/mesh_readers.hpp"
+#include "engine/mesh/file/ply_header.hpp"
+#include "engine/mesh/file/words.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Numbers that are words.
+class AsciiBody {
+  public:
+    AsciiBody(const fs::path& file, const PlyHeader& header)
+        : file_(file), words_(header.body), before_(header.body_line - 1) {}
+
+    double next(PlyType type) {
+        const std::string_view word = words_.next();
+        if (word.empty()) fail("the file ends before all elements that its header names; it is not whole");
+        const std::optional<double> value = number_in(word);
+        if (!value) fail(no_number(word));
+        if (type < PlyType::float32 && *value != std::floor(*value))
+            fail(fmt::format("\"{}\" is not a whole number", excerpt(word)));
+        return *value;
+    }
+    void skip(PlyType) { words_.next(); }  // a nan among normals and colours means nothing
+    // Values of a list that the rest of the file could hold.
+    double most(PlyType) const { return static_cast<double>(words_.left().size()); }
+    [[noreturn]] void fail(const std::string& what) const {
+        refuse_line(file_, before_ + words_.line(), what);
+    }
+
+  private:
+    const fs::path& file_;
+    Words words_;
+    std::int64_t before_;
+};
+
+// Numbers of this machine's byte order, or of the other one.
+class BinaryBody {
+  public:
+    BinaryBody(const fs::path& file, const PlyHeader& header, std::string_view all)
+        : file_(file),
+          all_(all),
+          at_(all.size() - header.body.size()),
+          swapped_(header.form == PlyHeader::Form::big_endian) {}
+
+    double next(PlyType type) {
+        switch (type) {
+            case PlyType::int8:
+                return take<std::int8_t>();
+            case PlyType::uint8:
+                return take<std::uint8_t>();
+            case PlyType::int16:
+                return take<std::int16_t>();
+            case PlyType::uint16:
+                return take<std::uint16_t>();
+            case PlyType::int32:
+                return take<std::int32_t>();
+            case PlyType::uint32:
+                return take<std::uint32_t>();
+            case PlyType::float32:
+                return take<float>();
+            case PlyType::float64:
+                return take<double>();
+        }
+        return 0;
+    }
+    void skip(PlyType type) { next(type); }
+    double most(PlyType type) const { return static_cast<double>((all_.size() - at_) / bytes_of(type)); }
+    [[noreturn]] void fail(const std::string& what) const { refuse_byte(file_, last_, what); }
+
+  private:
+    template <class T>
+    T take() {
+        last_ = at_;
+        if (all_.size() - at_ < sizeof(T))
+            fail("the file ends before all elements that its header names; it is not whole");
+        char bytes[sizeof(T)];
+        std::memcpy(bytes, all_.data() + at_, sizeof bytes);
+        if (swapped_) std::reverse(bytes, bytes + sizeof bytes);
+        at_ += sizeof bytes;
+        T value;
+        std::memcpy(&value, bytes, sizeof value);
+        return value;
+    }
+
+    const fs::path& file_;
+    std::string_view all_;
+    std::size_t at_, last_ = 0;
+    bool swapped_;
+};
+
+template <class Body>
+class Ply {
+  public:
+    Ply(const PlyHeader& header, std::size_t corners, Body body)
+        : header_(header), corners_(corners), body_(std::move(body)) {}
+
+    TriangleMesh read() {
+        for (const PlyElement& element : header_.elements) {
+            if (element.properties.empty()) continue;
+            const bool vertex = &element == header_.element("vertex"),
+                       face = &element == header_.element("face");
+            if (vertex) mesh_.vertices.reserve(element.count);
+            if (face) mesh_.triangles.reserve(element.count);
+            for (std::uint64_t i = 0; i < element.count; ++i) {
+                if (vertex)
+                    read_vertex(element);
+                else
+                    skip_lists_but(element, face ? corners_ : PlyElement::npos);
+            }
+        }
+        return std::move(mesh_);
+    }
+
+  private:
+    void read_vertex(const PlyElement& element) {
+        Vec3 place(0, 0, 0);
+        for (const PlyProperty& property : element.properties) {
+            const bool named = !property.list && property.name.size() == 1;
+            const int k = named ? property.name[0] - 'x' : -1;
+            if (k < 0 || k > 2) {
+                skip(property);
+                continue;
+            }
+            const double value = body_.next(property.type);
+            if (!std::isfinite(value)) body_.fail("a coordinate that is not a finite number");
+            if (std::abs(value) > largest_coordinate) body_.fail(too_far(value));
+            place[k] = value;
+        }
+        mesh_.vertices.push_back(place);
+    }
+
+    void skip_lists_but(const PlyElement& element, std::size_t face) {
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            if (i == face)
+                read_face(element.properties[i]);
+            else
+                skip(element.properties[i]);
+        }
+    }
+
+    std::int64_t length(const PlyProperty& list) {
+        const double count = body_.next(list.count_type);
+        if (!(count >= 0) || count > body_.most(list.type))
+            body_.fail(
+                fmt::format("a list of {:.0f} numbers, which the rest of the file cannot hold", count));
+        return static_cast<std::int64_t>(count);
+    }
+
+    void skip(const PlyProperty& property) {
+        const std::int64_t count = property.list ? length(property) : 1;
+        for (std::int64_t i = 0; i < count; ++i) body_.skip(property.type);
+    }
+
+    void read_face(const PlyProperty& list) {
+        const std::int64_t count = length(list);
+        if (count < 3) body_.fail(fmt::format("a face with {} corners; it must have three", count));
+        const auto vertices = static_cast<double>(header_.element("vertex")->count);
+        std::int32_t first = 0, before = 0;
+        for (std::int64_t i = 0; i < count; ++i) {
+            const double index = body_.next(list.type);
+            if (!(index >= 0 && index < vertices) || index != std::floor(index))
+                body_.fail(
+                    fmt::format("a face names vertex {:g}; they are 0 to {:.0f}", index, vertices - 1));
+            const auto corner = static_cast<std::int32_t>(index);
+            if (i == 0) first = corner;
+            if (i >= 2) mesh_.triangles.push_back({first, before, corner});
+            before = corner;
+        }
+    }
+
+    const PlyHeader& header_;
+    std::size_t corners_;  // which property of a face
+    Body body_;
+    TriangleMesh mesh_;
+};
+
+std::size_t corners_of(const PlyElement& face) {
+    for (const char* name : {"vertex_indices", "vertex_index"}) {
+        const std::size_t place = face.place_of(name);
+        if (place != PlyElement::npos && face.properties[place].list) return place;
+    }
+    return PlyElement::npos;
+}
+
+}  // namespace
+
+TriangleMesh read_ply(const fs::path& file, std::string_view bytes) {
+    const PlyHeader header = ply_header(file, bytes);
+    const PlyElement *const vertex = header.element("vertex"), *const face = header.element("face");
+    if (vertex == nullptr) refuse_mesh(file, "this PLY file has no element vertex");
+    for (const char* name : {"x", "y", "z"})
+        if (vertex->place_of(name) == PlyElement::npos)
+            refuse_mesh(file, fmt::format("the vertices of this PLY file have no property {}", name));
+    if (face == nullptr) refuse_mesh(file, "this PLY file has no element face; write triangles or polygons");
+    const std::size_t corners = corners_of(*face);
+    if (corners == PlyElement::npos)
+        refuse_mesh(file, "the faces of this PLY file have no list vertex_indices");
+    if (header.form == PlyHeader::Form::ascii)
+        return Ply<AsciiBody>(header, corners, AsciiBody(file, header)).read();
+    return Ply<BinaryBody>(header, corners, BinaryBody(file, header, bytes)).read();
+}
+
+}  // namespace grainreel

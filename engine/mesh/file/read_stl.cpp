@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "engine/base/utf8.hpp"
+#include "engine/mesh/file/mesh_bytes.hpp"
+#include "engine/mesh/file/mesh_readers.hpp"
+#include "engine/mesh/file/vertex_pool.hpp"
+#include "engine/mesh/file/words.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t head = 84, row = 50, first_corner = 12;  // bytes; 12: behind the normal
+
+static_assert(std::endian::native == std::endian::little);
+
+// Reads the words of an ASCII STL.
+class AsciiStl {
+  public:
+    AsciiStl(const fs::path& file, std::string_view bytes)
+        : file_(file), words_(bytes), pool_(bytes.size() / fewest_bytes) {}
+
+    TriangleMesh read() {
+        TriangleMesh mesh;
+        for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+            // The rest of these lines is a name, and may be any words.
+            if (same_word(word, "solid") || same_word(word, "endsolid"))
+                words_.skip_line();
+            else if (same_word(word, "facet"))
+                mesh.triangles.push_back(facet());
+            else
+                unexpected(word, "facet");
+        }
+        mesh.vertices = std::move(pool_.vertices());
+        return mesh;
+    }
+
+  private:
+    static constexpr std::size_t fewest_bytes = 100;  // about, of a facet
+
+    [[noreturn]] void unexpected(std::string_view word, const char* wanted) {
+        if (word.empty())
+            refuse_line(file_, words_.line(),
+                        fmt::format("the file ends within a facet, where \"{}\" must stand", wanted));
+        refuse_line(file_, words_.line(),
+                    fmt::format("\"{}\" where \"{}\" must stand", excerpt(word), wanted));
+    }
+    void expect(const char* wanted) {
+        const std::string_view word = words_.next();
+        if (!same_word(word, wanted)) unexpected(word, wanted);
+    }
+
+    TriangleMesh::Triangle facet() {
+        skip_normal();
+        expect("loop");
+        TriangleMesh::Triangle triangle{};
+        for (std::int32_t& corner : triangle) {
+            expect("vertex");
+            Vec3 place;
+            for (int k = 0; k < 3; ++k) place[k] = coordinate();
+            corner = pool_.number_of(place);
+        }
+        const std::string_view word = words_.next();
+        if (same_word(word, "vertex"))
+            refuse_line(file_, words_.line(), "a facet with a fourth corner; write triangles");
+        if (!same_word(word, "endloop")) unexpected(word, "endloop");
+        expect("endfacet");
+        return triangle;
+    }
+
+    // Whatever stands there; "nan" as a rule where the triangle has no area.
+    void skip_normal() {
+        std::string_view word = words_.next();
+        while (!same_word(word, "outer")) {
+            if (word.empty() || same_word(word, "vertex") || same_word(word, "facet"))
+                unexpected(word, "outer");
+            word = words_.next();
+        }
+    }
+
+    double coordinate() {
+        const std::string_view word = words_.next();
+        const std::optional<double> value = number_in(word);
+        if (!value) refuse_line(file_, words_.line(), no_number(word));
+        if (std::abs(*value) > largest_coordinate) refuse_line(file_, words_.line(), too_far(*value));
+        return *value;
+    }
+
+    const fs::path& file_;
+    Words words_;
+    VertexPool pool_;
+};
+
+Vec3 corner_at(const fs::path& file, std::string_view bytes, std::size_t at) {
+    float values[3];
+    std::memcpy(values, bytes.data() + at, sizeof values);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t byte = at + k * sizeof(float);
+        if (!std::isfinite(values[k])) refuse_byte(file, byte, "a coordinate that is not a finite number");
+        if (std::abs(values[k]) > largest_coordinate) refuse_byte(file, byte, too_far(values[k]));
+    }
+    return Vec3(values[0], values[1], values[2]);
+}
+
+}  // namespace
+
+TriangleMesh read_binary_stl(const fs::path& file, std::string_view bytes) {
+    const std::size_t count = (bytes.size() - head) / row;
+    VertexPool pool(count);
+    TriangleMesh mesh;
+    mesh.triangles.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            mesh.triangles[i][k] =
+                pool.number_of(corner_at(file, bytes, head + i * row + (k + 1) * first_corner));
+    mesh.vertices = std::move(pool.vertices());
+    return mesh;
+}
+
+TriangleMesh read_ascii_stl(const fs::path& file, std::string_view bytes) {
+    return AsciiStl(file, bytes).read();
+}
+
+}  // namespace grainreel

@@ -1,0 +1,107 @@
+#include "engine/mesh/file/words.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/utf8.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr bool is_end(char c) {
+    return c == '\n' || c == '\r';
+}
+constexpr bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
+// from_chars says of 1e-400 and of 1e400 alike that they are out of range.
+bool is_tiny(std::string_view word) {
+    const std::size_t exponent = word.find_first_of("eE");
+    if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
+    const std::size_t digit = word.find_first_not_of("-0");
+    return digit != std::string_view::npos && word[digit] == '.';
+}
+
+std::string_view without_plus(std::string_view word) {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+    return word;
+}
+
+}  // namespace
+
+void Words::end_line() {
+    left_.remove_prefix(left_.starts_with("\r\n") ? 2 : 1);
+    ++line_;
+}
+
+std::string_view Words::take_word() {
+    std::size_t size = 0;
+    while (size < left_.size() && !is_blank(left_[size]) && !is_end(left_[size])) ++size;
+    const std::string_view word = left_.substr(0, size);
+    left_.remove_prefix(size);
+    return word;
+}
+
+std::string_view Words::next() {
+    while (!left_.empty() && (is_blank(left_[0]) || is_end(left_[0]))) {
+        if (is_end(left_[0]))
+            end_line();
+        else
+            left_.remove_prefix(1);
+    }
+    return take_word();
+}
+
+std::string_view Words::next_in_line() {
+    while (!left_.empty() && is_blank(left_[0])) left_.remove_prefix(1);
+    return take_word();
+}
+
+void Words::skip_line() {
+    std::size_t size = 0;
+    while (size < left_.size() && !is_end(left_[size])) ++size;
+    left_.remove_prefix(size);
+    if (!left_.empty()) end_line();
+}
+
+bool same_word(std::string_view word, std::string_view lower_case) {
+    if (word.size() != lower_case.size()) return false;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const char c = word[i];
+        if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c) != lower_case[i]) return false;
+    }
+    return true;
+}
+
+std::optional<double> number_in(std::string_view word) {
+    word = without_plus(word);
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (word.empty() || end != word.data() + word.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range && is_tiny(word)) return 0.0;
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<std::int64_t> whole_in(std::string_view word) {
+    word = without_plus(word);
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (word.empty() || error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    return value;
+}
+
+std::string no_number(std::string_view word) {
+    if (word.empty()) return "a number is missing";
+    return fmt::format("\"{}\" is not a finite number", excerpt(word));
+}
+
+std::string too_far(double coordinate) {
+    return fmt::format("a coordinate of {:g}; the largest that is taken is {:g}", coordinate,
+                       largest_coordinate);
+}
+
+}  // namespace grainreel

@@ -1,0 +1,48 @@
+// The words of a text file, with the line in which each stands, and numbers read from them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace grainreel {
+
+// Lines end with LF, CRLF or CR.
+class Words {
+  public:
+    explicit Words(std::string_view text) : left_(text) {}
+
+    // The next word, over the ends of lines too; empty at the end of the text.
+    std::string_view next();
+    // The next word of this line; empty at its end.
+    std::string_view next_in_line();
+    // The rest of this line; the next word is then the first one of the next line.
+    void skip_line();
+    // Of the last word.
+    std::int64_t line() const { return line_; }
+    bool at_end() const { return left_.empty(); }
+    std::string_view left() const { return left_; }
+
+  private:
+    void end_line();
+    std::string_view take_word();
+
+    std::string_view left_;
+    std::int64_t line_ = 1;
+};
+
+bool same_word(std::string_view word, std::string_view lower_case);
+
+// A finite number, all of the word. "+1.5" and 1e-400 are numbers; nan, inf, "-1.#IND" and 1e400 are none.
+std::optional<double> number_in(std::string_view word);
+std::optional<std::int64_t> whole_in(std::string_view word);
+
+// Why a word is no coordinate: "\"nan\" is not a finite number".
+std::string no_number(std::string_view word);
+
+// The largest coordinate that is taken, in the file's unit.
+inline constexpr double largest_coordinate = 1e15;
+std::string too_far(double coordinate);
+
+}  // namespace grainreel

@@ -1,0 +1,120 @@
+#include "engine/scene/chapters/mesh_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/mesh/load_mesh.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The last few things made, each known by its hash.
+template <class T, std::size_t Most>
+class LastMade {
+  public:
+    template <class Make>
+    std::shared_ptr<const T> with(const std::string& hash, const Make& make) {
+        const std::lock_guard guard(lock_);
+        const auto found =
+            std::find_if(made_.begin(), made_.end(), [&](const auto& one) { return one->hash() == hash; });
+        if (found != made_.end()) return *found;
+        made_.push_back(make());
+        if (made_.size() > Most) made_.pop_front();
+        return made_.back();
+    }
+
+  private:
+    std::mutex lock_;
+    std::deque<std::shared_ptr<const T>> made_;
+};
+
+constexpr std::size_t kSurfaces = 8;
+
+bool is_shipped(const fs::path& file) {
+    return file.filename().string().starts_with("shipped:");
+}
+
+std::string hash_with_placement(const SceneMesh& mesh) {
+    const Vec3 &p = mesh.position, &a = mesh.rotation.axis;
+    return fmt::format("{} {} {} {} {} {} {} {} {}", mesh.hash, mesh.scale, p.x(), p.y(), p.z(), a.x(), a.y(),
+                       a.z(), mesh.rotation.angle);
+}
+
+// The hash that a scene says, as a run's scene does, is that of the file.
+void check_hash(const Document& document, const std::string& key, const std::string& file,
+                const std::string& said, const std::string& found) {
+    if (said.empty() || said == found) return;
+    document.fail(key, fmt::format("names {}, which is another file now: its hash is {}, but it was {}; put "
+                                   "the file back as it was, or start anew without the hash",
+                                   excerpt(file, kLongestPath), found, said));
+}
+
+// What a reader of files says, at the place of the key that names the file.
+template <class Read>
+auto at_key(const Document& document, const std::string& key, const Read& read) {
+    try {
+        return read();
+    } catch (const UserError& error) {
+        document.fail(key, fmt::format("names a file that cannot be used: {}", error.what()));
+    }
+}
+
+}  // namespace
+
+std::string named_file(Document& document, const Scene& scene, const std::string& path) {
+    const fs::path file = document.required_text(path);
+    if (file.empty()) document.fail(path, "is empty; write the name of a file");
+    if (is_shipped(file)) return file.filename().string();
+    const fs::path folder = fs::absolute(fs::path(scene.file)).parent_path().lexically_normal();
+    if (const std::string wrong = complaint_of_utf8((folder / file).string()); !wrong.empty())
+        document.fail(path, fmt::format("lies at {}; rename the folder", wrong));
+    std::error_code ignored;
+    const bool of_checkpoint = fs::path(scene.file).extension() == ".grs";
+    constexpr int most_above = 2;
+    fs::path from = folder;
+    for (int above = 0; above <= (of_checkpoint ? most_above : 0); ++above, from = from.parent_path())
+        if (fs::exists(from / file, ignored)) return (from / file).lexically_normal().string();
+    document.fail(path, fmt::format("names {}, which does not exist; {}",
+                                    excerpt((folder / file).lexically_normal().string(), kLongestPath),
+                                    of_checkpoint ? "keep a checkpoint in the folder of its run"
+                                                  : "a relative path counts from the scene's folder"));
+}
+
+void load_surface(const Document& document, const std::string& table, SceneMesh& mesh) {
+    static LastMade<Surface, kSurfaces> surfaces;
+    const std::string key = table + ".file";
+    const std::string said = mesh.hash;
+    mesh.hash = at_key(document, key, [&] { return hash_of_file(mesh.file); });
+    check_hash(document, key, mesh.file, said, mesh.hash);
+    mesh.surface.of = surfaces.with(hash_with_placement(mesh), [&] {
+        return at_key(document, key, [&] {
+            LoadedMesh loaded = load_mesh(mesh.file, {mesh.scale, mesh.position, mesh.rotation.quaternion()});
+            return std::make_shared<const Surface>(std::move(loaded.mesh), std::move(loaded.facts),
+                                                   hash_with_placement(mesh));
+        });
+    });
+}
+
+void load_path(const Document& document, const std::string& table, SceneMesh& mesh) {
+    if (mesh.path_file.empty()) return;
+    const std::string key = table + ".path", said = mesh.path_hash;
+    mesh.path.of = at_key(document, key, [&] { return MotionPath::read(mesh.path_file, mesh.position); });
+    mesh.path_hash = mesh.path->hash();
+    check_hash(document, key, mesh.path_file, said, mesh.path_hash);
+}
+
+std::shared_ptr<const EnclosedRoom> room_of(const std::shared_ptr<const Surface>& surface) {
+    static LastMade<EnclosedRoom, 1> rooms;
+    return rooms.with(surface->hash(), [&] { return std::make_shared<const EnclosedRoom>(surface); });
+}
+
+}  // namespace grainreel

@@ -1,0 +1,218 @@
+#include "engine/scene/motion/path_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "engine/base/byte_order_mark.hpp"
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/utf8.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::size_t fewest_rows = 4;
+constexpr double off_unit = 0.01;  // that the length of a quaternion may differ from 1, being rounded
+
+// Its columns, each by the names that a file may give it.
+enum Column { of_time, of_x, of_y, of_z, of_qw, of_qx, of_qy, of_qz, columns };
+const std::array<std::vector<std::string_view>, columns> column_names{
+    {{"time_s", "t", "time"}, {"x_m", "x"}, {"y_m", "y"}, {"z_m", "z"}, {"qw"}, {"qx"}, {"qy"}, {"qz"}}};
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r\"";
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+    std::vector<std::string_view> cells;
+    for (;;) {
+        const std::size_t comma = line.find(',');
+        cells.push_back(trimmed(line.substr(0, comma)));
+        if (comma == std::string_view::npos) return cells;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+class PathReader {
+  public:
+    explicit PathReader(const std::filesystem::path& file) : name_(file.string()) {
+        if (const std::string other = other_than_file(file, true); !other.empty())
+            throw UserError(fmt::format("{}: is {}, not a path's file (.csv)", name_, other));
+        std::ifstream in = read_plain(file);
+        if (!in)
+            throw UserError(fmt::format(
+                "{}: there is no such file, or it cannot be read; give a path's file (.csv)", name_));
+        for (std::string line; std::getline(in, line);) {
+            ++line_;
+            if (line_ == 1) drop_byte_order_mark(line);
+            const std::string_view text = trimmed(line);
+            if (text.empty() || text.front() == '#') continue;
+            header_ == 0 ? take_header(text) : take_row(text);
+        }
+        check_whole();
+    }
+
+    PathRows rows;
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const { fail_at(line_, what); }
+    [[noreturn]] void fail_at(int line, const std::string& what) const {
+        throw UserError(fmt::format("{}:{}: {}", name_, line, what));
+    }
+
+    void take_header(std::string_view line) {
+        header_ = line_;
+        const std::vector<std::string_view> cells = cells_of(line);
+        width_ = cells.size();
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            const auto found = std::find_if(column_names.begin(), column_names.end(), [&](const auto& names) {
+                return std::find(names.begin(), names.end(), cells[c]) != names.end();
+            });
+            if (found == column_names.end())
+                fail(
+                    fmt::format("the column \"{}\" means nothing in a path; the first line must name its "
+                                "columns: time_s, x_m, y_m, z_m and, if it turns, qw, qx, qy, qz",
+                                excerpt(cells[c])));
+            const auto column = static_cast<std::size_t>(found - column_names.begin());
+            if (at_[column] >= 0) fail(fmt::format("there are two columns \"{}\"; take one out", cells[c]));
+            at_[column] = static_cast<int>(c);
+        }
+        turns_ = std::any_of(at_.begin() + of_qw, at_.end(), [](int at) { return at >= 0; });
+        for (std::size_t column = 0; column < (turns_ ? columns : of_qw); ++column)
+            if (at_[column] < 0)
+                fail(
+                    fmt::format("lacks the column \"{}\"; a path has time_s, x_m, y_m, z_m and, if it "
+                                "turns, qw, qx, qy, qz",
+                                column_names[column].front()));
+    }
+
+    double number(const std::vector<std::string_view>& cells, Column column) const {
+        std::string_view cell = cells[static_cast<std::size_t>(at_[column])];
+        const std::string_view shown = cell;
+        if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
+        double value = 0;
+        const char* const end = cell.data() + cell.size();
+        const auto read = std::from_chars(cell.data(), end, value);
+        if (cell.empty() || read.ptr != end || read.ec != std::errc() || !std::isfinite(value))
+            fail(fmt::format("\"{}\" in the column {} is no finite number; correct it or remove the row",
+                             excerpt(shown), column_names[column].front()));
+        return value;
+    }
+
+    void take_row(std::string_view line) {
+        const std::vector<std::string_view> cells = cells_of(line);
+        if (cells.size() != width_)
+            fail(fmt::format("has {} values, but line {} names {} columns; is the file cut off?",
+                             cells.size(), header_, width_));
+        const double time = number(cells, of_time);
+        if (!rows.times.empty() && !(time > rows.times.back()))
+            fail(
+                fmt::format("the time is {:.9g} s, not later than {:.9g} s in line {}; sort the rows, and "
+                            "remove those of equal times",
+                            time, rows.times.back(), rows.lines.back()));
+        rows.lines.push_back(line_);
+        rows.times.push_back(time);
+        rows.places.emplace_back(number(cells, of_x), number(cells, of_y), number(cells, of_z));
+        if (turns_) take_turn(cells);
+    }
+
+    // q and -q are the same rotation: that which is nearer to the row before.
+    void take_turn(const std::vector<std::string_view>& cells) {
+        Eigen::Vector4d turn(number(cells, of_qw), number(cells, of_qx), number(cells, of_qy),
+                             number(cells, of_qz));
+        const double length = turn.norm();
+        if (std::abs(length - 1) > off_unit)
+            fail(
+                fmt::format("qw, qx, qy, qz have the length {:.6g}, and a rotation has 1; write 1, 0, 0, 0 "
+                            "for none",
+                            length));
+        turn /= length;
+        if (!rows.turns.empty() && turn.dot(rows.turns.back()) < 0) turn = -turn;
+        rows.turns.push_back(turn);
+    }
+
+    void check_whole() const {
+        if (header_ == 0) fail_at(1, "is empty; write time_s, x_m, y_m, z_m, and rows below");
+        if (rows.times.size() < fewest_rows)
+            fail(fmt::format("the path ends after {} rows, and {} are the fewest; add rows",
+                             rows.times.size(), fewest_rows));
+        if (rows.times.front() > 0)
+            fail_at(rows.lines.front(),
+                    fmt::format("the path begins at {:.6g} s, but the run begins at 0 s; add a row of time 0",
+                                rows.times.front()));
+        check_places();
+        check_turns();
+    }
+
+    double step(std::size_t i) const { return (rows.places[i + 1] - rows.places[i]).norm(); }
+    double speed(std::size_t i) const { return step(i) / (rows.times[i + 1] - rows.times[i]); }
+
+    [[noreturn]] void fail_for_jump(std::size_t to) const {
+        fail_at(
+            rows.lines[to],
+            fmt::format("the path jumps by {:.4g} m within {:.4g} s, more than 20 times as fast as before "
+                        "and after; correct the row, or add rows in between where that is meant",
+                        step(to - 1), rows.times[to] - rows.times[to - 1]));
+    }
+
+    // Motions that are sampled well have no step that is alone so fast.
+    void check_places() const {
+        constexpr double share = 0.05, faster = 20;
+        const std::size_t steps = rows.places.size() - 1;
+        Vec3 low = rows.places.front(), high = low;
+        for (const Vec3& place : rows.places) low = low.cwiseMin(place), high = high.cwiseMax(place);
+        const double size = (high - low).norm();
+        // The fastest of the steps beside those from `first` to `last`.
+        const auto beside = [&](std::size_t first, std::size_t last) {
+            return std::max(first > 0 ? speed(first - 1) : 0.0, last + 1 < steps ? speed(last + 1) : 0.0);
+        };
+        constexpr std::size_t enough = 8;  // fewer rows were written by hand, and each is meant
+        if (rows.places.size() < enough) return;
+        for (std::size_t i = 0; i < steps; ++i) {
+            if (step(i) <= share * size) continue;
+            if (speed(i) > faster * beside(i, i)) fail_for_jump(i + 1);
+            if (i + 1 == steps || step(i + 1) <= share * size) continue;
+            const double back = (rows.places[i + 2] - rows.places[i]).norm();
+            if (back < 0.2 * step(i) && std::min(speed(i), speed(i + 1)) > faster * beside(i, i + 1))
+                fail_for_jump(i + 1);
+        }
+    }
+
+    void check_turns() const {
+        constexpr double most = 2;  // rad, from row to row
+        for (std::size_t i = 1; i < rows.turns.size(); ++i) {
+            const double angle = 2 * std::acos(std::min(1.0, rows.turns[i].dot(rows.turns[i - 1])));
+            if (angle > most)
+                fail_at(rows.lines[i],
+                        fmt::format("the path turns by {:.4g} rad since line {}, which might go either way "
+                                    "round; add rows in between",
+                                    angle, rows.lines[i - 1]));
+        }
+    }
+
+    std::string name_;
+    int line_ = 0, header_ = 0;
+    std::size_t width_ = 0;
+    std::array<int, columns> at_{-1, -1, -1, -1, -1, -1, -1, -1};
+    bool turns_ = false;
+};
+
+}  // namespace
+
+PathRows read_path_rows(const std::filesystem::path& file) {
+    return std::move(PathReader(file).rows);
+}
+
+}  // namespace grainreel

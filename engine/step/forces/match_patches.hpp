@@ -1,0 +1,58 @@
+// Which patch of a mesh goes on with which contact of the step before.
+//
+// A contact goes on with the patch that has its triangle, unless the normal has jumped; else with the patch
+// whose normal is nearest to its own. Where two contacts would go on with one patch, the one with the larger
+// force does. What is left over are new contacts; each takes the lowest number that is free. All this depends
+// on the grain alone, and not on threads, nor on the order of the table.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/step/forces/force_input.hpp"
+#include "engine/step/geometry/patches.hpp"
+#include "engine/step/lists/mesh_near.hpp"
+
+namespace grainreel {
+
+// A patch that a grain touches now.
+struct MatchedPatch {
+    std::int32_t number;  // of the grain's patches of this mesh, below kMostPatches
+    bool goes_on;         // with the contact of this number
+    MeshTouch touch;
+};
+
+class PatchMatcher {
+  public:
+    // Finds all patches that a grain touches, and their contacts. None is touched in most cases, which costs
+    // next to nothing. Valid until the next call.
+    const std::vector<MatchedPatch>& match(const ForceInput& in, const std::vector<MeshWall>& meshes,
+                                           const ContactGroup& group, const MeshNear& near,
+                                           const MeshLists& lists, const ContactTable& table);
+    // What is wrong with the grain that was asked for last, if anything is.
+    const std::optional<MeshFault>& fault() const { return fault_; }
+
+  private:
+    // A contact that touched in the last step.
+    struct Before {
+        std::int32_t number, triangle;
+        Vec3 normal;
+        double force;
+    };
+    void find_before(const ContactGroup& group, const MeshNear& near, const ContactTable& table);
+    void find_owners();
+    int patch_of(const Before& before) const;
+    void look_for_faults(const ForceInput& in, const MeshNear& near, const WallPose& pose);
+    void put_together(std::int32_t wall);
+
+    Patches patches_;
+    std::vector<Vec3> normals_;  // of the patches, in the frame of the scene
+    std::vector<Before> before_;
+    std::array<int, kMostPatches> owner_{};  // of each patch: which of before_; -1 for none
+    std::vector<MatchedPatch> matched_;
+    std::optional<MeshFault> fault_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,67 @@
+// Where a grain touches a mesh: once for each patch of surface that hangs together within its reach, whatever
+// the triangles.
+//
+// A triangle touches when its nearest point is closer to the grain's centre than the radius. Touching
+// triangles are of one patch if they meet in an edge that is flat, smooth or convex, seen from the centre, or
+// in their nearest point. The patch is touched at its nearest point, if that is a local minimum of the
+// distance to the surface: on a face always; on an edge or corner, if no triangle that meets there is nearer.
+// So a ball in a groove has two contacts, and a ball on one wall of it has none with the groove's edge.
+//
+// All is in the body's frame and in doubles. The answer does not depend on the order of the triangles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/mesh/surface.hpp"
+
+namespace grainreel {
+
+struct Patch {
+    std::int32_t triangle;  // that has the nearest point; of equals a face before an edge before a corner,
+                            // and then the lowest
+    Vec3 at;          // m, the nearest point
+    Vec3 normal;      // unit, from the centre to it
+    double distance;  // m, of the centre; 0 where the centre lies in the surface, and `normal` is that of
+                      // the triangle
+};
+
+class Patches {
+  public:
+    // Forgets the last grain. Call add() for each triangle that may touch, in any order, then find().
+    void begin(const Surface& surface, const Vec3& centre, double radius);
+    void add(std::int32_t triangle);
+    void find();
+
+    // By rising triangle.
+    const std::vector<Patch>& all() const { return patches_; }
+    // The number of the patch that a triangle is of; -1: it does not touch, or its patch does not.
+    int holder_of(std::int32_t triangle) const;
+
+  private:
+    struct Touching {
+        std::int32_t triangle;
+        int group;     // another of its group, or itself
+        double plane;  // m, of the centre from the triangle's plane, positive on the normal's side
+        NearestPoint nearest;
+        int patch = -1;
+    };
+    int place_of(std::int32_t triangle) const;
+    int group_of(int t);
+    void join(int one, int other);
+    void join_over_edges(int t);
+    bool is_one_patch_over(int t, int edge, int other) const;
+    bool is_minimum(int t);
+    bool comes_before(const Touching& one, const Touching& other, double least) const;
+    void add_patch(int group, int best);
+
+    const Surface* surface_ = nullptr;
+    Vec3 centre_{0, 0, 0};
+    double squared_reach_ = 0;        // m2
+    std::vector<Touching> touching_;  // by rising triangle, once they are found
+    std::vector<int> best_;           // of each group, by its first member
+    std::vector<double> least_;       // m2, likewise
+    std::vector<Patch> patches_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,46 @@
+// Contacts of grains with points of walls that move in different ways: with meshes, and with faces of bodies
+// that turn. They are computed one by one, in doubles. Walls whose points all move alike take the vector code
+// of wall_geometry.cpp.
+//
+// What a law reads is at the time levels of turn-inl.hpp: overlap and normal of the step's end, velocities
+// and turn over the step. The wall's velocity is the way of its material point in the step over the step, and
+// the old normal is known. So a grain that turns with its wall as one body does not slip.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/step/geometry/contact_geometry.hpp"
+
+namespace grainreel {
+
+// The point of a wall that is nearest to a grain's centre.
+struct WallPoint {
+    Vec3 normal{0, 0, 0};         // unit, from the grain's centre to the point; unset where they do not touch
+    Vec3 normal_before{0, 0, 0};  // a step ago; zero where they did not touch then
+    double distance = 0;          // m, of the centre
+    Vec3 velocity{0, 0, 0};       // m/s, of the wall's point, mean over the step
+    Vec3 spin{0, 0, 0};           // rad/s, of the wall, likewise
+};
+
+// Fills the rows of contact c that `in` asks for, and sets its bit where it touches. Before the first contact
+// of a chunk, `touching` must be 0. set_apart() is for a contact that does not touch.
+void touch_point(const GeometryInput& in, int c, const WallPoint& point, TouchChunk& out);
+void set_apart(const GeometryInput& in, int c, TouchChunk& out);
+
+// As touch_walls(), where a face's body turns. No face ends there.
+void touch_turning_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
+
+// A place at which a grain touches a mesh, as found in this step.
+struct MeshTouch {
+    std::int32_t wall = -1;  // its number behind the faces; -1: does not touch
+    std::int32_t triangle = 0;
+    double distance = 0;          // m, of the grain's centre
+    Vec3 at{0, 0, 0};             // m, in the body's frame
+    Vec3 normal{0, 0, 0};         // unit, from the centre to the place
+    Vec3 normal_before{0, 0, 0};  // as the contact remembers it; zero for a new contact
+};
+
+// As touch_walls(); `at` are the places of the contacts. Their second bodies are not read.
+void touch_meshes(const GeometryInput& in, const MeshTouch* at, const WallState& walls, TouchChunk& out);
+
+}  // namespace grainreel

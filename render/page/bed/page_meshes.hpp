@@ -1,0 +1,51 @@
+// Meshes of a scene as the page carries them: each shape once, at rest. Where it is at a moment say the
+// bodies of the frames.
+//
+// The bytes, before they are packed, are for each mesh of V vertices, T triangles and E edges, little-endian:
+//   x, y and z of the vertices, each as V low bytes and V high bytes of a zigzag difference from the vertex
+//   before (from 0 at first), in 65535ths of the mesh's box;
+//   the three corners of triangles, each as T low, T middle and T high bytes of a zigzag difference from the
+//   triangle before; the two ends of edges likewise, E bytes each.
+// The first triangles are solid wherever they are seen from, the `glass` ones behind them glass. The `sided`
+// last ones are solid on the side of their normal and glass on the other one.
+// render/page/html/meshes.js reads them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/scene.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+struct PageMesh {
+    std::int32_t body = 0;  // engine/state/body.hpp
+    std::string name;
+    std::size_t vertices = 0, triangles = 0, glass = 0, sided = 0, edges = 0;
+    std::size_t all_triangles = 0;     // of the scene's mesh
+    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, the box that 16 bits span
+    bool whole() const { return triangles == all_triangles; }
+};
+
+struct PageMeshes {
+    std::vector<PageMesh> meshes;      // one without triangles is left out of the page
+    std::vector<std::uint8_t> packed;  // in zlib's format; empty without any
+    // Sentences on meshes that are thinned or left out.
+    std::vector<std::string> notes() const;
+};
+
+constexpr std::size_t kMostTrianglesOnPage = 60000;
+
+// In so many packed bytes at most, all together. Solid and glass are as the film has them.
+PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes,
+                       std::size_t most_triangles = kMostTrianglesOnPage);
+
+// Makes the box hold the meshes at these moments.
+void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& moments);
+
+}  // namespace grainreel

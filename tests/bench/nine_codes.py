@@ -1,0 +1,329 @@
+#!/usr/bin/env python3
+"""Our program on the task that nine codes were given, beside what two of them published.
+
+    tests/bench/nine_codes.py PROGRAM DATA CASE [--until SECONDS] [--threads N] [--out FOLDER]
+
+Dosta et al. 2024, Comput. Phys. Commun. 296, 109066. DATA is a folder with the paper's inputs and results: mercury/
+(grains), stl/ (walls) and results/ (CSV). CASE is one of
+
+    impact      a steel ball of 20 mm falls into 25,000 grains of 2 mm; to 0.03 s
+    drum        8,000 grains of 4 mm under 30,000 of 2 mm in a drum; to 1 s
+    drum_soft   the same with a five hundredth of the stiffness and a step of 0.1 ms; to 5 s
+    silo        100,000 grains of 4 mm run out of a silo through its large orifice; to 1.5 s
+
+Each writes its input and its run into FOLDER/CASE, prints what is compared and its tolerance, and writes CASE.csv with our
+curve and, where gnuplot is, CASE.svg with all three. A run that is there already is compared again without being run.
+Exit status: 0 within the tolerances, 1 outside, 2 a mistake.
+"""
+import argparse
+import csv
+import json
+import lzma
+import math
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "phenomena"))
+from fields import Fields  # noqa: E402
+
+POISSON = 0.2
+# E (Pa) and density (kg/m3); restitution and friction of each pair.
+MATERIALS = {"M1": (1e9, 2500), "M2": (0.5e9, 2000), "steel": (210e9, 7200)}
+PAIRS = {("M1", "M1"): (0.5, 0.3), ("M1", "M2"): (0.45, 0.2), ("M2", "M2"): (0.4, 0.4),
+         ("M1", "steel"): (0.4, 0.2), ("M2", "steel"): (0.4, 0.2)}
+FLOOR = -0.0902431  # m, of the box of the impact
+ORIFICE = -0.0554222  # m, of the silo
+GRAINS_OF_SILO = 100000
+
+
+def modulus(a, b, softer):
+    """E* of two materials, all grains softer by a factor; 1/E* = sum of (1 - nu^2) / E."""
+    return 1 / sum((1 - POISSON**2) / (MATERIALS[m][0] * (softer if m != "steel" else 1)) for m in (a, b))
+
+
+def numbers(a, b, softer):
+    restitution, friction = PAIRS.get((a, b)) or PAIRS[b, a]
+    return f"restitution = {restitution}\nfriction = {friction}\nmodulus = {modulus(a, b, softer):.8g}\n"
+
+
+def contacts(species, wall, softer=1.0):
+    """[contact] and the pairs: Hertz with a dashpot that may pull, as in LIGGGHTS and MUSEN, and Mindlin with history.
+
+    species: names with their materials; wall: what [[contact.pair]] calls the steel wall.
+    """
+    text = (f"[contact]\nlaw = \"hertz\"\nattraction = true\n"
+            f"tangential_ratio = {2 * (1 - POISSON) / (2 - POISSON):.10g}\n")
+    first = next(iter(species.values()))
+    text += numbers(first, first, softer)
+    names = list(species)
+    for i, a in enumerate(names):
+        for b in names[i:]:
+            if "steel" in (species[a], species[b]) and species[a] == species[b]:
+                continue  # one ball meets no other
+            text += f"[[contact.pair]]\nbetween = [\"{a}\", \"{b}\"]\n" + numbers(species[a], species[b], softer)
+        if species[a] != "steel":
+            text += f"[[contact.pair]]\nbetween = [\"{a}\", \"{wall}\"]\n" + numbers(species[a], "steel", softer)
+    return text
+
+
+def species_table(name, material, count, diameter):
+    return (f"[[species]]\nname = \"{name}\"\ncount = {count}\ndiameter = {diameter}\n"
+            f"density = {MATERIALS[material][1]}\n")
+
+
+def write_table(file, rows):
+    """Rows of (type, radius, x, y, z, velocity along z)."""
+    with open(file, "w") as out:
+        out.write("id,type,radius,x,y,z,vx,vy,vz,wx,wy,wz\n")
+        for i, (kind, radius, x, y, z, fall) in enumerate(rows):
+            out.write(f"{i},{kind},{radius:.17g},{x:.17g},{y:.17g},{z:.17g},0,0,{fall:g},0,0,0\n")
+
+
+def published_grains(file):
+    """Rows of (radius, x, y, z)."""
+    with lzma.open(file, "rt") as lines:
+        rows = [line.split() for line in lines]
+    return [tuple(map(float, row)) for row in rows[1:] if len(row) == 4]
+
+
+def table(file):
+    with open(file, newline="") as lines:
+        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)]
+
+
+# ---- Cases: input, curve, comparison --------------------------------------------------------------------------------
+
+class Impact:
+    until, step, title, axis = 0.03, 0.5e-6, "A steel ball falls into 25,000 grains", "height of the ball's centre, m"
+    published, column = {"LIGGGHTS": "case3_25k_liggghts.csv", "MUSEN": "case3_25k_musen.csv"}, "ball_z_m"
+
+    def prepare(self, job):
+        grains = published_grains(job.data / "mercury" / "Penetration_25KParticles.txt.xz")
+        rows = [(1, radius, x, y, z - FLOOR, 0) for radius, x, y, z in grains] + [(2, 0.01, 0, 0, 0.06 - FLOOR, -5)]
+        write_table(job.folder / "start.csv", rows)
+        return (species_table("grains", "M1", len(grains), 0.002) + species_table("ball", "steel", 1, 0.02) +
+                contacts({"grains": "M1", "ball": "steel"}, "wall") +
+                "[container]\nshape = \"box\"\ndepth = 0.098\nwidth = 0.06\nheight = 0.198\ntop = \"open\"\n"
+                "[start]\nmethod = \"file\"\nfile = \"start.csv\"\n" + job.run_table(self.step) +
+                "[output]\ntrajectory = false\nmeasures_interval = \"0.1 ms\"\n")
+
+    def curve(self, job):
+        return ["t_s", "ball_z_m"], [(row["time_s"], row["ball_centre_z_m"] + FLOOR)
+                                     for row in table(job.run / "measures.csv")]
+
+    def compare(self, job, rows):
+        good = True
+        for when in (0.01, 0.02, 0.03):
+            if when > job.until + 1e-9:
+                continue
+            ours = at(rows, when) - 0.06
+            others = {name: at(job.results(file, self.column), when) - 0.06 for name, file in self.published.items()}
+            off = ours / others["MUSEN"] - 1
+            good &= judge(f"way of the ball after {1e3 * when:.0f} ms, mm: {1e3 * ours:.2f}; " +
+                          ", ".join(f"{name} {1e3 * way:.2f}" for name, way in others.items()), off, 0.01)
+        return good
+
+
+class Drum:
+    until, step, softer, title = 1.0, 0.8e-6, 1.0, "Grains in two quarters of a drum"
+    axis = "grains of 2 mm with x < 0 and z < 0"
+    published, column = {"LIGGGHTS": "case2_liggghts.csv", "MUSEN": "case2_musen.csv"}, "z2_m1"
+    counts = ("z1_m1", "z1_m2", "z2_m1", "z2_m2")
+
+    def prepare(self, job):
+        grains = published_grains(job.data / "mercury" / "Drum_PartCoordinates.txt.xz")
+        small = sum(radius < 0.0015 for radius, *_ in grains)
+        write_table(job.folder / "start.csv",
+                    [(1 if radius < 0.0015 else 2, radius, x, y, z, 0) for radius, x, y, z in grains])
+        shutil.copy(job.data / "stl" / "drum_m.stl", job.folder / "drum.stl")
+        return (species_table("M1", "M1", small, 0.002) + species_table("M2", "M2", len(grains) - small, 0.004) +
+                contacts({"M1": "M1", "M2": "M2"}, "drum", self.softer) +
+                "[container]\nshape = \"mesh\"\nmesh = \"drum\"\n"
+                "[[mesh]]\nname = \"drum\"\nfile = \"drum.stl\"\n"
+                "turn = { axis = [0, 1, 0], through = [0, 0, 0], rate = -2 }\n"
+                "[start]\nmethod = \"file\"\nfile = \"start.csv\"\n" + job.run_table(self.step) +
+                "[output]\ntrajectory_interval = 0.1\nmeasures_interval = 0.01\n")
+
+    def curve(self, job):
+        frames, rows = Fields(job.run / "trajectory.nc"), []
+        kind = frames.record("type", 0)
+        for i, when in enumerate(frames.values("time")):
+            place = frames.record("coordinates", i)
+            row = [when]
+            for side in (1, -1):
+                inside = [k for x, z, k in zip(place[0::3], place[2::3], kind) if side * x > 0 and side * z > 0]
+                row += [inside.count(1), inside.count(2)]
+            rows.append(tuple(row))
+        return ["t_s", *self.counts], rows
+
+    def compare(self, job, rows):
+        good, all_grains = True, {"m1": 30000, "m2": 8000}
+        for when in (0.5, 1.0, 2.0, 3.0, 4.0):
+            if when > job.until + 1e-9:
+                continue
+            for i, column in enumerate(self.counts):
+                ours = at([(row[0], row[1 + i]) for row in rows], when)
+                others = {name: at(job.results(file, column), when) for name, file in self.published.items()}
+                mean = sum(others.values()) / len(others)
+                words = (f"{column[3:].upper()} in zone {column[1]} at {when:g} s: {ours:.0f}; " +
+                         ", ".join(f"{name} {count:.0f}" for name, count in others.items()))
+                off = (ours - mean) / all_grains[column[3:]]
+                if when > 1:  # beyond the task: told, not judged
+                    print(f"{words}; {100 * off:+.1f} % of the grains")
+                else:
+                    good &= judge(words, off, 0.05)
+        return good
+
+
+class SoftDrum(Drum):
+    until, step, softer = 5.0, 1e-4, 0.002
+
+
+class Silo:
+    until, step, title, axis = 1.5, 1.5e-6, "100,000 grains run out of a silo", "grains above the orifice"
+    published = {"LIGGGHTS": "case1_large_M1_liggghts.csv", "MUSEN": "case1_large_M1_musen.csv"}
+    column = "particles_above_orifice"
+
+    def scene(self, softer, start, gate, run, job):
+        text = (species_table("M1", "M1", GRAINS_OF_SILO, 0.004) + contacts({"M1": "M1"}, "silo", softer) +
+                "[container]\nshape = \"mesh\"\nmesh = \"silo\"\n[[mesh]]\nname = \"silo\"\nfile = \"silo.stl\"\n")
+        if gate:
+            text += (f"[[contact.pair]]\nbetween = [\"M1\", \"gate\"]\n{numbers('M1', 'steel', softer)}"
+                     f"[[mesh]]\nname = \"gate\"\nfile = \"gate.stl\"\nposition = [0, 0, {ORIFICE - 2e-4}]\n")
+        else:
+            text += (f"[[exit]]\nlow = [-0.2, -0.2, -0.5]\nhigh = [0.2, 0.2, {ORIFICE}]\n")
+        return text + start + job.run_table(*run) + "[output]\ntrajectory = false\nmeasures_interval = 0.01\n"
+
+    # The published start is not to be had. Soft grains settle behind a gate, and are then made stiffer by steps.
+    def prepare(self, job):
+        shutil.copy(job.data / "stl" / "silo_large_orifice_m.stl", job.folder / "silo.stl")
+        maker = Path(__file__).resolve().parents[2] / "scenes" / "meshes" / "make_meshes.py"
+        subprocess.run([sys.executable, maker, "plate", job.folder / "gate.stl", "width=0.08", "depth=0.08"], check=True)
+        start = "[start]\nsettle_limit = 3\n"
+        for softer, duration in ((0.01, 0.05), (0.1, 0.05), (1, 0.02)):
+            name = f"fill_{softer:g}"
+            text = self.scene(softer, start, True, (self.step / math.sqrt(softer), duration), job)
+            if not (job.folder / name / "final.csv").exists():
+                (job.folder / f"{name}.toml").write_text(text)
+                job.call(job.folder / f"{name}.toml", job.folder / name)
+            shutil.copy(job.folder / name / "final.csv", job.folder / f"{name}.csv")  # a table without its run
+            start = f"[start]\nmethod = \"file\"\nfile = \"{name}.csv\"\n"
+        return self.scene(1, start, False, (self.step,), job)
+
+    def curve(self, job):
+        left = sorted(row["time_s"] for row in table(job.run / "outflow.csv"))
+        rows, gone = [], 0
+        for i in range(round(job.until / 0.01) + 1):
+            while gone < len(left) and left[gone] <= 0.01 * i:
+                gone += 1
+            rows.append((0.01 * i, GRAINS_OF_SILO - gone))
+        return ["t_s", self.column], rows
+
+    def compare(self, job, rows):
+        def rate(points):
+            return (at(points, 0.5) - at(points, job.until)) / (job.until - 0.5)
+        others = {name: rate(job.results(file, self.column)) for name, file in self.published.items()}
+        mean = sum(others.values()) / len(others)
+        return judge(f"grains a second from 0.5 to {job.until:g} s: {rate(rows):.0f}; " +
+                     ", ".join(f"{name} {value:.0f}" for name, value in others.items()), rate(rows) / mean - 1, 0.05)
+
+
+CASES = {"impact": Impact, "drum": Drum, "drum_soft": SoftDrum, "silo": Silo}
+
+
+# ---- Running and comparing --------------------------------------------------------------------------------------------
+
+def at(rows, when):
+    """Of rows (time, value): the value at a time, by straight lines; that of the last row behind it."""
+    for (t0, v0), (t1, v1) in zip(rows, rows[1:]):
+        if t0 <= when <= t1:
+            return v0 + (v1 - v0) * (when - t0) / (t1 - t0)
+    return rows[-1][1]
+
+
+def judge(words, off, tolerance):
+    held = abs(off) <= tolerance
+    print(f"{words}; {100 * off:+.2f} %, allowed {100 * tolerance:g} %: {'ok' if held else 'NOT SO'}", flush=True)
+    return held
+
+
+class Job:
+    def __init__(self, options, case):
+        self.program, self.data, self.threads = options.program, options.data, options.threads
+        self.until = options.until or case.until
+        self.folder = options.out / options.case
+        self.run = self.folder / "run"
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def run_table(self, step, duration=None):
+        return f"[run]\nduration = {duration or self.until:g}\nstep = {step:.10g}\n"
+
+    def call(self, scene, out):
+        subprocess.run([self.program, "movie", scene, "--no-film", "--no-report", "--out", out, "--force",
+                        *(["--threads", str(self.threads)] if self.threads else [])],
+                       stdout=subprocess.DEVNULL, check=True)
+
+    def results(self, file, column):
+        rows = table(self.data / "results" / file)
+        if file == "case2_musen.csv":
+            rows = rows[:-1]  # its last row counts one frame several times
+        return [(row["t_s"], row[column]) for row in rows]
+
+
+def run_case(job, case):
+    """Seconds by the clock, or none if the run was there already."""
+    if (job.run / "run.json").exists():
+        return None
+    scene = job.folder / "scene.toml"
+    scene.write_text(f"title = \"{case.title}\"\n" + case.prepare(job))
+    begin = time.time()
+    job.call(scene, job.run)
+    return time.time() - begin
+
+
+def chart(job, case, name, rows):
+    parts = [f"'{name}.csv' every ::1 using 1:{2 + getattr(case, 'counts', (case.column,)).index(case.column)} "
+             f"with lines lw 3 title 'grainreel'"]
+    for code, file in case.published.items():
+        points = [point for point in job.results(file, case.column) if point[0] <= rows[-1][0]]
+        (job.folder / f"{code}.csv").write_text("".join(f"{t},{value}\n" for t, value in points))
+        parts.append(f"'{code}.csv' using 1:2 with points pt 7 ps 0.5 title '{code}'")
+    (job.folder / f"{name}.gp").write_text(
+        "set datafile separator ','\nset terminal svg size 760,420 font 'DejaVu Sans,14' background 'white'\n"
+        f"set output '{name}.svg'\nset xlabel 'time, s'\nset ylabel \"{case.axis}\"\nset grid\n"
+        "set key outside top center horizontal\nplot " + ", \\\n     ".join(parts) + "\n")
+    if shutil.which("gnuplot"):
+        subprocess.run(["gnuplot", f"{name}.gp"], cwd=job.folder, check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path)
+    parser.add_argument("data", type=Path)
+    parser.add_argument("case", choices=CASES)
+    parser.add_argument("--until", type=float, help="seconds, in place of the case's own")
+    parser.add_argument("--threads", type=int)
+    parser.add_argument("--out", type=Path, default=Path("output/nine_codes"))
+    options = parser.parse_args()
+    if not (options.data / "results").is_dir():
+        parser.error(f"{options.data}: has no folder results; give the folder of the benchmark's inputs and results")
+    case = CASES[options.case]()
+    job = Job(options, case)
+    try:
+        seconds = run_case(job, case)
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"`{' '.join(map(str, error.cmd))}` ended with {error.returncode}")
+    head, rows = case.curve(job)
+    with open(job.folder / f"{options.case}.csv", "w", newline="") as file:
+        csv.writer(file).writerows([head, *rows])
+    chart(job, case, options.case, rows)
+    engine = json.loads((job.run / "run.json").read_text()).get("engine") or {}
+    print(f"{options.case}: {seconds or 0:.0f} s by the clock; {json.dumps(engine)}")
+    return 0 if case.compare(job, rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,151 @@
+// Meshes and files for the tests of scenes that have some.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/vector.hpp"
+#include "engine/scene/file/reader.hpp"
+
+namespace grainreel {
+
+using TriangleByHand = std::array<Vec3, 3>;
+using MeshByHand = std::vector<TriangleByHand>;
+
+// Two triangles; counter-clockwise for an eye on the side of the normal.
+inline void add_quad(MeshByHand& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    mesh.push_back({a, b, c});
+    mesh.push_back({a, c, d});
+}
+
+inline MeshByHand plate(double side) {
+    MeshByHand mesh;
+    const double h = 0.5 * side;
+    add_quad(mesh, {-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0});
+    return mesh;
+}
+
+// Sheets around a box that stands on z = 0, open above unless there is a lid. hole: m, the side of a square
+// hole in the middle of the floor, 0 for none.
+inline MeshByHand box_of_sheets(double side, double height, bool lid = false, double hole = 0) {
+    const double h = 0.5 * side, o = 0.5 * hole;
+    const std::array<Vec3, 4> low{Vec3(-h, -h, 0), Vec3(h, -h, 0), Vec3(h, h, 0), Vec3(-h, h, 0)};
+    const std::array<Vec3, 4> inner{Vec3(-o, -o, 0), Vec3(o, -o, 0), Vec3(o, o, 0), Vec3(-o, o, 0)};
+    const Vec3 up(0, 0, height);
+    MeshByHand mesh;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t next = (k + 1) % 4;
+        add_quad(mesh, low[k], low[next], low[next] + up, low[k] + up);
+        if (hole > 0) add_quad(mesh, low[next], low[k], inner[k], inner[next]);
+    }
+    if (hole == 0) add_quad(mesh, low[3], low[2], low[1], low[0]);
+    if (lid) add_quad(mesh, low[0] + up, low[1] + up, low[2] + up, low[3] + up);
+    return mesh;
+}
+
+inline std::string stl_text(const MeshByHand& mesh) {
+    std::string text = "solid made by hand\n";
+    for (const TriangleByHand& triangle : mesh) {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for (const Vec3& v : triangle) text += fmt::format("vertex {} {} {}\n", v.x(), v.y(), v.z());
+        text += "endloop\nendfacet\n";
+    }
+    return text + "endsolid\n";
+}
+
+// A folder with scenes and meshes, gone in the end.
+class MeshScenes {
+  public:
+    MeshScenes() {
+        std::string name = (std::filesystem::temp_directory_path() / "grainreel-mesh-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) throw RunError("no temporary folder");
+        path_ = name;
+    }
+    ~MeshScenes() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    MeshScenes(const MeshScenes&) = delete;
+    MeshScenes& operator=(const MeshScenes&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path put(const std::string& name, const std::string& text) const {
+        std::filesystem::create_directories((path_ / name).parent_path());
+        std::ofstream(path_ / name) << text;
+        return path_ / name;
+    }
+    std::filesystem::path put(const std::string& name, const MeshByHand& mesh) const {
+        return put(name, stl_text(mesh));
+    }
+    Scene read(const std::string& text, const Assignments& sets = {}) const {
+        return read_scene_text(text, path_ / "scene.toml", sets);
+    }
+    // What the reader says of it; "none" where it is right. Its own folder is left out.
+    std::string complaint(const std::string& text, const Assignments& sets = {}) const {
+        try {
+            read(text, sets);
+        } catch (const UserError& error) {
+            std::string what = error.what();
+            const std::string folder = path_.string() + "/";
+            for (std::size_t at; (at = what.find(folder)) != std::string::npos;)
+                what.erase(at, folder.size());
+            return what;
+        }
+        return "none";
+    }
+
+  private:
+    std::filesystem::path path_;
+};
+
+// A ball above a plate from a file, as small as a scene with a mesh can be.
+inline const std::string ball_on_plate = R"([[species]]
+name = "ball"
+diameter = "10 mm"
+density = 2500
+[contact]
+restitution = 0.8
+friction = 0.3
+[container]
+shape = "none"
+[[mesh]]
+name = "plate"
+file = "plate.stl"
+[[grain]]
+position = [0, 0, "7 mm"]
+[run]
+duration = "0.2 s"
+)";
+
+// Grains in a vessel from a file.
+inline const std::string in_vessel = R"([[species]]
+name = "small"
+count = 10
+diameter = "5 mm"
+density = 2500
+[[species]]
+name = "big"
+count = 2
+diameter = "10 mm"
+density = 2500
+[contact]
+restitution = 0.8
+friction = 0.3
+[container]
+shape = "mesh"
+mesh = "tank"
+[[mesh]]
+name = "tank"
+file = "tank.stl"
+[run]
+duration = "0.2 s"
+)";
+
+}  // namespace grainreel
