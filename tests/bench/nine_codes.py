@@ -8,7 +8,7 @@ Dosta et al. 2024, Comput. Phys. Commun. 296, 109066. DATA is a folder with the 
 
     impact      a steel ball of 20 mm falls into 25,000 grains of 2 mm; to 0.03 s
     drum        8,000 grains of 4 mm under 30,000 of 2 mm in a drum; to 1 s
-    drum_soft   the same with a five hundredth of the stiffness and a step of 0.1 ms; to 5 s
+    drum_soft   the same with a five hundredth of the stiffness and a step of 20 us; to 5 s
     silo        100,000 grains of 4 mm run out of a silo through its large orifice; to 1.5 s
 
 Each writes its input and its run into FOLDER/CASE, prints what is compared and its tolerance, and writes CASE.csv with our
@@ -179,7 +179,7 @@ class Drum:
 
 
 class SoftDrum(Drum):
-    until, step, softer = 5.0, 1e-4, 0.002
+    until, step, softer = 5.0, 2e-5, 0.002
 
 
 class Silo:

@@ -94,7 +94,8 @@ TEST_F(MeshRefusals, AMeshFarFromAllGrainsIsRefused) {
     const std::string head = std::string(kHead) + kBox;
     EXPECT_EQ(said(head + mesh("vane")), "");
     const std::string away = head + mesh("vane", "position = [3, 0, 0]\n");
-    EXPECT_THAT(said(away), AllOf(HasSubstr(at(away, "file = \"vane.stl\"")), HasSubstr("far from all grains")));
+    EXPECT_THAT(said(away),
+                AllOf(HasSubstr(at(away, "file = \"vane.stl\"")), HasSubstr("far from all grains")));
     // In millimetres its sides lie 20 m away.
     write("drum.stl", pipe(200, -100, 100, 36));
     const std::string large = std::string(kHead) + R"([container]
@@ -114,9 +115,8 @@ TEST_F(MeshRefusals, AMeshThatTurnsIntoAFaceIsRefused) {
                                  HasSubstr("wall"), HasSubstr("turned by")));
     EXPECT_EQ(said(std::string(kHead) + kBox + mesh("bar", "scale = 0.5\n" + turn)), "");
     // Too slow to get there: 0.5 s at 6 rpm are 18 degrees.
-    EXPECT_EQ(said(std::string(kHead) + kBox +
-                   mesh("bar", "turn = { axis = [0, 0, 1], rate = \"6 rpm\" }\n")),
-              "");
+    EXPECT_EQ(
+        said(std::string(kHead) + kBox + mesh("bar", "turn = { axis = [0, 0, 1], rate = \"6 rpm\" }\n")), "");
 }
 
 TEST_F(MeshRefusals, AMeshThatTurnsIntoAnotherIsRefused) {
@@ -187,8 +187,8 @@ TEST_F(MeshRefusals, AFeedInAMeshIsRefused) {
     write("block.stl", box_of_triangles(Vec3(-0.02, -0.02, 0.01), Vec3(0.02, 0.02, 0.05)));
     const std::string head = std::string(kHead) + kBox + mesh("block");
     const auto fed = [&](double low) {
-        return head + fmt::format("[[feed]]\nrate = 100\nlow = [-0.01, -0.01, {}]\nhigh = [0.01, 0.01, 0.09]\n",
-                                  low);
+        return head + fmt::format(
+                          "[[feed]]\nrate = 100\nlow = [-0.01, -0.01, {}]\nhigh = [0.01, 0.01, 0.09]\n", low);
     };
     EXPECT_EQ(said(fed(0.055)), "");
     EXPECT_THAT(said(fed(0.04)), AllOf(HasSubstr(at(fed(0.04), "low = [-0.01")), HasSubstr("\"block\"")));

@@ -163,8 +163,7 @@ TEST_F(MeshStart, ARestingBedStaysAtRestUnderTheSameLaw) {
     Simulation first(scene, make_plan(scene), 1);
     first.pack();
     first.save_checkpoint(here / "checkpoint.grs");
-    const Scene next =
-        read(text, {"start.method=file", "start.file=" + (here / "checkpoint.grs").string()});
+    const Scene next = read(text, {"start.method=file", "start.file=" + (here / "checkpoint.grs").string()});
     const Plan plan = make_plan(next);
     EXPECT_TRUE(plan.start.keeps_histories);
     EXPECT_FALSE(plan.start.relaxes);
