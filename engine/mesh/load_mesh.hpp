@@ -1,6 +1,6 @@
-// From a file to a mesh that can be used: read, placed, mended. STL (ASCII and binary), OBJ and PLY (ASCII
-// and binary, both byte orders). The content decides which it is, and never the suffix. Units are nowhere in
-// these files: `scale` brings them to m.
+// Makes a mesh that can be used out of a file: read, placed, mended. STL (ASCII and binary), OBJ and PLY
+// (ASCII and binary, both byte orders). The content decides which it is, and never the suffix. Units are
+// nowhere in these files: `scale` brings them to m.
 #pragma once
 
 #include <cstdint>

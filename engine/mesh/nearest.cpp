@@ -14,7 +14,7 @@ std::size_t after(std::size_t k) {
     return k == 2 ? 0 : k + 1;
 }
 
-// Of edge e. It is worked out from the vertex of the lower number, so that both triangles find the same.
+// On edge e, worked out from the vertex of the lower number, so that both triangles find the same.
 NearestPoint nearest_on_edge(const Corners& corners, std::size_t e, const Vec3& point) {
     const std::size_t f = after(e);
     const bool back = corners.numbers[e] > corners.numbers[f];
@@ -35,9 +35,10 @@ NearestPoint nearest_on_edge(const Corners& corners, std::size_t e, const Vec3& 
 
 }  // namespace
 
-// Where the foot of the perpendicular is outside, the nearest point lies on an edge that the foot is outside of.
-// No quotient of areas is formed, as C. Ericson, Real-Time Collision Detection (2005), 5.1.5 does: on slender
-// triangles it says nothing. Of those the sides alone decide, and to within their height all is right.
+// Where the foot of the perpendicular is outside, the nearest point lies on an edge that the foot is outside
+// of. No quotient of areas is formed, as C. Ericson, Real-Time Collision Detection (2005), 5.1.5 does: on
+// slender triangles it says nothing. Of those the sides alone decide, and to within their height all is
+// right.
 NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     const TriangleMesh::Triangle& numbers = mesh_.triangles[static_cast<std::size_t>(triangle)];
     Corners corners{numbers, {}};

@@ -95,6 +95,7 @@ void Surface::visit(const Vec3& point, double squared_reach, Within&& within) co
 
 std::optional<Surface::Nearest> Surface::nearest(const Vec3& point, double reach) const {
     std::optional<Nearest> best;
+    if (!(reach >= 0)) return best;
     visit(point, reach * reach, [&](std::int32_t triangle, const NearestPoint& found) {
         const bool better = !best || found.squared < best->point.squared ||
                             (found.squared == best->point.squared && triangle < best->triangle);
@@ -105,6 +106,7 @@ std::optional<Surface::Nearest> Surface::nearest(const Vec3& point, double reach
 }
 
 void Surface::near(const Vec3& point, double reach, std::vector<std::int32_t>& found) const {
+    if (!(reach >= 0)) return;
     const auto before = static_cast<std::ptrdiff_t>(found.size());
     const double squared = reach * reach;
     visit(point, squared, [&](std::int32_t triangle, const NearestPoint&) {
@@ -116,6 +118,7 @@ void Surface::near(const Vec3& point, double reach, std::vector<std::int32_t>& f
 
 bool Surface::any_within(const Vec3& point, double reach) const {
     bool any = false;
+    if (!(reach >= 0)) return any;
     visit(point, reach * reach, [&](std::int32_t, const NearestPoint&) {
         any = true;
         return -1.0;

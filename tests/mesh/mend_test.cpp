@@ -15,7 +15,8 @@ double six_volumes(const TriangleMesh& mesh) {
     double sum = 0;
     for (const TriangleMesh::Triangle& t : mesh.triangles)
         sum += mesh.vertices[static_cast<std::size_t>(t[0])].dot(
-            mesh.vertices[static_cast<std::size_t>(t[1])].cross(mesh.vertices[static_cast<std::size_t>(t[2])]));
+            mesh.vertices[static_cast<std::size_t>(t[1])].cross(
+                mesh.vertices[static_cast<std::size_t>(t[2])]));
     return sum;
 }
 
@@ -88,7 +89,8 @@ TEST(Mending, CornersCloserThanABillionthOfTheExtentAreOne) {
 
 TEST(Mending, CracksAlongOpenEdgesAreClosed) {
     TriangleMesh mesh = shapes::turned({{1, 0}, {1, 1}, {0.2, 2}}, 24, true, true);
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].y() += 1e-6 * static_cast<double>(i % 3);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        mesh.vertices[i].y() += 1e-6 * static_cast<double>(i % 3);
     MeshFacts facts;
     mend(mesh, facts);
     EXPECT_TRUE(facts.closed());

@@ -30,20 +30,22 @@ TEST(SurfaceRays, ThroughABoxInAndOut) {
     EXPECT_FALSE(surface->first_hit({0.5, 0.5, 3.5}, {1, 0, 0}).has_value());
 }
 
-// From within a closed surface each ray leaves once more than it enters, wherever it goes: here through all corners
-// and the middles of all edges, which every second triangle touches.
+// Each ray from within a closed surface leaves once more than it enters, wherever it goes: here through all
+// corners and the middles of all edges, which every second triangle touches.
 TEST(SurfaceRays, NoneIsLostOrDoubledAtCornersAndEdges) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> within(-0.3, 0.3);
     for (const auto& surface : {shapes::mended(shapes::box({-1, -1, -1}, {1, 1, 1})),
-                                shapes::mended(shapes::turned({{0, -1}, {1, -0.5}, {0.8, 0.1}, {1, 0.7}, {0, 1}}, 16, false, false)),
+                                shapes::mended(shapes::turned(
+                                    {{0, -1}, {1, -0.5}, {0.8, 0.1}, {1, 0.7}, {0, 1}}, 16, false, false)),
                                 shapes::mended(shapes::turned({{1, -1}, {1, 1}}, 64, true, true))})
         for (int i = 0; i < 40; ++i) {
             const Vec3 from = i == 0 ? Vec3(0, 0, 0) : Vec3(within(random), within(random), within(random));
             for (std::int32_t t = 0; t < surface->size(); ++t)
                 for (int k = 0; k < 3; ++k)
                     for (const double part : {0.0, 0.5, 0.123}) {
-                        const Vec3 towards = (1 - part) * surface->corner(t, k) + part * surface->corner(t, (k + 1) % 3);
+                        const Vec3 towards =
+                            (1 - part) * surface->corner(t, k) + part * surface->corner(t, (k + 1) % 3);
                         const auto hits = hits_of(*surface, from, towards);
                         int winding = 0;
                         for (const Surface::Hit& hit : hits) winding += hit.front ? -1 : 1;
@@ -54,7 +56,8 @@ TEST(SurfaceRays, NoneIsLostOrDoubledAtCornersAndEdges) {
 }
 
 TEST(SurfaceRays, FromOutsideTheyEnterAsOftenAsTheyLeave) {
-    const auto surface = shapes::mended(shapes::turned({{0, -1}, {1, -0.5}, {0.4, 0.1}, {1, 0.7}, {0, 1}}, 16, false, false));
+    const auto surface =
+        shapes::mended(shapes::turned({{0, -1}, {1, -0.5}, {0.4, 0.1}, {1, 0.7}, {0, 1}}, 16, false, false));
     std::mt19937 random(8);
     std::uniform_real_distribution<double> around(-1, 1);
     for (int i = 0; i < 300; ++i) {
@@ -88,12 +91,14 @@ TEST(SurfaceRays, AlongLevelFacesAndThroughALatticeOfASheet) {
 }
 
 TEST(SurfaceRays, TheFirstIsTheNearestOfAll) {
-    const auto surface = shapes::mended(shapes::sheet(1, 20, [](double x, double y) { return 0.3 * std::sin(9 * x + y * y); }));
+    const auto surface = shapes::mended(
+        shapes::sheet(1, 20, [](double x, double y) { return 0.3 * std::sin(9 * x + y * y); }));
     std::mt19937 random(9);
     std::uniform_real_distribution<double> around(-1.2, 1.2);
     int met = 0;
     for (int i = 0; i < 500; ++i) {
-        const Vec3 from(around(random), around(random), around(random)), to(around(random), around(random), around(random));
+        const Vec3 from(around(random), around(random), around(random)),
+            to(around(random), around(random), around(random));
         const auto hits = hits_of(*surface, from, to);
         const auto first = surface->first_hit(from, (to - from).normalized());
         ASSERT_EQ(first.has_value(), !hits.empty());

@@ -12,7 +12,8 @@ EnclosedRoom room_of(TriangleMesh mesh) {
 
 // A vessel of revolution with a wall: closed, its hollow is open above.
 TriangleMesh cup(double inner, double outer, double floor, double height, int sides) {
-    return shapes::turned({{outer, 0}, {outer, height}, {inner, height}, {inner, floor}, {0, floor}}, sides, true, false);
+    return shapes::turned({{outer, 0}, {outer, height}, {inner, height}, {inner, floor}, {0, floor}}, sides,
+                          true, false);
 }
 
 TEST(RoomOfAMesh, OfABoxIsTheBox) {
@@ -60,8 +61,10 @@ TEST(RoomOfAMesh, OfACylinderAndAConeAreThoseOfTheirPolygons) {
 // A cylinder over a cone over an orifice; open below and above.
 TEST(RoomOfAMesh, OfAHopperWithoutABottom) {
     constexpr int sides = 48;
-    const EnclosedRoom room = room_of(shapes::turned({{0.03, -0.05}, {0.1, 0.02}, {0.1, 0.3}}, sides, false, false));
-    EXPECT_NEAR(room.volume(), shapes::frustum(0.03, 0.1, 0.07, sides) + 0.28 * shapes::polygon(0.1, sides), 1e-12);
+    const EnclosedRoom room =
+        room_of(shapes::turned({{0.03, -0.05}, {0.1, 0.02}, {0.1, 0.3}}, sides, false, false));
+    EXPECT_NEAR(room.volume(), shapes::frustum(0.03, 0.1, 0.07, sides) + 0.28 * shapes::polygon(0.1, sides),
+                1e-12);
     EXPECT_EQ(room.base(), -0.05);
     EXPECT_EQ(room.top(), 0.3);
     EXPECT_TRUE(room.open_above());
@@ -138,7 +141,9 @@ TEST(RoomOfAMesh, OfABallIsGoodToOneInTenThousand) {
     for (int i = 0; i <= steps; ++i) {
         const double angle = std::numbers::pi * i / steps;
         rings.push_back({i == 0 || i == steps ? 0 : std::sin(angle), -std::cos(angle)});
-        if (i > 0) expected += shapes::frustum(rings[rings.size() - 2].radius, rings.back().radius, rings.back().z - rings[rings.size() - 2].z, sides);
+        if (i > 0)
+            expected += shapes::frustum(rings[rings.size() - 2].radius, rings.back().radius,
+                                        rings.back().z - rings[rings.size() - 2].z, sides);
     }
     const EnclosedRoom room = room_of(shapes::turned(rings, sides, false, false));
     EXPECT_NEAR(room.volume() / expected, 1, 1e-4);

@@ -25,7 +25,8 @@ inline void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec
 inline void add(TriangleMesh& mesh, const TriangleMesh& other) {
     for (const TriangleMesh::Triangle& t : other.triangles)
         add_triangle(mesh, other.vertices[static_cast<std::size_t>(t[0])],
-                     other.vertices[static_cast<std::size_t>(t[1])], other.vertices[static_cast<std::size_t>(t[2])]);
+                     other.vertices[static_cast<std::size_t>(t[1])],
+                     other.vertices[static_cast<std::size_t>(t[2])]);
 }
 
 // Turns all triangles round.
@@ -36,7 +37,9 @@ inline TriangleMesh inside_out(TriangleMesh mesh) {
 
 // Outwards; without a lid it is open above.
 inline TriangleMesh box(const Vec3& low, const Vec3& high, bool lid = true) {
-    const auto at = [&](int i) { return Vec3((i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z()); };
+    const auto at = [&](int i) {
+        return Vec3((i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z());
+    };
     TriangleMesh mesh;
     add_quad(mesh, at(0), at(2), at(3), at(1));
     add_quad(mesh, at(0), at(1), at(5), at(4));
@@ -47,8 +50,8 @@ inline TriangleMesh box(const Vec3& low, const Vec3& high, bool lid = true) {
     return mesh;
 }
 
-// A wall of `sides` around z through rings (radius, height) from the lowest one on, outwards; a ring of radius 0
-// is a tip. The ends are closed by fans where they are asked for.
+// A wall of `sides` around z through rings (radius, height) from the lowest one on, outwards; a ring of
+// radius 0 is a tip. The ends are closed by fans where they are asked for.
 struct Ring {
     double radius, z;
 };
@@ -64,7 +67,8 @@ inline TriangleMesh turned(const std::vector<Ring>& rings, int sides, bool floor
             if (low.radius > 0) add_triangle(mesh, at(low, i), at(low, i + 1), at(high, i + 1));
             if (high.radius > 0) add_triangle(mesh, at(low, i), at(high, i + 1), at(high, i));
         }
-        if (floor) add_triangle(mesh, Vec3(0, 0, rings.front().z), at(rings.front(), i + 1), at(rings.front(), i));
+        if (floor)
+            add_triangle(mesh, Vec3(0, 0, rings.front().z), at(rings.front(), i + 1), at(rings.front(), i));
         if (lid) add_triangle(mesh, Vec3(0, 0, rings.back().z), at(rings.back(), i), at(rings.back(), i + 1));
     }
     return mesh;
@@ -76,7 +80,9 @@ inline double polygon(double radius, int sides) {
 }
 // m3, of a frustum between two polygons.
 inline double frustum(double low, double high, double height, int sides) {
-    return height / 3 * (polygon(low, sides) + polygon(high, sides) + std::sqrt(polygon(low, sides) * polygon(high, sides)));
+    return height / 3 *
+           (polygon(low, sides) + polygon(high, sides) +
+            std::sqrt(polygon(low, sides) * polygon(high, sides)));
 }
 
 // A sheet over [-half, half]^2 of n x n squares, each cut in two; height(x, y).

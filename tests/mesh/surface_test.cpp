@@ -12,7 +12,9 @@ using Turn = Neighbour::Turn;
 class Dice {
   public:
     explicit Dice(unsigned seed) : random_(seed) {}
-    double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+    double between(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random_);
+    }
     Vec3 place(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
 
   private:
@@ -42,9 +44,11 @@ double distance_to_sides(const Surface& surface, std::int32_t t, const Vec3& poi
 double distance_to(const Surface& surface, std::int32_t t, const Vec3& point) {
     Long3 corner[3];
     for (int k = 0; k < 3; ++k) corner[k] = surface.corner(t, k).cast<long double>();
-    const Long3 ab = corner[1] - corner[0], ac = corner[2] - corner[0], ap = point.cast<long double>() - corner[0];
+    const Long3 ab = corner[1] - corner[0], ac = corner[2] - corner[0],
+                ap = point.cast<long double>() - corner[0];
     const long double aa = ab.dot(ab), bb = ab.dot(ac), cc = ac.dot(ac), d = ap.dot(ab), e = ap.dot(ac);
-    const long double v = (cc * d - bb * e) / (aa * cc - bb * bb), w = (aa * e - bb * d) / (aa * cc - bb * bb);
+    const long double v = (cc * d - bb * e) / (aa * cc - bb * bb),
+                      w = (aa * e - bb * d) / (aa * cc - bb * bb);
     if (v >= 0 && w >= 0 && v + w <= 1) return static_cast<double>((ap - v * ab - w * ac).norm());
     return distance_to_sides(surface, t, point);
 }
@@ -56,10 +60,10 @@ TEST(SurfaceNearest, FeaturesOfATriangle) {
     const struct {
         Vec3 point, at;
         Feature feature;
-    } cases[] = {{{1, 1, 2}, {1, 1, 0}, Feature::face},        {{1, 1, -2}, {1, 1, 0}, Feature::face},
-                 {{2, -1, 1}, {2, 0, 0}, Feature::edge0},      {{5, 4.25, 0}, {2.6, 1.05, 0}, Feature::edge1},
-                 {{-2, 1, 1}, {0, 1, 0}, Feature::edge2},      {{-1, -2, 1}, {0, 0, 0}, Feature::corner0},
-                 {{6, -1, 0}, {4, 0, 0}, Feature::corner1},    {{-1, 5, 0}, {0, 3, 0}, Feature::corner2},
+    } cases[] = {{{1, 1, 2}, {1, 1, 0}, Feature::face},     {{1, 1, -2}, {1, 1, 0}, Feature::face},
+                 {{2, -1, 1}, {2, 0, 0}, Feature::edge0},   {{5, 4.25, 0}, {2.6, 1.05, 0}, Feature::edge1},
+                 {{-2, 1, 1}, {0, 1, 0}, Feature::edge2},   {{-1, -2, 1}, {0, 0, 0}, Feature::corner0},
+                 {{6, -1, 0}, {4, 0, 0}, Feature::corner1}, {{-1, 5, 0}, {0, 3, 0}, Feature::corner2},
                  {{0, 0, 3}, {0, 0, 0}, Feature::face}};
     for (const auto& c : cases) {
         const NearestPoint found = surface.nearest(0, c.point);
@@ -83,7 +87,8 @@ TEST(SurfaceNearest, SlenderTrianglesAreRight) {
     Dice dice(1);
     for (int i = 0; i < 4000; ++i) {
         const double height = std::pow(10.0, -12 * dice.between(0, 1));
-        const Vec3 a = dice.place(1), along = dice.place(1).normalized(), aside = along.cross(dice.place(1)).normalized();
+        const Vec3 a = dice.place(1), along = dice.place(1).normalized(),
+                   aside = along.cross(dice.place(1)).normalized();
         TriangleMesh mesh;
         shapes::add_triangle(mesh, a, a + along, a + dice.between(-0.5, 1.5) * along + height * aside);
         const Surface surface = bare(mesh);
@@ -94,7 +99,9 @@ TEST(SurfaceNearest, SlenderTrianglesAreRight) {
             EXPECT_NEAR(std::sqrt(found.squared), distance_to_sides(surface, 0, point), height + 1e-15);
             EXPECT_LT(distance_to_sides(surface, 0, found.at), height + 1e-15);
             EXPECT_NEAR((found.at - point).squaredNorm(), found.squared, 1e-14 * far * far + height * far);
-            if (height > 1e-6) EXPECT_NEAR(std::sqrt(found.squared), distance_to(surface, 0, point), 1e-12);
+            if (height > 1e-6) {
+                EXPECT_NEAR(std::sqrt(found.squared), distance_to(surface, 0, point), 1e-12);
+            }
         }
     }
 }
@@ -123,7 +130,8 @@ TEST(SurfaceNearest, NeighboursFindTheSamePointOnTheirEdge) {
 }
 
 TEST(SurfaceTree, FindsWhatALoopOverAllFinds) {
-    const auto surface = shapes::mended(shapes::sheet(1, 20, [](double x, double y) { return 0.3 * std::sin(4 * x + y * y); }));
+    const auto surface = shapes::mended(
+        shapes::sheet(1, 20, [](double x, double y) { return 0.3 * std::sin(4 * x + y * y); }));
     Dice dice(3);
     std::vector<std::int32_t> found{-7};
     for (int i = 0; i < 300; ++i) {

@@ -464,7 +464,7 @@ CHECKS = [
         runs=((*ROLLING, DRAFT),),
         control=["contact.friction=0"],
         what="dynamic angle of repose from 2 to 4 s, degrees",
-        number=lambda run: run.mean("repose_angle_deg", 2),
+        number=lambda run: run.mean("repose_angle_degree", 2),
         least=20,
         most=40,
     ),

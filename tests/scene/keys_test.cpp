@@ -80,9 +80,14 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string turned = meshed + "turn = { axis = [0, 0, 1], rate = 1 }\n";
     const std::string turning = with(wedge_text, "height = \"180 mm\"\n",
                                      "height = \"180 mm\"\nturn = { axis = [1, 0, 0], rate = 1 }\n");
+    MeshByHand shelf = plate(0.02);
+    for (TriangleByHand& triangle : shelf)
+        for (Vec3& corner : triangle) corner.z() = 0.1;
+    const std::string shelved =
+        wedge_text + "[[mesh]]\nfile = \"" + files.put("shelf.stl", shelf).string() + "\"\n";
     const std::string cases[] = {wedge_text, box,     locked, motion, from_file, exact,
                                  layers,     fields,  outlet, rough,  fed,       staged,
-                                 captioned,  plotted, meshed, turned, turning};
+                                 captioned,  plotted, meshed, turned, turning,   shelved};
     for (const Key& key : filmed_scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

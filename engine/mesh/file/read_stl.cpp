@@ -119,6 +119,8 @@ TriangleMesh read_binary_stl(const fs::path& file, std::string_view bytes) {
             mesh.triangles[i][k] =
                 pool.number_of(corner_at(file, bytes, head + i * row + (k + 1) * first_corner));
     mesh.vertices = std::move(pool.vertices());
+    for (Vec3& vertex : mesh.vertices)
+        for (int k = 0; k < 3; ++k) vertex[k] = decimal_of(static_cast<float>(vertex[k]));
     return mesh;
 }
 

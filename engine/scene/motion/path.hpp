@@ -29,10 +29,10 @@ struct PathPose {
 class MotionPath {
   public:
     // pivot: m, at rest; a mesh's position. Throws UserError with file and line: no numbers, times that do
-    // not rise or begin after 0, a place or turn at 0 that is not that of rest, fewer than 4 rows, a
-    // quaternion that is no rotation, and jumps: a step of more than a twentieth of the path's size that is
-    // more than 20 times as fast as those before and after it, a row that alone lies apart likewise, and a
-    // turn of more than 2 rad from row to row, which might go either way round.
+    // not rise or begin after 0, fewer than 4 rows, a quaternion that is no rotation, and jumps: a step of
+    // more than a twentieth of the path's size that is more than 20 times as fast as those before and after
+    // it, a row that alone lies apart likewise, and a turn of more than 2 rad from row to row, which might go
+    // either way round.
     static std::shared_ptr<const MotionPath> read(const std::filesystem::path& file,
                                                   const Vec3& pivot = Vec3(0, 0, 0));
 
@@ -55,7 +55,6 @@ class MotionPath {
     };
     Moment moment_at(double time) const;
     void find_tops();
-    void check_start(const std::filesystem::path& file) const;
 
     std::vector<double> times_;
     std::vector<CubicPiece<Vec3>> pieces_;
