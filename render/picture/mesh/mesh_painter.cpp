@@ -116,8 +116,13 @@ void MeshPainter::draw_solid_band(int band, const MeshProjection& meshes, const 
         state.solid.take(t.x0, t.x1);
         mesh_kernels().solid(t, rows, y0, y1);
     }
+    for (const MeshSection& section : meshes.sections()) {
+        if (section.y0 >= y1 || section.y1 <= y0 || section.x0 >= section.x1) continue;
+        state.solid.take(section.x0, section.x1);
+        fill(section, meshes.section_colour(), rows, y0, y1, worker.crossings);
+    }
     const Columns& columns = state.solid;
-    const float apart = sight.orthographic ? kApart / sight.focal : kApart / sight.focal;
+    const float apart = kApart / sight.focal;
     for (int y = y0; y < y1; ++y) {
         if (columns.empty()) {
             replace_row(behind_, y, nullptr, 0, 0);
@@ -134,6 +139,38 @@ void MeshPainter::draw_solid_band(int band, const MeshProjection& meshes, const 
             std::fill(worker.colour[s].begin() + begin, worker.colour[s].begin() + end, 0u);
         }
         std::fill(worker.near_middle.begin() + begin, worker.near_middle.begin() + end, kNowhereNear);
+    }
+}
+
+// What lies between an odd crossing of the outline and the next one, in a row of samples.
+void MeshPainter::fill(const MeshSection& section, std::uint32_t colour, const MeshRows& rows, int y0, int y1,
+                       std::vector<float>& crossings) {
+    const auto fill_row = [&](int row, float dx, float dy, float* near, std::uint32_t* out,
+                              std::uint32_t value) {
+        const float y = static_cast<float>(row) + 0.5f + dy;
+        crossings.clear();
+        for (const MeshSection::Edge& e : section.edges)
+            if ((e.y0 <= y) != (e.y1 <= y))
+                crossings.push_back(e.x0 + (y - e.y0) / (e.y1 - e.y0) * (e.x1 - e.x0));
+        std::sort(crossings.begin(), crossings.end());
+        const auto first = [&](float x) {  // the pixel whose sample is the first at x or behind
+            const float pixel = std::ceil(x - 0.5f - dx);
+            return std::clamp(static_cast<int>(std::clamp(pixel, -1e6f, 1e6f)), section.x0, section.x1);
+        };
+        for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
+            for (int px = first(crossings[k]); px < first(crossings[k + 1]); ++px) {
+                const float there = section.near.at + section.near.x * (static_cast<float>(px) + 0.5f + dx) +
+                                    section.near.y * y;
+                if (there <= near[px]) continue;
+                near[px] = there;
+                out[px] = value;
+            }
+    };
+    for (int row = std::max(y0, section.y0); row < std::min(y1, section.y1); ++row) {
+        const std::size_t at = static_cast<std::size_t>(row - rows.first_row) * rows.stride;
+        for (int s = 0; s < kMeshSamples; ++s)
+            fill_row(row, kSampleX[s], kSampleY[s], rows.near[s] + at, rows.colour[s] + at, colour);
+        fill_row(row, 0, 0, rows.near_middle + at, rows.number + at, section.number);
     }
 }
 

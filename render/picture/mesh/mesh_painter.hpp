@@ -68,6 +68,7 @@ class MeshPainter {
         std::vector<float> glass;
         std::vector<std::uint8_t> line_behind, line_before;
         std::vector<std::uint64_t> bits;
+        std::vector<float> crossings;
         RowBits edges;
     };
     struct Job {
@@ -78,6 +79,8 @@ class MeshPainter {
     };
 
     void draw_solid_band(int band, const MeshProjection& meshes, const Sight& sight, Worker& worker);
+    static void fill(const MeshSection& section, std::uint32_t colour, const MeshRows& rows, int y0, int y1,
+                     std::vector<float>& crossings);
     void take_mixed(int y, const MeshRows& rows, const Columns& columns, const Sight& sight, float apart,
                     const Worker& worker, std::vector<Mixed>& mixed);
     void draw_rest_band(int band, const Job& job, Worker& worker);

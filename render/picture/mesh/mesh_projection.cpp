@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/picture/spheres/light/lamp.hpp"
 
@@ -28,6 +29,20 @@ float smooth(float share) {
     return s * s * (3 - 2 * s);
 }
 
+// Of the points of a plane, from the pixel (0, 0) on.
+ScreenPlane nearness_of(const Sight& sight, const Eigen::Vector3f& normal, float distance) {
+    const float per_pixel = 1 / sight.focal;
+    const float x = normal.x() * per_pixel, y = -normal.y() * per_pixel;
+    ScreenPlane plane;
+    // In perspective 1/z = normal . (slopes, 1) / distance; else -z = (normal . (x, y, 0) - distance) /
+    // normal.z.
+    const float by = sight.orthographic ? normal.z() : distance;
+    plane.x = x / by, plane.y = y / by;
+    const float middle = (sight.orthographic ? -distance : normal.z()) / by;
+    plane.at = middle - plane.x * sight.centre_x - plane.y * sight.centre_y;
+    return plane;
+}
+
 }  // namespace
 
 void MeshProjection::take(const View& view, const Sight& sight, const Cut& cut,
@@ -36,7 +51,10 @@ void MeshProjection::take(const View& view, const Sight& sight, const Cut& cut,
     space_ = DrawnSpace::of(sight, cut, static_cast<float>(0.02 * view.nearest));
     port_ = {view.port.width, view.port.height};
     paints_ = paints;
-    solid_.clear(), glass_.clear(), planes_.clear(), lines_.clear();
+    solid_.clear(), glass_.clear(), planes_.clear(), lines_.clear(), sections_.clear();
+    section_colour_ = 0xff000000u;
+    for (std::size_t c = 0; c < 3; ++c)
+        section_colour_ |= static_cast<std::uint32_t>(std::lround(paints.section[c])) << (8 * c);
     Eigen::Matrix3d axes;
     axes << view.right.transpose(), view.up.transpose(), view.forward.transpose();
     up_ = (axes * paints.up).cast<float>();
@@ -94,9 +112,10 @@ void MeshProjection::take_mesh(const DrawnMesh& mesh, Team& team) {
     team.run([&](int member) {
         const auto [begin, end] = TeamMember{team, member}.part_of(shape.edges.size());
         for (auto e = static_cast<std::size_t>(begin); e < static_cast<std::size_t>(end); ++e)
-            add_edge(shape.edges[e], shares[static_cast<std::size_t>(member)]);
+            add_edge(shape, shape.edges[e], shares[static_cast<std::size_t>(member)]);
     });
     join(shares);
+    add_sections(shares);
 }
 
 // In the order of the members, which is that of the triangles.
@@ -113,8 +132,10 @@ void MeshProjection::join(std::vector<Share>& shares) {
 
 void MeshProjection::add_triangle(const DrawnMesh& mesh, std::size_t t, Share& share) {
     const Seen& seen = seen_[t];
-    if (seen.face == Face::unseen) return;
     const MeshShape& shape = *mesh.shape;
+    const int first_cut = sight_.orthographic ? 0 : 1;
+    const bool material = shape.sides[t].front == Face::unseen || shape.sides[t].back == Face::unseen;
+    if (seen.face == Face::unseen && (!material || space_.count == first_cut)) return;
     const float side = seen.front ? 1.0f : -1.0f;
     Piece piece;
     piece.count = 3;
@@ -125,18 +146,55 @@ void MeshProjection::add_triangle(const DrawnMesh& mesh, std::size_t t, Share& s
         whole = whole && whole_[v];
         if (seen.face == Face::solid) piece.corner[k].shade = lit(side * (turn_ * shape.corners[t][k]));
     }
-    const int eye = sight_.orthographic ? 0 : 1;  // half-spaces that are no cut
     for (int i = 0; !whole && i < space_.count && piece.count > 0; ++i) {
-        std::array<Eigen::Vector3f, 2> section;
-        if (!clip(space_.half[i], piece, &section) || i < eye) continue;
-        ScreenLine line{};
-        if (!set_up(sight_, space_, section[0], section[1], line)) continue;
-        line.half_width = 0.5f * kOutlineWidth * paints_.pen;
-        line.glass = seen.face == Face::glass;
-        line.strength = kSolidLine;
-        share.lines.push_back(line);
+        std::array<Eigen::Vector3f, 2> ends;
+        if (clip(space_.half[i], piece, &ends) && i >= first_cut)
+            add_section_line(i, ends, seen, material, share);
     }
-    if (piece.count >= 3) add_piece(mesh, t, seen, piece, share);
+    if (piece.count >= 3 && seen.face != Face::unseen) add_piece(mesh, t, seen, piece, share);
+}
+
+// Where a cut goes through a triangle.
+void MeshProjection::add_section_line(int half, const std::array<Eigen::Vector3f, 2>& ends, const Seen& seen,
+                                      bool material, Share& share) const {
+    ScreenLine line{};
+    if (!set_up(sight_, space_, ends[0], ends[1], half, line)) return;
+    line.half_width = 0.5f * kOutlineWidth * paints_.pen;
+    line.glass = seen.face == Face::glass && !material;
+    line.strength = kSolidLine;
+    share.lines.push_back(line);
+    if (material)
+        share.sections[static_cast<std::size_t>(half)].push_back(
+            {line.from.x(), line.from.y(), line.to.x(), line.to.y()});
+}
+
+// A section is seen from the side that is taken away.
+void MeshProjection::add_sections(std::vector<Share>& shares) {
+    for (int i = sight_.orthographic ? 0 : 1; i < space_.count; ++i) {
+        MeshSection section;
+        for (Share& share : shares) {
+            const auto& edges = share.sections[static_cast<std::size_t>(i)];
+            section.edges.insert(section.edges.end(), edges.begin(), edges.end());
+        }
+        const Eigen::Vector3f normal = -space_.half[i].normal;
+        const float distance = -space_.half[i].distance;
+        const bool faces = sight_.orthographic ? normal.z() < 0 : distance < 0;
+        if (section.edges.empty() || !faces) continue;
+        float x0 = 1e9f, y0 = 1e9f, x1 = -1e9f, y1 = -1e9f;
+        for (const MeshSection::Edge& e : section.edges) {
+            x0 = std::min({x0, e.x0, e.x1}), x1 = std::max({x1, e.x0, e.x1});
+            y0 = std::min({y0, e.y0, e.y1}), y1 = std::max({y1, e.y0, e.y1});
+        }
+        const auto pixel = [](float value, int size) {
+            return static_cast<int>(std::clamp(std::floor(value), 0.0f, static_cast<float>(size)));
+        };
+        section.x0 = pixel(x0, port_.width), section.x1 = pixel(x1 + 1, port_.width);
+        section.y0 = pixel(y0, port_.height), section.y1 = pixel(y1 + 1, port_.height);
+        section.near = nearness_of(sight_, normal, distance);
+        planes_.push_back({normal, distance});
+        section.number = static_cast<std::uint32_t>(planes_.size());
+        sections_.push_back(std::move(section));
+    }
 }
 
 void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen& seen, const Piece& piece,
@@ -166,13 +224,30 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
     }
 }
 
+// Larger than 0 where the smooth surface turns to the eye with its front.
+float MeshProjection::towards_eye(const MeshShape& shape, std::int32_t triangle, std::size_t corner) const {
+    const auto t = static_cast<std::size_t>(triangle);
+    const Eigen::Vector3f normal = turn_ * shape.corners[t][corner];
+    if (sight_.orthographic) return -normal.z();
+    return -normal.dot(vertices_[static_cast<std::size_t>(shape.triangles[t][corner])]);
+}
+
+// Whether a smooth surface turns away from the eye there, and not only single triangles of it.
+bool MeshProjection::is_outline(const MeshShape& shape, const MeshShape::Edge& edge) const {
+    if (edge.right < 0) return false;
+    if (seen_[static_cast<std::size_t>(edge.left)].front == seen_[static_cast<std::size_t>(edge.right)].front)
+        return false;
+    return towards_eye(shape, edge.left, edge.left_corner) *
+               towards_eye(shape, edge.right, edge.right_corner) <
+           0;
+}
+
 // Feature edges wherever a face at them is to be seen; others where they are outlines.
-void MeshProjection::add_edge(const MeshShape::Edge& edge, Share& share) const {
+void MeshProjection::add_edge(const MeshShape& shape, const MeshShape::Edge& edge, Share& share) const {
     const Seen& left = seen_[static_cast<std::size_t>(edge.left)];
     const Seen* right = edge.right >= 0 ? &seen_[static_cast<std::size_t>(edge.right)] : nullptr;
     if (left.face == Face::unseen && (!right || right->face == Face::unseen)) return;
-    const bool outline = right && left.front != right->front;
-    if (!edge.feature && !outline) return;
+    if (!edge.feature && !is_outline(shape, edge)) return;
     float turned = 0;  // of the solid face that turns to the eye most
     bool glass = true;
     for (const Seen* one : {&left, right}) {
@@ -182,7 +257,7 @@ void MeshProjection::add_edge(const MeshShape::Edge& edge, Share& share) const {
     }
     ScreenLine line{};
     if (!set_up(sight_, space_, vertices_[static_cast<std::size_t>(edge.from)],
-                vertices_[static_cast<std::size_t>(edge.to)], line))
+                vertices_[static_cast<std::size_t>(edge.to)], -1, line))
         return;
     line.glass = glass;
     line.half_width = 0.5f * paints_.pen * (edge.feature ? kFeatureWidth : kOutlineWidth);

@@ -24,8 +24,20 @@ struct DrawnMesh {
 // sRGB, 0 to 255.
 struct MeshPaints {
     std::array<float, 3> dark, lit;  // of solid walls, turned away from the light and towards it
+    std::array<float, 3> section;    // of material that is cut open
     Vec3 up{0, 0, 1};                // unit, where the light of the sky comes from
     float pen = 1;                   // pixels, the width of a main line
+};
+
+// Where a cut opens the material of a mesh: what is inside an odd number of times.
+struct MeshSection {
+    struct Edge {
+        float x0, y0, x1, y1;  // pixels
+    };
+    std::vector<Edge> edges;
+    ScreenPlane near;                    // from (0, 0) on
+    std::uint32_t number = 0;            // as of a triangle
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels; high ends excluded
 };
 
 class MeshProjection {
@@ -49,6 +61,8 @@ class MeshProjection {
     const ScreenTriangle& solid(std::uint32_t i) const { return solid_[i]; }
     const ScreenTriangle& glass(std::uint32_t i) const { return glass_[i]; }
     const ScreenLine& line(std::uint32_t i) const { return lines_[i]; }
+    const std::vector<MeshSection>& sections() const { return sections_; }
+    std::uint32_t section_colour() const { return section_colour_; }  // as a pixel
     bool empty() const { return solid_.empty() && glass_.empty() && lines_.empty(); }
 
   private:
@@ -64,12 +78,18 @@ class MeshProjection {
         std::vector<ScreenTriangle> solid, glass;
         std::vector<Plane> planes;
         std::vector<ScreenLine> lines;
+        std::array<std::vector<MeshSection::Edge>, 3> sections;  // by half-space
     };
 
     void take_mesh(const DrawnMesh& mesh, Team& team);
     void add_triangle(const DrawnMesh& mesh, std::size_t t, Share& share);
+    void add_sections(std::vector<Share>& shares);
+    void add_section_line(int half, const std::array<Eigen::Vector3f, 2>& ends, const Seen& seen,
+                          bool material, Share& share) const;
+    bool is_outline(const MeshShape& shape, const MeshShape::Edge& edge) const;
+    float towards_eye(const MeshShape& shape, std::int32_t triangle, std::size_t corner) const;
     void add_piece(const DrawnMesh& mesh, std::size_t t, const Seen& seen, const Piece& piece, Share& share);
-    void add_edge(const MeshShape::Edge& edge, Share& share) const;
+    void add_edge(const MeshShape& shape, const MeshShape::Edge& edge, Share& share) const;
     void join(std::vector<Share>& shares);
     void sort_into_bands();
     Seen look_at(const MeshShape& shape, std::size_t t) const;
@@ -89,6 +109,8 @@ class MeshProjection {
     std::vector<ScreenTriangle> solid_, glass_;
     std::vector<Plane> planes_;
     std::vector<ScreenLine> lines_;
+    std::vector<MeshSection> sections_;
+    std::uint32_t section_colour_ = 0;
     std::vector<Band> bands_;
 };
 

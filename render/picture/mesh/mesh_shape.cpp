@@ -48,16 +48,28 @@ void add_corner_normals(const Surface& surface, double edge_angle, MeshShape& sh
         }
 }
 
+// Which corner of a triangle is neither of these vertices.
+std::uint8_t third_corner(const TriangleMesh::Triangle& triangle, std::int32_t from, std::int32_t to) {
+    for (std::uint8_t k = 0; k < 2; ++k)
+        if (triangle[k] != from && triangle[k] != to) return k;
+    return 2;
+}
+
 void add_edges(const Surface& surface, double edge_angle, MeshShape& shape) {
     for (std::int32_t t = 0; t < surface.size(); ++t)
         for (int e = 0; e < 3; ++e) {
             const Neighbour& beyond = surface.neighbour(t, e);
-            if (beyond.triangle >= 0 && beyond.triangle < t) continue;
+            const std::int32_t right = beyond.triangle;
+            if (right >= 0 && right < t) continue;
             const TriangleMesh::Triangle& corners = shape.triangles[static_cast<std::size_t>(t)];
-            const bool feature = beyond.triangle < 0 || turn_of(surface, t, beyond) > edge_angle;
-            shape.edges.push_back({corners[static_cast<std::size_t>(e)],
-                                   corners[static_cast<std::size_t>((e + 1) % 3)], t, beyond.triangle,
-                                   feature});
+            const std::int32_t from = corners[static_cast<std::size_t>(e)],
+                               to = corners[static_cast<std::size_t>((e + 1) % 3)];
+            const bool feature = right < 0 || turn_of(surface, t, beyond) > edge_angle;
+            const std::uint8_t third =
+                right < 0 ? std::uint8_t{0}
+                          : third_corner(shape.triangles[static_cast<std::size_t>(right)], from, to);
+            shape.edges.push_back(
+                {from, to, t, right, static_cast<std::uint8_t>((e + 2) % 3), third, feature});
         }
 }
 

@@ -47,7 +47,7 @@ const std::vector<DrawnMesh>& SceneMeshes::at(const Frame& frame) {
 MeshPaints mesh_paints(const Palette& palette, const Vec3& up, int picture_height) {
     const bool dark = luminance(palette.background) <= 0.18;
     const auto between = [&](double share) { return bytes(mix(palette.background, palette.solid, share)); };
-    return {between(dark ? 0.25 : 0.85), between(dark ? 0.85 : 0.18), up,
+    return {between(dark ? 0.25 : 0.85), between(dark ? 0.85 : 0.18), bytes(palette.solid), up,
             static_cast<float>(std::max(1.0, picture_height / 600.0))};
 }
 

@@ -117,8 +117,9 @@ bool set_up(const Sight& sight, const PortSize& port, const LitCorner& a, const 
 }
 
 bool set_up(const Sight& sight, const DrawnSpace& space, Eigen::Vector3f from, Eigen::Vector3f to,
-            ScreenLine& line) {
+            int in_border, ScreenLine& line) {
     for (int i = 0; i < space.count; ++i) {
+        if (i == in_border) continue;
         const float a = space.half[i].height(from), b = space.half[i].height(to);
         if (a < 0 && b < 0) return false;
         if (a >= 0 && b >= 0) continue;

@@ -62,8 +62,9 @@ struct ScreenLine {
     float strength;                      // 0 to 1
     bool glass;                          // of glass alone
 };
-// Cuts it off at the borders of the space. False where nothing is left.
+// Cuts it off at the borders of the space, but for one that it lies in (-1: none). False where nothing is
+// left.
 bool set_up(const Sight& sight, const DrawnSpace& space, Eigen::Vector3f from, Eigen::Vector3f to,
-            ScreenLine& line);
+            int in_border, ScreenLine& line);
 
 }  // namespace grainreel
