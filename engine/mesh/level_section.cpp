@@ -13,7 +13,7 @@ using Vec2 = Eigen::Vector2d;
 constexpr std::size_t most_borders = 512, most_bins = 1024;
 constexpr double same_border = 1e-9;  // of the section's width
 
-// Of an edge, the same for both triangles that share it.
+// The place on an edge; both triangles that share it get the same bits.
 Vec2 crossing(const Vec3& from, const Vec3& to, double z) {
     const double t = (z - from.z()) / (to.z() - from.z());
     return from.head<2>() + t * (to.head<2>() - from.head<2>());

@@ -1,6 +1,6 @@
-// From a file to a mesh that can be used: read, placed, mended. STL (ASCII and binary), OBJ and PLY (ASCII
-// and binary, both byte orders). The content decides which it is, and never the suffix. Units are nowhere in
-// these files: `scale` brings them to m.
+// Makes a mesh that can be used out of a file: read, placed, mended. STL (ASCII and binary), OBJ and PLY
+// (ASCII and binary, both byte orders). The content decides which it is, and never the suffix. Units are
+// nowhere in these files: `scale` brings them to m.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,9 @@ LoadedMesh load_mesh(const std::filesystem::path& file, const MeshPlacement& pla
 // The same hash of any file. Throws UserError where it cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
-// Joins equal vertices (closer than 1e-9 of the extent), drops triangles without area and doubled ones, and
-// makes the order of each connected part consistent (outwards where it is closed). Fills in all of `facts`
-// but format and read.
+// Joins equal vertices (closer than 1e-9 of the extent; along open edges than 1e-5 of it and than a hundredth
+// of the shortest such edge), drops triangles without area and doubled ones, and makes the order of each
+// connected part consistent (winding.hpp). Fills in all of `facts` but format and read.
 void mend(TriangleMesh& mesh, MeshFacts& facts);
 
 }  // namespace grainreel

@@ -67,7 +67,7 @@ struct Sorted {
     }
 };
 
-// Of equal triangles the first one stays.
+// The first one of equal triangles stays.
 std::int64_t drop_doubled(TriangleMesh& mesh) {
     std::vector<std::size_t> begins(mesh.vertices.size() + 1, 0);
     for (const TriangleMesh::Triangle& t : mesh.triangles)

@@ -1,4 +1,4 @@
-// From the sections of a surface to the sizes of its room.
+// Works out the sizes of a room from the level sections of its surface.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -50,6 +50,10 @@ class EnclosedRoom::Builder {
         add_up();
         find_widest();
         find_ends();
+        const Vec3 &low = surface_.facts().low, &high = surface_.facts().high;
+        room_.grid_ =
+            RoomGrid(surface_, {Vec3(low.x(), low.y(), room_.base_), Vec3(high.x(), high.y(), room_.top_)},
+                     [this](const Vec3& place) { return room_.holds_by_rays(place); });
     }
 
   private:
@@ -58,7 +62,7 @@ class EnclosedRoom::Builder {
         Level first, second;
     };
 
-    // Between the heights of two vertices the area of a section is a polynomial of second order, for which
+    // The area of a section is a polynomial of second order between the heights of two vertices, for which
     // Gauss's rule is exact. Of very many heights those are taken at which the area jumps.
     void find_borders() {
         const double low = surface_.facts().low.z(), high = surface_.facts().high.z();
@@ -168,7 +172,7 @@ class EnclosedRoom::Builder {
         }
     }
 
-    // Among the middles of pieces in some of the wide levels that which is farthest from the surface.
+    // The middle of a piece, in one of the wide levels, that is farthest from the surface.
     void find_widest() {
         std::vector<double> wide;
         double largest = 0;

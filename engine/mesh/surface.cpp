@@ -10,7 +10,7 @@ namespace {
 
 constexpr double flat_angle = 1e-6;  // rad
 
-// From the two shorter edges, which keeps most digits where the triangle is slender.
+// The cross product of the two shorter edges keeps most digits where the triangle is slender.
 Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const double lab = ab.squaredNorm(), lbc = bc.squaredNorm(), lca = ca.squaredNorm();

@@ -57,7 +57,7 @@ class Surface {
     }
 
     // On the face it is the foot of the perpendicular. On an edge that two triangles share both give the same
-    // bits, and a corner is the vertex itself.
+    // bits, and a corner is the vertex itself. On a slender triangle it is right to within its height.
     NearestPoint nearest(std::int32_t triangle, const Vec3& point) const;
     // The nearest point of all triangles within `reach` (m); of equal ones that with the lowest number.
     struct Nearest {

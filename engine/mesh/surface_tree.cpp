@@ -60,40 +60,6 @@ void Surface::build_tree() {
     }
 }
 
-NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
-    const TriangleMesh::Triangle& numbers = mesh_.triangles[static_cast<std::size_t>(triangle)];
-    const Vec3* corners[3];
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = &mesh_.vertices[static_cast<std::size_t>(numbers[k])];
-    const Vec3& n = normal(triangle);
-    NearestPoint best{point, -1, Feature::face};
-    // Where the foot of the perpendicular is outside, the nearest point lies on an edge that the foot is
-    // outside of. No quotient of areas is formed: they say nothing on slender triangles.
-    for (std::size_t e = 0; e < 3; ++e) {
-        const std::size_t f = e == 2 ? 0 : e + 1;
-        if (!(n.dot((*corners[f] - *corners[e]).cross(point - *corners[e])) < 0)) continue;
-        const bool back =
-            numbers[e] > numbers[f];  // from the lower number, so that both neighbours find the same
-        const Vec3 &begin = *corners[back ? f : e], &end = *corners[back ? e : f];
-        const Vec3 along = end - begin;
-        const double t = along.dot(point - begin) / along.squaredNorm();
-        NearestPoint here{begin, 0, Feature::face};
-        if (t <= 0) {
-            here.feature = static_cast<Feature>(4 + (back ? f : e));
-        } else if (t >= 1) {
-            here.at = end;
-            here.feature = static_cast<Feature>(4 + (back ? e : f));
-        } else {
-            here.at = begin + t * along;
-            here.feature = static_cast<Feature>(1 + e);
-        }
-        here.squared = (point - here.at).squaredNorm();
-        if (best.squared < 0 || here.squared < best.squared) best = here;
-    }
-    if (best.squared >= 0) return best;
-    const double distance = n.dot(point - *corners[0]);
-    return {point - distance * n, distance * distance, Feature::face};
-}
-
 // Calls within(triangle, its nearest point) for all triangles not farther than the reach, which it may
 // shorten by what it returns: the new square of the reach (m2); below zero it ends.
 template <class Within>
@@ -129,6 +95,7 @@ void Surface::visit(const Vec3& point, double squared_reach, Within&& within) co
 
 std::optional<Surface::Nearest> Surface::nearest(const Vec3& point, double reach) const {
     std::optional<Nearest> best;
+    if (!(reach >= 0)) return best;
     visit(point, reach * reach, [&](std::int32_t triangle, const NearestPoint& found) {
         const bool better = !best || found.squared < best->point.squared ||
                             (found.squared == best->point.squared && triangle < best->triangle);
@@ -139,6 +106,7 @@ std::optional<Surface::Nearest> Surface::nearest(const Vec3& point, double reach
 }
 
 void Surface::near(const Vec3& point, double reach, std::vector<std::int32_t>& found) const {
+    if (!(reach >= 0)) return;
     const auto before = static_cast<std::ptrdiff_t>(found.size());
     const double squared = reach * reach;
     visit(point, squared, [&](std::int32_t triangle, const NearestPoint&) {
@@ -150,6 +118,7 @@ void Surface::near(const Vec3& point, double reach, std::vector<std::int32_t>& f
 
 bool Surface::any_within(const Vec3& point, double reach) const {
     bool any = false;
+    if (!(reach >= 0)) return any;
     visit(point, reach * reach, [&](std::int32_t, const NearestPoint&) {
         any = true;
         return -1.0;

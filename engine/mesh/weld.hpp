@@ -8,14 +8,15 @@
 
 namespace grainreel {
 
-// Of `vertices`, those named in `which` (all different, rising) that lie within `reach` (m) of an earlier
-// one, and within `fraction` times room[i] of both, are joined with the first such. Gives for each vertex the
-// one that takes its place, itself as a rule. `room` may be empty: then only `reach` counts.
+// Vertices to be joined: two that lie within `reach` (m) of each other, and within the room that each of them
+// has.
 struct Welding {
     const std::vector<Vec3>& vertices;
     double reach = 0;
-    std::vector<double> room;
+    std::vector<double> room;  // m, by vertices; empty: only `reach` counts
 };
+// Looks at those named in `which` (all different, rising). Gives for each vertex the one that takes its
+// place: itself, or the first one looked at that it can be joined with.
 std::vector<std::int32_t> joined(const Welding& welding, const std::vector<std::int32_t>& which);
 
 // Gives the triangles the vertices that take the place of theirs. Returns how many vertices went.

@@ -3,18 +3,16 @@
 #include <cmath>
 
 #include "engine/plan/contact_kinds.hpp"
+#include "engine/plan/drops.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/plan/wall_speeds.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
-#include "engine/scene/free_space.hpp"
 
 namespace grainreel {
 namespace {
 
-// Solid, of the crowd that layers begin as.
-constexpr double loose_fraction = 1.0 / 3;
 // Settling is short, and nobody looks: overlaps may be this large there.
 constexpr double settling_overlap = 0.05;
 // A plastic block on the plate hits it at up to 2.13 a omega for Gamma from 1.2 to 10. What a turning wall
@@ -47,29 +45,13 @@ double closing_speed(const Scene& scene) {
     return std::max(no_walls ? 0.0 : fastest, (high - low).norm());
 }
 
-// m: how far the highest grain falls while the bed settles. From a region grains fall down to the lowest
-// wall.
-double start_drop(const Scene& scene, double bed_height) {
-    const Container& c = scene.container;
-    if (!scene.start.region || !scene.start.packs()) return c.height - c.base() - bed_height;
-    const FreeSpace room(scene);
-    const double share = std::min(1.0, solid_volume(scene) / loose_fraction / room.volume());
-    return std::max(0.0, room.height_of_share(share) - lowest_place(scene));
-}
-
-// m/s: of grains that fall from the container, or from the region they start in, to a mesh further below.
-double fall_below(const Scene& scene, double gravity) {
-    const double from = scene.start.region ? scene.start.region->low.z() : scene.container.base();
-    if (scene.container.shape == Container::Shape::none && !scene.start.region) return 0;
-    return std::sqrt(2 * gravity * std::max(0.0, from - lowest_place(scene)));
-}
-
 // m/s: of grains that come during the run, when they have fallen to the floor.
 double fastest_fed(const Scene& scene) {
     double fastest = 0;
-    const double floor = lowest_place(scene);
+    const double floor = lowest_wall(scene);
     for (const Feed& feed : scene.feeds) {
-        const double fall = std::max(0.0, feed.high.z() - floor);
+        const double from = scene.meshes.empty() ? feed.high.z() : highest_corner(scene, feed.low, feed.high);
+        const double fall = std::max(0.0, from - floor);
         fastest = std::max(fastest, std::sqrt(feed.velocity.squaredNorm() + 2 * scene.gravity.norm() * fall));
     }
     return fastest;
@@ -84,7 +66,7 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
     const DrivePeaks peaks = drive.present ? drive_peaks(drive) : DrivePeaks{};
     bed.frequency = peaks.frequency;
     if (bed.gravity > 0) bed.g_level = peaks.acceleration / bed.gravity;
-    bed.height = fill_height(scene, settled_solid_fraction);
+    bed.height = bed_depth(scene);
     bed.carried_height = std::min(bed.height, 2 * bed_width(scene));
     double diameters = 0;
     for (const Species& s : scene.species) {
@@ -117,7 +99,7 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
     if (scene.container.tray)
         bed.impact_speed =
             std::max(bed.impact_speed, std::sqrt(2 * bed.gravity * scene.container.tray->depth));
-    if (!scene.meshes.empty()) bed.impact_speed = std::max(bed.impact_speed, fall_below(scene, bed.gravity));
+    bed.impact_speed = std::max(bed.impact_speed, std::sqrt(2 * bed.gravity * drop_below(scene)));
     if (!scene.feeds.empty())
         bed.impact_speed = std::max(bed.impact_speed, fastest_fed(scene) + drive.top_speed());
     bed.speed_of_others = bed.impact_speed;

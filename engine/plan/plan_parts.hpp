@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/plan/drops.hpp"
 #include "engine/plan/plan.hpp"
 
 namespace grainreel {
-
-constexpr double settled_solid_fraction = 0.6;
 
 // What the whole bed is like, and how hard it is shaken.
 struct BedPlan {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/plan/wall_speeds.hpp"
+#include "engine/plan/drops.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {
@@ -31,7 +31,7 @@ double rain_drop(const Scene& scene) {
     const double high = rain_layer(scene).high;
     if (!scene.start.region) return std::min(high, scene.container.height - scene.container.base());
     const Region& region = *scene.start.region;
-    const double below = std::max(0.0, region.low.z() - lowest_place(scene));
+    const double below = drop_below(scene);
     return std::min(high, region.high.z() - region.low.z()) + below;
 }
 

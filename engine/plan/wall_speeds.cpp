@@ -86,15 +86,6 @@ double fastest_own_speed(const Scene& scene) {
     return fastest;
 }
 
-double lowest_place(const Scene& scene) {
-    const Container& c = scene.container;
-    const bool space = c.shape == Container::Shape::none && scene.walls.empty();
-    double lowest = space && !scene.meshes.empty() ? std::numeric_limits<double>::infinity() : c.base();
-    for (const SceneMesh& mesh : scene.meshes)
-        if (&mesh != scene.vessel()) lowest = std::min(lowest, mesh.surface->facts().low.z());
-    return lowest;
-}
-
 void check_rims(const Scene& scene, double step) {
     if (const double speed = own_speed(scene.container); speed > 0)
         check_rim(scene, "container.turn.rate", "the container's rim", speed, step);

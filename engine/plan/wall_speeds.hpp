@@ -1,4 +1,4 @@
-// Walls with a motion of their own: how fast they are, and how low there are any.
+// Walls with a motion of their own: how fast they are.
 #pragma once
 
 #include "engine/scene/scene.hpp"
@@ -14,10 +14,6 @@ double own_speed(const Container& container);
 
 // m/s: the largest of all these. Planes are not counted: their velocities are in the scene as they are.
 double fastest_own_speed(const Scene& scene);
-
-// m, the lowest z at which there is a wall to fall on: the container's base, or a mesh that lies lower. Of
-// empty space without meshes 0.
-double lowest_place(const Scene& scene);
 
 // Throws UserError where a wall moves by itself further within `step` (s) than a tenth of the smallest
 // grain's diameter.

@@ -84,8 +84,11 @@ void FreeSpace::set_box(const Scene& scene) {
 }
 
 void FreeSpace::measure() {
-    // A place in a mesh's room costs sixteen rays.
-    const int places = container_.shape == Container::Shape::mesh ? 20'000 : 100'000;
+    // A place in a mesh's room costs sixteen rays, and one beside a solid a ray.
+    const bool dear = container_.shape == Container::Shape::mesh ||
+                      std::any_of(meshes_.begin(), meshes_.end(),
+                                  [](const Shared<Surface>& mesh) { return mesh->facts().closed(); });
+    const int places = dear ? 10'000 : 100'000;
     measured_ = true;
     int inside = 0;
     for (int k = 0; k < places; ++k) {

@@ -76,7 +76,8 @@ void first_radii(Growing& g, double reach) {
             allowed[i] = std::min(allowed[i], std::max(distance, 0.1 * g.wanted_of(i)));
         }
         for (const MeshWall& mesh : g.around.meshes) {
-            const auto nearest = mesh.surface->nearest(g.grains.place[i].position, allowed[i]);
+            const Vec3 place = mesh.body.at(Pose()).at_rest(g.grains.place[i].position);
+            const auto nearest = mesh.surface->nearest(place, allowed[i]);
             if (!nearest) continue;
             allowed[i] =
                 std::min(allowed[i], std::max(std::sqrt(nearest->point.squared), 0.1 * g.wanted_of(i)));

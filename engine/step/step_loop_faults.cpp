@@ -12,11 +12,13 @@ namespace {
 
 std::string text_of(const MeshFault& fault, const Clock& clock, const std::string& mesh) {
     const Vec3& x = fault.position;
-    const std::string where = fmt::format("step {} ({:.6g} s): grain {} at ({:.4g}, {:.4g}, {:.4g}) m", fault.step,
-                                          clock.time(fault.step), fault.grain, x.x(), x.y(), x.z());
+    const std::string where =
+        fmt::format("step {} ({:.6g} s): grain {} at ({:.4g}, {:.4g}, {:.4g}) m", fault.step,
+                    clock.time(fault.step), fault.grain, x.x(), x.y(), x.z());
     if (fault.kind == MeshFault::Kind::many_patches)
         return fmt::format(
-            "{} touches the mesh {} at more than {} places at once; take larger grains or a mesh without such "
+            "{} touches the mesh {} at more than {} places at once; take larger grains or a mesh without "
+            "such "
             "fine folds",
             where, mesh, kMostPatches);
     return fmt::format(
@@ -30,15 +32,18 @@ std::string text_of(const MeshFault& fault, const Clock& clock, const std::strin
 // Histories hold the number of a triangle as one of their own numbers.
 void StepLoop::check_meshes() const {
     constexpr std::int32_t kMostInFloats = 1 << 24;
-    GRAINREEL_CHECK(rules_.group_of_mesh.size() >= around_.meshes.size() * static_cast<std::size_t>(rules_.species));
+    GRAINREEL_CHECK(rules_.group_of_mesh.size() >=
+                    around_.meshes.size() * static_cast<std::size_t>(rules_.species));
     for (std::size_t m = 0; m < around_.meshes.size(); ++m) {
         const std::int32_t triangles = around_.meshes[m].surface->size();
         for (std::int32_t s = 0; s < rules_.species && triangles > kMostInFloats; ++s)
-            if (rules_.groups[rules_.group_of(static_cast<std::int32_t>(m), s)].number_size() == sizeof(float))
-                throw UserError(fmt::format(
-                    "the mesh {} has {} triangles, and with run.precision = \"mixed\" a mesh may have at most {}; "
-                    "take run.precision = \"full\" or a coarser mesh",
-                    around_.meshes[m].name, triangles, kMostInFloats));
+            if (rules_.groups[rules_.group_of(static_cast<std::int32_t>(m), s)].number_size() ==
+                sizeof(float))
+                throw UserError(
+                    fmt::format("the mesh {} has {} triangles, and with run.precision = \"mixed\" a mesh may "
+                                "have at most {}; "
+                                "take run.precision = \"full\" or a coarser mesh",
+                                around_.meshes[m].name, triangles, kMostInFloats));
     }
 }
 

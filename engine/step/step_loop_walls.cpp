@@ -20,7 +20,7 @@ Vec3 arm_at(const Surroundings& around, std::size_t wall, const Pose& pose, cons
         return place - mesh.body.at(pose).moved(mesh.point);
     }
     const Face& face = around.faces[wall];
-    if (face.body.has_own_motion()) return place - face.body.at(pose).moved(face.point);
+    if (face.body.has_own_motion()) return place - face.body.at(pose).moved(moment_point(face));
     return place - face.point - face.displacement(pose);
 }
 

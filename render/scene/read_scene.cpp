@@ -41,7 +41,9 @@ void check_film(const FilmedScene& scene) {
     const bool wall_apart = std::any_of(scene.walls.begin(), scene.walls.end(), [](const FreeWall& wall) {
         return !wall.moves || wall.velocity != Vec3(0, 0, 0);
     });
-    if (floor_only || wall_apart)
+    const bool mesh_apart = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                        [](const SceneMesh& mesh) { return !mesh.driven; });
+    if (floor_only || wall_apart || mesh_apart || scene.container.turn)
         fail(scene, "film.exaggerate",
              "needs walls that all move together, or grains would be drawn inside those that do not; take it "
              "out");

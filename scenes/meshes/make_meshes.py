@@ -117,7 +117,7 @@ def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.01
     return along_x(prism(ring, length / 2))
 
 
-def screw(radius=0.024, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, facets=36):
+def screw(radius=0.02, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, facets=36):
     """A right-handed blade about a shaft, along y, from y = 0 on."""
     steps = round(turns * facets)
     inner = 0.8 * shaft  # the blade begins inside the shaft

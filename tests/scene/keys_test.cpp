@@ -13,6 +13,7 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/read_scene.hpp"
+#include "tests/scene/meshes_by_hand.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -72,8 +73,21 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string staged = wedge_text + "[[drive.stage]]\nfrom = 1\n";
     const std::string captioned = wedge_text + "[[film.caption]]\nfrom = 1\ntext = \"a\"\n";
     const std::string plotted = wedge_text + "[[film.plot]]\ny = \"lacey\"\n";
-    const std::string cases[] = {wedge_text, box,    locked, motion, from_file, exact,     layers,
-                                 fields,     outlet, rough,  fed,    staged,    captioned, plotted};
+    const MeshScenes files;
+    const std::string meshed = exact +
+                               "[[exit]]\nlow = [-2, -2, -2]\nhigh = [2, 2, -1]\n[[mesh]]\nfile = \"" +
+                               files.put("plate.stl", plate(0.02)).string() + "\"\n";
+    const std::string turned = meshed + "turn = { axis = [0, 0, 1], rate = 1 }\n";
+    const std::string turning = with(wedge_text, "height = \"180 mm\"\n",
+                                     "height = \"180 mm\"\nturn = { axis = [1, 0, 0], rate = 1 }\n");
+    MeshByHand shelf = plate(0.02);
+    for (TriangleByHand& triangle : shelf)
+        for (Vec3& corner : triangle) corner.z() = 0.1;
+    const std::string shelved =
+        wedge_text + "[[mesh]]\nfile = \"" + files.put("shelf.stl", shelf).string() + "\"\n";
+    const std::string cases[] = {wedge_text, box,     locked, motion, from_file, exact,
+                                 layers,     fields,  outlet, rough,  fed,       staged,
+                                 captioned,  plotted, meshed, turned, turning,   shelved};
     for (const Key& key : filmed_scene_keys()) {
         if (key.fallback.empty()) continue;
         std::string path = key.path;

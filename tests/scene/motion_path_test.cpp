@@ -77,10 +77,10 @@ TEST(MotionPath, VelocityAndSpinAreTheDerivatives) {
 TEST(MotionPath, StandsBeforeAndAfter) {
     const MeshScenes files;
     const auto path =
-        MotionPath::read(files.put("path.csv", "t,x,y,z\n-1,1,0,0\n0,2,0,0\n1,3,0,0\n2,4,0,0\n"));
-    EXPECT_EQ(path->at(-3).place, Vec3(1, 0, 0));
+        MotionPath::read(files.put("path.csv", "t,x,y,z\n-1,-1,0,0\n0,0,0,0\n1,1,0,0\n2,2,0,0\n"));
+    EXPECT_EQ(path->at(-3).place, Vec3(-1, 0, 0));
     EXPECT_EQ(path->at(-3).velocity, Vec3(0, 0, 0));
-    EXPECT_LT((path->at(0.25).place - Vec3(2.25, 0, 0)).norm(), 1e-15);
+    EXPECT_LT((path->at(0.25).place - Vec3(0.25, 0, 0)).norm(), 1e-15);
     EXPECT_LT((path->at(2).velocity - Vec3(1, 0, 0)).norm(), 1e-15);
     EXPECT_EQ(path->at(5).place, path->at(2).place);
     EXPECT_EQ(path->at(5).velocity, Vec3(0, 0, 0));
@@ -148,6 +148,18 @@ TEST(MotionPath, SaysWhatIsWrongAndWhere) {
             files,
             "t,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n1,0,0,0,0,1,0,0\n2,0,0,0,0,1,0,0\n3,0,0,0,0,1,0,0\n"),
         HasSubstr("path.csv:3: the path turns by 3.142 rad since line 2"));
+}
+
+// The mesh rests until the run begins.
+TEST(MotionPath, BeginsWhereTheMeshRests) {
+    const MeshScenes files;
+    EXPECT_THAT(
+        complaint(files, "t,x,y,z\n0,1,0,0\n1,1,0,0\n2,1,0,0\n3,2,0,0\n"),
+        HasSubstr("path.csv: at 0 s the path is at (1, 0, 0) m, but places count from where the mesh rests"));
+    EXPECT_THAT(complaint(files,
+                          "t,x,y,z,qw,qx,qy,qz\n0,0,0,0,0.6,0.8,0,0\n1,0,0,0,0.6,0.8,0,0\n"
+                          "2,0,0,0,0.6,0.8,0,0\n3,0,0,0,0.6,0.8,0,0\n"),
+                HasSubstr("m, turned, but places count"));
 }
 
 // A jump is one step that is much faster than those around it, or one row that lies apart. Motions that rest

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "render/scene/filmed_scene.hpp"
+#include "tests/scene/meshes_by_hand.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {
@@ -20,6 +21,8 @@ FilmedScene filled_in(FilmedScene scene, const Plan& plan) {
     for (std::size_t i = 0; i < count * count; ++i)
         scene.contact.grain[i].stiffness = stiffness(plan.grain[i]);
     for (std::size_t i = 0; i < count; ++i) scene.contact.wall[i].stiffness = stiffness(plan.wall[i]);
+    for (std::size_t i = 0; i < plan.mesh.size(); ++i)
+        scene.contact.mesh[i].stiffness = stiffness(plan.mesh[i]);
     for (std::size_t i = 0; i < plan.glued.size(); ++i) {
         const std::size_t glued = scene.container.wall_grains->species;
         scene.contact.grain[i * count + glued].glued_stiffness = stiffness(plan.glued[i]);
@@ -54,16 +57,18 @@ void expect_equal(std::vector<PairPlan> again, std::vector<PairPlan> plan) {
     }
 }
 
-void expect_round_trip(const FilmedScene& original) {
+void expect_round_trip(const FilmedScene& original, const std::filesystem::path& folder = {}) {
     const Plan plan = make_plan(original);
     const std::string text = resolved_scene(original, plan);
-    const FilmedScene back = read_filmed_scene_text(text, "scene.toml", {}, measurable_in);
+    const FilmedScene back = read_filmed_scene_text(text, folder / "scene.toml", {}, measurable_in);
     const FilmedScene expected = filled_in(original, plan);
     EXPECT_EQ(back.title, expected.title);
     EXPECT_EQ(back.species, expected.species);
     EXPECT_EQ(back.contact, expected.contact);
     EXPECT_EQ(back.container, expected.container);
     EXPECT_EQ(back.walls, expected.walls);
+    EXPECT_EQ(back.meshes, expected.meshes);
+    EXPECT_EQ(back.exits, expected.exits);
     EXPECT_EQ(back.gravity, expected.gravity);
     EXPECT_EQ(back.drive, expected.drive);
     EXPECT_EQ(back.start, expected.start);
@@ -80,6 +85,7 @@ void expect_round_trip(const FilmedScene& original) {
     EXPECT_EQ(again.settle_steps_limit, plan.settle_steps_limit);
     expect_equal(again.grain, plan.grain);
     expect_equal(again.wall, plan.wall);
+    expect_equal(again.mesh, plan.mesh);
     expect_equal(again.glued, plan.glued);
     EXPECT_EQ(scene_without_remarks(back, again), scene_without_remarks(original, plan));
 }
@@ -122,6 +128,26 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
         read_text(box_text, {"container.outlet={width=\"7.3 mm\"}", "container.tray={depth=0.0123}"}));
     expect_round_trip(read_text(wedge_text, {"container.wall_grains={species=\"small\", spacing=0.0071, "
                                              "faces=[\"left_slant\", \"floor\"], disorder=0.13}"}));
+}
+
+// In a folder that has the copies which the scene names.
+TEST(Writer, ScenesWithMeshesReadBackBitByBit) {
+    const MeshScenes files;
+    files.put("meshes/plate.stl", plate(0.2));
+    files.put("meshes/tank.stl", box_of_sheets(0.1, 0.08));
+    const auto read = [&](std::string text) {
+        for (const char* name : {"plate.stl", "tank.stl"})
+            if (const auto at = text.find(name); at != std::string::npos) text.insert(at, "meshes/");
+        return read_filmed_scene_text(text, files.path() / "scene.toml", {}, measurable_in);
+    };
+    expect_round_trip(read(ball_on_plate), files.path());
+    expect_round_trip(read(with(ball_on_plate, "plate.stl\"\n",
+                                "plate.stl\"\nturn = { axis = [1, 2, 3], rate = \"30 "
+                                "rpm\", over = 0.1 }\n")),
+                      files.path());
+    expect_round_trip(read(in_vessel + "[drive]\nfrequency = 20\namplitude = 0.001\n[[contact.pair]]\n"
+                                       "between = [\"tank\", \"big\"]\nlaw = \"hertz\"\nfriction = 0.7\n"),
+                      files.path());
 }
 
 const std::string glued_text = with(wedge_text, "height = \"180 mm\"\n",

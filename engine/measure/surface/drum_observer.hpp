@@ -23,7 +23,7 @@ class Drum final : public Observer {
              "of what turns since it began: of the container, or of the mesh that is the container, or of "
              "the "
              "first mesh that turns; NaN without one. Whatever else is measured can be drawn against it"},
-            {{{"repose_angle_deg", "dynamic angle of repose", Dimension::degrees}},
+            {{{"repose_angle_degree", "dynamic angle of repose", Dimension::degrees}},
              "degrees",
              "of the bed's surface against the horizontal, seen along the axis: of the line of least squares "
              "through the middle third of it, above 0 where the drum carries the bed up (Yamane et al. "

@@ -64,7 +64,9 @@ class WallForces final : public Observer {
           work_(scene, plan) {}
 
     bool needs_wall_sums() const override { return true; }
-    const FieldSet* fields() const override { return &profile_.fields(); }
+    const FieldSet* fields() const override {
+        return profile_.fields().fields.empty() ? nullptr : &profile_.fields();
+    }
     std::int64_t gathers_after(std::int64_t step) const override {
         return std::min({rows_.after(step), records_.next_end(step + 1), work_.gathers_after(step)});
     }

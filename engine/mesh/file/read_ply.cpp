@@ -67,7 +67,7 @@ class BinaryBody {
             case PlyType::uint32:
                 return take<std::uint32_t>();
             case PlyType::float32:
-                return take<float>();
+                return decimal_of(take<float>());
             case PlyType::float64:
                 return take<double>();
         }

@@ -56,8 +56,7 @@ class AsciiStl {
     }
 
     TriangleMesh::Triangle facet() {
-        words_.skip_line();  // the normal
-        expect("outer");
+        skip_normal();
         expect("loop");
         TriangleMesh::Triangle triangle{};
         for (std::int32_t& corner : triangle) {
@@ -72,6 +71,16 @@ class AsciiStl {
         if (!same_word(word, "endloop")) unexpected(word, "endloop");
         expect("endfacet");
         return triangle;
+    }
+
+    // Whatever stands there; "nan" as a rule where the triangle has no area.
+    void skip_normal() {
+        std::string_view word = words_.next();
+        while (!same_word(word, "outer")) {
+            if (word.empty() || same_word(word, "vertex") || same_word(word, "facet"))
+                unexpected(word, "outer");
+            word = words_.next();
+        }
     }
 
     double coordinate() {
@@ -110,6 +119,8 @@ TriangleMesh read_binary_stl(const fs::path& file, std::string_view bytes) {
             mesh.triangles[i][k] =
                 pool.number_of(corner_at(file, bytes, head + i * row + (k + 1) * first_corner));
     mesh.vertices = std::move(pool.vertices());
+    for (Vec3& vertex : mesh.vertices)
+        for (int k = 0; k < 3; ++k) vertex[k] = decimal_of(static_cast<float>(vertex[k]));
     return mesh;
 }
 

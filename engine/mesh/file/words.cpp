@@ -94,6 +94,16 @@ std::optional<std::int64_t> whole_in(std::string_view word) {
     return value;
 }
 
+double decimal_of(float value) {
+    constexpr float whole = 1 << 24;
+    if (!(std::abs(value) < whole) || value == std::trunc(value)) return value;
+    char digits[32];
+    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    double decimal = value;
+    if (error == std::errc()) std::from_chars(digits, end, decimal);
+    return decimal;
+}
+
 std::string no_number(std::string_view word) {
     if (word.empty()) return "a number is missing";
     return fmt::format("\"{}\" is not a finite number", excerpt(word));

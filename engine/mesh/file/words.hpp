@@ -19,7 +19,7 @@ class Words {
     std::string_view next_in_line();
     // The rest of this line; the next word is then the first one of the next line.
     void skip_line();
-    // Of the last word.
+    // The line of the last word.
     std::int64_t line() const { return line_; }
     bool at_end() const { return left_.empty(); }
     std::string_view left() const { return left_; }
@@ -37,6 +37,10 @@ bool same_word(std::string_view word, std::string_view lower_case);
 // A finite number, all of the word. "+1.5" and 1e-400 are numbers; nan, inf, "-1.#IND" and 1e400 are none.
 std::optional<double> number_in(std::string_view word);
 std::optional<std::int64_t> whole_in(std::string_view word);
+
+// What a float of a binary file means: the shortest decimal that it is nearest to. A plate at 0.1 then stands
+// at the same place, to the last bit, in a binary file and in a text.
+double decimal_of(float value);
 
 // Why a word is no coordinate: "\"nan\" is not a finite number".
 std::string no_number(std::string_view word);

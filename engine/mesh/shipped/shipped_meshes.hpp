@@ -1,5 +1,5 @@
-// The meshes of scenes/meshes, which the build puts into the program: a scene that comes with the program finds
-// them wherever the program is. In a scene such a file is called "shipped:drum.stl".
+// The meshes of scenes/meshes, which the build puts into the program: a scene that comes with the program
+// finds them wherever the program is. In a scene such a file is called "shipped:drum.stl".
 #pragma once
 
 #include <filesystem>

@@ -86,10 +86,8 @@ const KeyTable<M>& mesh_table() {
         rotation_key(),
         flag("driven", &M::driven, note("true for the container's mesh that has no other motion"),
              "Follows the drive. A mesh has one motion at most: this, `turn`, `velocity` or `path`."),
-        turn_key(&M::turn, "Or a table: turns steadily about an axis.")
-            .excludes({"velocity", "path", "path_hash"}),
+        turn_key(&M::turn, "Or a table: turns steadily about an axis."),
         vector("velocity", &M::velocity, Dimension::speed, initial(), "Steady, from the start.")
-            .excludes({"path", "path_hash"})
             .unwritten_if(stands_still),
         file_key("path", &M::path_file, note("none"),
                  "CSV of a motion: time_s, x_m, y_m, z_m from where it rests and, if wanted, qw, qx, qy, qz, "

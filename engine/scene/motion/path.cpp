@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/scene/motion/path_file.hpp"
 
@@ -21,6 +24,25 @@ Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
     return 2 * (quaternion_of(change) * quaternion_of(unit).conjugate()).vec();
 }
 
+// The mesh rests until the run begins, and would be elsewhere at once.
+void check_start(const MotionPath& path, const PathRows& rows, const std::filesystem::path& file) {
+    constexpr double same = 1e-6;  // of the path's size; rad
+    const PathPose start = path.at(0);
+    Vec3 low(0, 0, 0), high(0, 0, 0);
+    for (const Vec3& place : rows.places) low = low.cwiseMin(place), high = high.cwiseMax(place);
+    const Vec3 place = start.place - path.pivot() + start.rotation * path.pivot();
+    const bool turned = Eigen::AngleAxisd(start.rotation).angle() > same;
+    if (place.norm() <= same * (high - low).norm() && !turned) return;
+    throw UserError(fmt::format(
+        "{}: at 0 s the path is at ({:.6g}, {:.6g}, {:.6g}) m{}, but places count from where the mesh rests, "
+        "and it rests until then; {}",
+        file.string(), place.x(), place.y(), place.z(), turned ? ", turned" : "",
+        turned
+            ? "let the path begin at 0, 0, 0 with the quaternion 1, 0, 0, 0, and place the mesh by position "
+              "and rotation"
+            : "subtract that from all rows, and add it to the mesh's position"));
+}
+
 }  // namespace
 
 std::shared_ptr<const MotionPath> MotionPath::read(const std::filesystem::path& file, const Vec3& pivot) {
@@ -32,6 +54,7 @@ std::shared_ptr<const MotionPath> MotionPath::read(const std::filesystem::path& 
     path->pivot_ = pivot;
     path->hash_ = hash_of_file(file);
     path->find_tops();
+    check_start(*path, rows, file);
     return path;
 }
 

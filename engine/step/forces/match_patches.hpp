@@ -1,9 +1,9 @@
 // Which patch of a mesh goes on with which contact of the step before.
 //
-// A contact goes on with the patch that has its triangle, unless the normal has jumped; else with the patch whose
-// normal is nearest to its own. Where two contacts would go on with one patch, the one with the larger force
-// does. What is left over are new contacts; each takes the lowest number that is free. All this depends on the
-// grain alone, and not on threads, nor on the order of the table.
+// A contact goes on with the patch that has its triangle, unless the normal has jumped; else with the patch
+// whose normal is nearest to its own. Where two contacts would go on with one patch, the one with the larger
+// force does. What is left over are new contacts; each takes the lowest number that is free. All this depends
+// on the grain alone, and not on threads, nor on the order of the table.
 #pragma once
 
 #include <array>
@@ -44,11 +44,12 @@ class PatchMatcher {
     void find_before(const ContactGroup& group, const MeshNear& near, const ContactTable& table);
     void find_owners();
     int patch_of(const Before& before) const;
-    void look_for_faults(const ForceInput& in, const MeshNear& near, const WallPose& pose);
+    void look_for_crossings(const ForceInput& in, const MeshNear& near, const WallPose& pose);
     void put_together(std::int32_t wall);
 
     Patches patches_;
-    std::vector<Vec3> normals_;  // of the patches, in the frame of the scene
+    std::vector<Vec3> normals_;      // of the patches, in the frame of the scene
+    std::vector<double> distances_;  // likewise, m; negative for a centre that is to be pushed back
     std::vector<Before> before_;
     std::array<int, kMostPatches> owner_{};  // of each patch: which of before_; -1 for none
     std::vector<MatchedPatch> matched_;

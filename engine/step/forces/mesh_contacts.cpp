@@ -4,7 +4,8 @@ namespace grainreel {
 
 namespace {
 
-// Keeps the fault of the earliest step, and in it that of the lowest id. Those of this step have no number yet.
+// Keeps the fault of the earliest step, and in it that of the lowest id. Those of this step have no number
+// yet.
 void note(const MeshFault& fault, std::optional<MeshFault>& first) {
     if (!first || (first->step < 0 && fault.grain < first->grain)) first = fault;
 }

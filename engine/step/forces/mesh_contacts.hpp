@@ -10,8 +10,8 @@
 
 namespace grainreel {
 
-// Takes the place of add_new_contacts() for a group of meshes: finds the patches that grains touch, begins their
-// contacts at the end of the table, and sets MeshLists::touch. Notes the first fault.
+// Takes the place of add_new_contacts() for a group of meshes: finds the patches that grains touch, begins
+// their contacts at the end of the table, and sets MeshLists::touch. Notes the first fault.
 void find_patches(const ForceInput& in, std::size_t group, ThreadContacts& contacts, PatchMatcher& matcher);
 
 // After the law of a chunk that begins at contact c: its contacts remember their patches.

@@ -12,7 +12,8 @@ Vec3 vector_of(const Row* rows, int c, std::size_t size) {
 
 }  // namespace
 
-// The wall feels the force at the point of its surface, and beside it the torque of the resistance to rolling.
+// The wall feels the force at the point of its surface, and beside it the torque of the resistance to
+// rolling.
 void add_at_points(const WallForces& in, bool of_meshes) {
     const ChunkOfContacts& chunk = in.contacts;
     const std::size_t size = chunk.rounded ? sizeof(float) : sizeof(double);

@@ -82,8 +82,9 @@ int Patches::holder_of(std::int32_t triangle) const {
 
 // Where a triangle stands among those that touch; -1 for nowhere.
 int Patches::place_of(std::int32_t triangle) const {
-    const auto at = std::lower_bound(touching_.begin(), touching_.end(), triangle,
-                                     [](const Touching& t, std::int32_t number) { return t.triangle < number; });
+    const auto at =
+        std::lower_bound(touching_.begin(), touching_.end(), triangle,
+                         [](const Touching& t, std::int32_t number) { return t.triangle < number; });
     return at == touching_.end() || at->triangle != triangle ? -1 : static_cast<int>(at - touching_.begin());
 }
 
@@ -134,7 +135,8 @@ bool Patches::is_minimum(int t) {
     const std::int32_t number = touching_[t].triangle;
     const double squared = touching_[t].nearest.squared;
     const bool at_edge = rank(feature) == 1;
-    const int first = at_edge ? edge_of(feature) : corner_of(feature), second = (first + (at_edge ? 1 : 2)) % 3;
+    const int first = at_edge ? edge_of(feature) : corner_of(feature),
+              second = (first + (at_edge ? 1 : 2)) % 3;
     // In most cases the triangle beyond the edge, or one beyond the two edges of the corner, is nearer.
     for (const int edge : {first, at_edge ? first : second}) {
         const std::int32_t next = surface_->neighbour(number, edge).triangle;
@@ -147,8 +149,7 @@ bool Patches::is_minimum(int t) {
     const std::int32_t two = at_edge ? own[static_cast<std::size_t>((first + 1) % 3)] : one;
     bool minimum = true;
     for (std::size_t o = 0; o < touching_.size(); ++o) {
-        const TriangleMesh::Triangle& more =
-            mesh.triangles[static_cast<std::size_t>(touching_[o].triangle)];
+        const TriangleMesh::Triangle& more = mesh.triangles[static_cast<std::size_t>(touching_[o].triangle)];
         if (!has_vertex(more, one) || !has_vertex(more, two)) continue;
         if (is_nearer(touching_[o].nearest.squared, squared))
             minimum = false;

@@ -1,11 +1,11 @@
 // Where a grain touches a mesh: once for each patch of surface that hangs together within its reach, whatever
 // the triangles.
 //
-// A triangle touches when its nearest point is closer to the grain's centre than the radius. Touching triangles
-// are of one patch if they meet in an edge that is flat, smooth or convex, seen from the centre, or in their
-// nearest point. The patch is touched at its nearest point, if that is a local minimum of the distance to the
-// surface: on a face always; on an edge or corner, if no triangle that meets there is nearer. So a ball in a
-// groove has two contacts, and a ball on one wall of it has none with the groove's edge.
+// A triangle touches when its nearest point is closer to the grain's centre than the radius. Touching
+// triangles are of one patch if they meet in an edge that is flat, smooth or convex, seen from the centre, or
+// in their nearest point. The patch is touched at its nearest point, if that is a local minimum of the
+// distance to the surface: on a face always; on an edge or corner, if no triangle that meets there is nearer.
+// So a ball in a groove has two contacts, and a ball on one wall of it has none with the groove's edge.
 //
 // All is in the body's frame and in doubles. The answer does not depend on the order of the triangles.
 #pragma once
@@ -18,12 +18,12 @@
 namespace grainreel {
 
 struct Patch {
-    std::int32_t triangle;  // that has the nearest point; of equals a face before an edge before a corner, and
-                            // then the lowest
+    std::int32_t triangle;  // that has the nearest point; of equals a face before an edge before a corner,
+                            // and then the lowest
     Vec3 at;                // m, the nearest point
     Vec3 normal;            // unit, from the centre to it
-    double distance;        // m, of the centre; 0 where the centre lies in the surface, and `normal` is that of
-                            // the triangle
+    double distance;  // m, of the centre; 0 where the centre lies in the surface, and `normal` is that of
+                      // the triangle
 };
 
 class Patches {
@@ -57,7 +57,7 @@ class Patches {
 
     const Surface* surface_ = nullptr;
     Vec3 centre_{0, 0, 0};
-    double squared_reach_ = 0;  // m2
+    double squared_reach_ = 0;        // m2
     std::vector<Touching> touching_;  // by rising triangle, once they are found
     std::vector<int> best_;           // of each group, by its first member
     std::vector<double> least_;       // m2, likewise

@@ -122,9 +122,10 @@ void touch_meshes(const GeometryInput& in, const MeshTouch* at, const WallState&
             continue;
         }
         const WallPose& pose = walls.poses[static_cast<std::size_t>(touch.wall)];
-        touch_point(in, c,
-                    {touch.normal, touch.normal_before, touch.distance, pose.mean_velocity(touch.at), pose.spin},
-                    out);
+        touch_point(
+            in, c,
+            {touch.normal, touch.normal_before, touch.distance, pose.mean_velocity(touch.at), pose.spin},
+            out);
     }
     set_copies_apart(in, out);
 }

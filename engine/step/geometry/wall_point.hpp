@@ -1,10 +1,10 @@
 // Contacts of grains with points of walls that move in different ways: with meshes, and with faces of bodies
-// that turn. They are computed one by one, in doubles. Walls whose points all move alike take the vector code of
-// wall_geometry.cpp.
+// that turn. They are computed one by one, in doubles. Walls whose points all move alike take the vector code
+// of wall_geometry.cpp.
 //
-// What a law reads is at the time levels of turn-inl.hpp: overlap and normal of the step's end, velocities and
-// turn over the step. The wall's velocity is the way of its material point in the step over the step, and the
-// old normal is known. So a grain that turns with its wall as one body does not slip.
+// What a law reads is at the time levels of turn-inl.hpp: overlap and normal of the step's end, velocities
+// and turn over the step. The wall's velocity is the way of its material point in the step over the step, and
+// the old normal is known. So a grain that turns with its wall as one body does not slip.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct WallPoint {
     Vec3 spin{0, 0, 0};           // rad/s, of the wall, likewise
 };
 
-// Fills the rows of contact c that `in` asks for, and sets its bit where it touches. Before the first contact of
-// a chunk, `touching` must be 0. set_apart() is for a contact that does not touch.
+// Fills the rows of contact c that `in` asks for, and sets its bit where it touches. Before the first contact
+// of a chunk, `touching` must be 0. set_apart() is for a contact that does not touch.
 void touch_point(const GeometryInput& in, int c, const WallPoint& point, TouchChunk& out);
 void set_apart(const GeometryInput& in, int c, TouchChunk& out);
 

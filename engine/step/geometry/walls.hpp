@@ -34,6 +34,11 @@ struct alignas(64) FaceMotion {
     double unused_two;
 };
 
+// m, at rest: the point about which a face's moment counts. It stays where it is while the body turns.
+inline Vec3 moment_point(const Face& face) {
+    return face.body.turn ? face.body.turn->through : face.point;
+}
+
 // A wall whose points move in different ways, over one step.
 struct WallPose {
     BodyPose now;
@@ -41,11 +46,11 @@ struct WallPose {
     Vec3 moved{0, 0, 0};          // m/s, mean velocity of the body's origin
     Eigen::Matrix3d rate;         // 1/s, mean, by which `turned` grows
     Vec3 spin{0, 0, 0};           // rad/s, mean over the step
-    Vec3 point{0, 0, 0};          // m, now: about which the moment counts
+    Vec3 point{0, 0, 0};          // m, now: about which the moment counts; of a face that turns on its axis
     Vec3 point_before{0, 0, 0};   // m, of a face: its point a step ago
     Vec3 normal_before{0, 0, 0};  // of a face: its normal a step ago
 
-    // From `before` to `now` within `step` seconds; point: m, at rest.
+    // From `before` to `now` within `step` seconds; rest_point: m, that `point` is at rest.
     void set(const Body& body, const Vec3& rest_point, const Pose& before, const Pose& now, double step);
     // m/s, of a point that is given in the body's frame: its way in the step over the step.
     Vec3 mean_velocity(const Vec3& at_rest) const { return moved + rate * at_rest; }

@@ -10,8 +10,8 @@
 
 namespace grainreel {
 
-// As list_walls(): under the grains [begin, end), by rising grain, then mesh. Every mesh whose surface is closer
-// to a grain's surface than `skin` (m).
+// As list_walls(): under the grains [begin, end), by rising grain, then mesh. Every mesh whose surface is
+// closer to a grain's surface than `skin` (m).
 void list_meshes(const Grains& grains, const std::vector<MeshWall>& meshes, const Pose& pose, double skin,
                  std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 

@@ -17,8 +17,8 @@ void MeshLists::add(std::int32_t grain, std::int32_t mesh, const Surface& surfac
         triangles.push_back({triangle, kLess * std::sqrt(surface.nearest(triangle, centre).squared)});
     std::sort(triangles.begin() + static_cast<std::ptrdiff_t>(first), triangles.end(),
               [](const NearTriangle& a, const NearTriangle& b) { return a.distance < b.distance; });
-    MeshNear one{grain, mesh, centre, static_cast<std::int32_t>(first),
-                 static_cast<std::int32_t>(found_.size()), {}};
+    MeshNear one{
+        grain, mesh, centre, static_cast<std::int32_t>(first), static_cast<std::int32_t>(found_.size()), {}};
     one.contact.fill(MeshNear::kNone);
     near.push_back(one);
 }

@@ -10,8 +10,8 @@
 
 #include "engine/step/geometry/patches.hpp"
 #include "engine/step/geometry/wall_point.hpp"
-#include "engine/step/lists/contact_table.hpp"
 #include "engine/step/lists/contact_rules.hpp"
+#include "engine/step/lists/contact_table.hpp"
 
 namespace grainreel {
 
@@ -22,7 +22,8 @@ struct MeshNear {
     std::int32_t grain, mesh;
     Vec3 centre;                // m, of the grain at the refresh, in the body's frame
     std::int32_t first, count;  // its triangles; the nearest comes first
-    std::array<std::int32_t, kMostPatches> contact;  // where its patches stand in the table; kNone for nowhere
+    std::array<std::int32_t, kMostPatches>
+        contact;  // where its patches stand in the table; kNone for nowhere
 };
 struct NearTriangle {
     std::int32_t number;

@@ -34,8 +34,7 @@ WallWays::WallWays(const Surroundings& around) : around_(around) {
 // A plane across the axis, and a cylinder about it, stay where they are as they turn.
 WallWays::Swing WallWays::swing_of(const Face& face) {
     if (!face.body.turn) return {face.point, face.reach};
-    const bool stays =
-        face.kind == Face::Kind::cylinder || are_parallel(face.normal, face.body.turn->axis);
+    const bool stays = face.kind == Face::Kind::cylinder || are_parallel(face.normal, face.body.turn->axis);
     if (face.kind == Face::Kind::cylinder) return {face.point, 0};
     return {face.body.turn->through, stays ? 0 : face.reach};
 }
@@ -55,8 +54,8 @@ double WallWays::farthest(const Pose& before, const Pose& now, const Vec3& flown
     for (const Face& face : around_.faces) {
         if (face.body.has_own_motion()) {
             const Swing swing = swing_of(face);
-            of_turning = std::max(of_turning,
-                                  way_of(face.body, swing.centre, swing.radius, before, now, flown));
+            of_turning =
+                std::max(of_turning, way_of(face.body, swing.centre, swing.radius, before, now, flown));
             continue;
         }
         const Vec3 gone = face.displacement(now) - face.displacement(before) - flown;

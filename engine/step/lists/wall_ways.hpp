@@ -12,8 +12,8 @@ class WallWays {
     // The surroundings must outlive it, and their meshes stay the same.
     explicit WallWays(const Surroundings& around);
 
-    // m, the largest displacement of any point of any wall between two poses, relative to a frame displaced by
-    // `flown`.
+    // m, the largest displacement of any point of any wall between two poses, relative to a frame displaced
+    // by `flown`.
     double farthest(const Pose& before, const Pose& now, const Vec3& flown) const;
     // m/s, the largest velocity of any point of any wall relative to a frame with this velocity.
     double fastest(const Pose& now, const Vec3& frame) const;

@@ -66,7 +66,8 @@ double CameraPath::frame_part(const FilmedScene& scene, const FramedPart& part) 
         keep_distance(scene, part);
         return camera_.field_of_view <= 0 ? focal_ : focal_ / distance_;
     }
-    still_ = fit_view(camera_, framing_points(scene, camera_.azimuth, part, meshes_), port_, margin_, picture_height_);
+    still_ = fit_view(camera_, framing_points(scene, camera_.azimuth, part, meshes_), port_, margin_,
+                      picture_height_);
     distance_ = still_->to_view(target_).z();
     return still_->pixels_per_metre(target_);
 }
@@ -176,7 +177,8 @@ void CameraPath::look_from_position() {
     Vec3 back = from_target;
     if (camera_.up != Vec3(0, 0, 1)) {
         const Vec3 front = front_of(camera_.up);
-        back = {from_target.dot(front), from_target.dot(camera_.up.cross(front)), from_target.dot(camera_.up)};
+        back = {from_target.dot(front), from_target.dot(camera_.up.cross(front)),
+                from_target.dot(camera_.up)};
     }
     if (std::hypot(back.x(), back.y()) > 1e-9 * distance_)
         camera_.azimuth = std::atan2(back.y(), back.x()) / degrees;

@@ -27,6 +27,7 @@ class CameraPath {
     // film_time: s since the first frame. In the lab's frame; a camera that follows is moved from there.
     View at(double film_time) const;
     bool moves() const { return camera_.moves(); }
+    const std::vector<Vec3>& meshes() const { return meshes_; }  // as mesh_reach() has them
 
   private:
     struct Pose {
@@ -51,7 +52,7 @@ class CameraPath {
     Camera camera_;
     const Rectangle port_;
     const int picture_height_;
-    const double margin_;  // pixels, between what is framed and the port's border
+    const double margin_;             // pixels, between what is framed and the port's border
     const std::vector<Vec3> meshes_;  // m, their outermost points
     Vec3 target_;
     std::optional<View> still_;         // with the plain automatic framing
@@ -62,7 +63,8 @@ class CameraPath {
     std::vector<MonotoneCurve> place_;  // x, y, z of the target
 };
 
-// m, how far the container has come, for a camera that follows it: with its shaking, and not with its turning.
+// m, how far the container has come, for a camera that follows it: with its shaking, and not with its
+// turning.
 Vec3 way_of_container(const FilmedScene& scene, const Frame& frame);
 
 // The scene's camera as the film begins.

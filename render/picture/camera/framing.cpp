@@ -107,6 +107,18 @@ void add_stream(const Container& container, std::vector<Vec3>& corners) {
         for (const double end : {-1.0, 1.0}) corners.emplace_back(end * x, side * y, -outlet.exit_depth);
 }
 
+// Down to a box below all meshes, where grains leave, as far as that is not far away.
+void add_fall(const FilmedScene& scene, std::vector<Vec3>& corners) {
+    if (scene.exits.empty() || corners.empty()) return;
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
+                                                 [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    double top = -1e300;
+    for (const ExitBox& box : scene.exits) top = std::max(top, box.high.z());
+    if (top >= low->z() || low->z() - top > 0.5 * (high->z() - low->z())) return;
+    const Vec3 middle = extent_of(scene).middle();
+    corners.emplace_back(middle.x(), middle.y(), top);
+}
+
 }  // namespace
 
 FramedPart whole_container(const FilmedScene& scene) {
@@ -116,9 +128,8 @@ FramedPart whole_container(const FilmedScene& scene) {
 FramedPart framed_part(const FilmedScene& scene) {
     const Container& container = scene.container;
     const bool all = scene.film.camera.frame == CameraFrame::container ||
-                     container.shape == Container::Shape::none ||
-                     container.shape == Container::Shape::mesh || container.turn ||
-                     looks_steeply(scene.film.camera);
+                     container.shape == Container::Shape::none || container.shape == Container::Shape::mesh ||
+                     container.turn || looks_steeply(scene.film.camera);
     const std::optional<double> top = all ? std::nullopt : wanted_top(scene);
     if (!top) return whole_container(scene);
     const double height = container.height;
@@ -140,6 +151,7 @@ std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const
         for (const Vec3& corner : tray_corners(scene)) corners.push_back(corner);
     else if (scene.container.outlet)
         add_stream(scene.container, corners);
+    if (!meshes.empty()) add_fall(scene, corners);
     if (!part.cut && part.top > scene.container.height) corners.emplace_back(0, 0, part.top);
     std::vector<Vec3> points;
     const Vec3 stroke = drawn_stroke(scene);

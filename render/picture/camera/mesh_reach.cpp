@@ -29,12 +29,14 @@ std::vector<Vec3> reach_of(const SceneMesh& mesh) {
     if (mesh.turn) {
         for (int k = 0; k < kTurns; ++k) {
             const Eigen::AngleAxisd turn(2 * std::numbers::pi * k / kTurns, mesh.turn->axis);
-            for (const Vec3& p : rest) reached.push_back(mesh.turn->through + turn * (p - mesh.turn->through));
+            for (const Vec3& p : rest)
+                reached.push_back(mesh.turn->through + turn * (p - mesh.turn->through));
         }
     } else if (mesh.path) {
         for (int k = 0; k <= kPathPlaces; ++k) {
             const double share = static_cast<double>(k) / kPathPlaces;
-            const PathPose pose = mesh.path->at(mesh.path->first() + share * (mesh.path->last() - mesh.path->first()));
+            const PathPose pose =
+                mesh.path->at(mesh.path->first() + share * (mesh.path->last() - mesh.path->first()));
             for (const Vec3& p : rest) reached.push_back(pose.place + pose.rotation * p);
         }
     } else {

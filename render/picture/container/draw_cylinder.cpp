@@ -35,8 +35,9 @@ std::vector<Vec3> circle(double radius, double z) {
 std::pair<double, double> visible_part(double radius, const Sketch& sketch) {
     const Vec3 to_eye = sketch.to_eye();
     const double distance = std::hypot(to_eye.x(), to_eye.y());
-    return {std::atan2(to_eye.y(), to_eye.x()),
-            sketch.view().orthographic ? 0.5 * std::numbers::pi : std::acos(std::min(1.0, radius / distance))};
+    return {std::atan2(to_eye.y(), to_eye.x()), sketch.view().orthographic
+                                                    ? 0.5 * std::numbers::pi
+                                                    : std::acos(std::min(1.0, radius / distance))};
 }
 
 class Cylinder {
@@ -50,8 +51,7 @@ class Cylinder {
           turns_(container.turn.has_value()),
           sketches_(sketches),
           shapes_(shapes) {
-        std::tie(facing_, half_visible_) =
-            visible_part(radius_, sketches.walls);
+        std::tie(facing_, half_visible_) = visible_part(radius_, sketches.walls);
     }
 
     void draw() {

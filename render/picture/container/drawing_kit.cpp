@@ -30,7 +30,8 @@ Paint blend(const Paint& one, const Paint& other, double share_of_other) {
 double Sketch::solid(const Vec3& point, const Vec3& normal) const {
     const View& view = views_.at_rest;
     if (turned_) {
-        const Vec3 at = views_.now.orthographic ? Vec3(-views_.now.forward) : Vec3((views_.now.eye - moved(point)).normalized());
+        const Vec3 at = views_.now.orthographic ? Vec3(-views_.now.forward)
+                                                : Vec3((views_.now.eye - moved(point)).normalized());
         return smooth_step(-turned(normal).dot(at) - fade, fade);
     }
     if (!views_.moves) return view.faces(point, normal) ? 0 : 1;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -27,15 +29,44 @@ double lowest_of_floor(const FilmedScene& scene, const View& view) {
     return lowest;
 }
 
+// From where to where grains fall and leave, m, and the row in which the lowest wall ends.
+struct Fall {
+    Vec3 from, to;
+    double lowest_row;
+};
+
+std::optional<Fall> fall_below_outlet(const FilmedScene& scene, const View& view) {
+    const Container& c = scene.container;
+    if (!c.outlet || c.tray) return std::nullopt;
+    return Fall{Vec3(0, 0, 0), Vec3(0, 0, -c.outlet->exit_depth), lowest_of_floor(scene, view)};
+}
+
+// Into a box that lies below all meshes.
+std::optional<Fall> fall_into_exit(const FilmedScene& scene, const View& view,
+                                   const std::vector<Vec3>& meshes) {
+    if (scene.exits.empty() || meshes.empty()) return std::nullopt;
+    double lowest = meshes.front().z(), row = 0;
+    for (const Vec3& point : meshes) {
+        lowest = std::min(lowest, point.z());
+        row = std::max(row, view.project(point).y());
+    }
+    double top = -1e300;
+    for (const ExitBox& box : scene.exits) top = std::max(top, box.high.z());
+    if (top >= lowest) return std::nullopt;
+    const Vec3 middle = extent_of(scene).middle();
+    return Fall{{middle.x(), middle.y(), lowest}, {middle.x(), middle.y(), top}, row};
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height) {
-    const Container& c = scene.container;
-    if (!c.outlet || c.tray) return {};
-    const double depth = c.outlet->exit_depth;
-    const double end = view.project(Vec3(0, 0, -depth)).y();
-    const double begin =
-        std::max(view.project(Vec3(0, 0, -begins_at * depth)).y(), lowest_of_floor(scene, view));
+std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height,
+                                     const std::vector<Vec3>& meshes) {
+    std::optional<Fall> fall = fall_below_outlet(scene, view);
+    if (!fall) fall = fall_into_exit(scene, view, meshes);
+    if (!fall) return {};
+    const double end = view.project(fall->to).y();
+    const double half_way = view.project(fall->from + begins_at * (fall->to - fall->from)).y();
+    const double begin = std::max(half_way, fall->lowest_row);
     if (!std::isfinite(begin) || !std::isfinite(end) || end - begin < least_rows) return {};
     std::vector<std::uint32_t> rows;
     for (int y = 0; y < height; ++y)

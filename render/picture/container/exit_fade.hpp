@@ -11,8 +11,10 @@
 namespace grainreel {
 
 // Of each row of a port so high, counted from the top: how strong grains are there, 0 to 255. Empty where all
-// are as they are: without an outlet, with a tray, and where the eye looks down so steeply that rows with
-// grains of the bed would fade too.
-std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height);
+// are as they are: without an outlet or a box below a vessel that they leave into, with a tray, and where the
+// eye looks down so steeply that rows with grains of the bed would fade too. meshes: m, their outermost
+// points.
+std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height,
+                                     const std::vector<Vec3>& meshes = {});
 
 }  // namespace grainreel

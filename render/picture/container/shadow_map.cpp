@@ -30,12 +30,18 @@ void mean_of_five(const std::array<const float*, 5>& of, float* out) {
 
 ShadowMap::ShadowMap(const FilmedScene& scene)
     : container_(scene.container),
+      meshes_(scene),
+      extent_(extent_of(scene)),
       foot_(scene.container.tray ? tray_container(scene) : scene.container),
       low_plate_(-1.4 * drawn_thickness(foot_)),
       cells_(kSide * kSide) {
     const double stroke =
         scene.drive.present ? drive_peaks(scene.drive).offset * std::abs(scene.drive.direction.z()) : 0;
     height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
+    if (meshes_.any())
+        height_ = std::min(height_, meshes_.lowest() - stroke - 0.15 * drawn_thickness(container_));
+    if (container_.shape == Container::Shape::mesh)
+        height_ = meshes_.lowest() - stroke - 0.15 * drawn_thickness(container_);
     if (container_.tray) height_ = low_plate_ - container_.tray->depth - 0.15 * drawn_thickness(foot_);
 }
 
@@ -47,15 +53,30 @@ Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
 
 // Around the foot and as far as the container's whole height throws.
 void ShadowMap::place(const Vec3& to_key) {
-    const double reach =
-        std::max(floor_reach(foot_), std::hypot(container_.half_width, 0.5 * container_.depth));
     low_ = {0, 0};
     side_ = kSide;  // one cell a metre: fall() then is in metres
+    if (container_.shape == Container::Shape::mesh) return place_around_extent(to_key);
+    const double reach =
+        std::max(floor_reach(foot_), std::hypot(container_.half_width, 0.5 * container_.depth));
     const Eigen::Vector2d tip = fall({0, 0, container_.height}, to_key);
     const Eigen::Vector2d low = tip.cwiseMin(Eigen::Vector2d::Zero()),
                           high = tip.cwiseMax(Eigen::Vector2d::Zero());
     const Eigen::Vector2d middle = 0.5 * (low + high);
     side_ = (high - low).maxCoeff() + 2.8 * reach;
+    low_ = middle.array() - 0.5 * side_;
+}
+
+// A vessel may stand anywhere, and its grains throw their shadow from its height.
+void ShadowMap::place_around_extent(const Vec3& to_key) {
+    Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
+    for (int k = 0; k < 8; ++k) {
+        const Vec3 corner((k & 1 ? extent_.high : extent_.low).x(), (k & 2 ? extent_.high : extent_.low).y(),
+                          (k & 4 ? extent_.high : extent_.low).z());
+        low = low.cwiseMin(fall(corner, to_key));
+        high = high.cwiseMax(fall(corner, to_key));
+    }
+    const Eigen::Vector2d middle = 0.5 * (low + high);
+    side_ = 1.4 * (high - low).maxCoeff();
     low_ = middle.array() - 0.5 * side_;
 }
 
@@ -82,19 +103,28 @@ void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
 // Each grain as what its disc covers, shared between four cells; optical depths add up.
 void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
     const double per_area = std::pow(kSide / side_, 2);
-    for (std::size_t g = 0; g < frame.size(); ++g) {
-        const Eigen::Vector2d at = fall(frame.position[g], to_key).array() - 0.5;
-        const Eigen::Vector2d base = at.array().floor();
-        if ((base.array() < 0).any() || (base.array() >= kSide - 1).any()) continue;
-        const Eigen::Vector2d share = at - base;
-        const double depth = std::numbers::pi * frame.radius[g] * frame.radius[g] * per_area;
-        float* cell =
-            &cells_[static_cast<std::size_t>(base.y()) * kSide + static_cast<std::size_t>(base.x())];
-        cell[0] += static_cast<float>(depth * (1 - share.x()) * (1 - share.y()));
-        cell[1] += static_cast<float>(depth * share.x() * (1 - share.y()));
-        cell[kSide] += static_cast<float>(depth * (1 - share.x()) * share.y());
-        cell[kSide + 1] += static_cast<float>(depth * share.x() * share.y());
-    }
+    for (std::size_t g = 0; g < frame.size(); ++g)
+        add_depth(fall(frame.position[g], to_key).array() - 0.5,
+                  std::numbers::pi * frame.radius[g] * frame.radius[g] * per_area);
+}
+
+// Each patch of a mesh as what it covers of the light.
+void ShadowMap::add_meshes(const Frame& frame, const Vec3& to_key) {
+    const double per_area = std::pow(kSide / side_, 2) / std::max(to_key.z(), kLeastRise);
+    meshes_.visit(frame, to_key, [&](const Vec3& at, double area) {
+        add_depth(fall(at, to_key).array() - 0.5, area * per_area);
+    });
+}
+
+void ShadowMap::add_depth(const Eigen::Vector2d& at, double depth) {
+    const Eigen::Vector2d base = at.array().floor();
+    if ((base.array() < 0).any() || (base.array() >= kSide - 1).any()) return;
+    const Eigen::Vector2d share = at - base;
+    float* cell = &cells_[static_cast<std::size_t>(base.y()) * kSide + static_cast<std::size_t>(base.x())];
+    cell[0] += static_cast<float>(depth * (1 - share.x()) * (1 - share.y()));
+    cell[1] += static_cast<float>(depth * share.x() * (1 - share.y()));
+    cell[kSide] += static_cast<float>(depth * (1 - share.x()) * share.y());
+    cell[kSide + 1] += static_cast<float>(depth * share.x() * share.y());
 }
 
 // Three box filters after each other, along both axes; beyond the map there is no shadow.
@@ -121,7 +151,8 @@ void ShadowMap::cast(const Frame& frame, const Vec3& to_key) {
     place(to_key);
     std::fill(cells_.begin(), cells_.end(), 0.0f);
     add_grains(frame, to_key);
-    add_plate(frame, to_key);
+    add_meshes(frame, to_key);
+    if (container_.shape != Container::Shape::mesh) add_plate(frame, to_key);
     for (float& cell : cells_) cell = 1 - std::exp(-cell);
     soften();
 }

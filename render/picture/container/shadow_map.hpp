@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "engine/scene/bed.hpp"
+#include "render/picture/container/mesh_shadows.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -28,13 +30,18 @@ class ShadowMap {
 
   private:
     void place(const Vec3& to_key);
+    void place_around_extent(const Vec3& to_key);
     void add_plate(const Frame& frame, const Vec3& to_key);
     void add_grains(const Frame& frame, const Vec3& to_key);
+    void add_meshes(const Frame& frame, const Vec3& to_key);
+    void add_depth(const Eigen::Vector2d& at, double depth);
     void soften();
     // Where the light that passes `point` meets the ground, in cells.
     Eigen::Vector2d fall(const Vec3& point, const Vec3& to_key) const;
 
     const Container container_;
+    const MeshShadows meshes_;
+    const Extent extent_;
     const Container foot_;  // what stands on the ground: the container, or the tray below it
     double height_ = 0, low_plate_ = 0;
     Eigen::Vector2d low_{0, 0};

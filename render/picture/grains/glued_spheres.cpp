@@ -34,7 +34,8 @@ std::vector<GluedSpheres::Seen> GluedSpheres::seen(const View& view, const Frame
     for (const Glued& one : glued_) {
         const BodyPose pose = frame.body(one.body);
         const Vec3 centre = pose.moved(one.at_rest);
-        if (one.at_side || view.faces(centre, pose.rotation * one.inward)) all.push_back({centre, one.radius});
+        if (one.at_side || view.faces(centre, pose.rotation * one.inward))
+            all.push_back({centre, one.radius});
     }
     return all;
 }

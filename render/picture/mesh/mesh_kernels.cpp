@@ -91,8 +91,7 @@ HWY_INLINE Mask keep_nearer(Mask inside, F near, float* at) {
 void solid(const ScreenTriangle& t, const MeshRows& rows, int y0, int y1) {
     float offset[3][kMeshSamples], near_offset[kMeshSamples];
     for (int s = 0; s < kMeshSamples; ++s) {
-        for (int e = 0; e < 3; ++e)
-            offset[e][s] = t.edge[e].a * kSampleX[s] + t.edge[e].b * kSampleY[s];
+        for (int e = 0; e < 3; ++e) offset[e][s] = t.edge[e].a * kSampleX[s] + t.edge[e].b * kSampleY[s];
         near_offset[s] = t.near.x * kSampleX[s] + t.near.y * kSampleY[s];
     }
     const F least[3] = {F(t.edge[0].least), F(t.edge[1].least), F(t.edge[2].least)};

@@ -32,9 +32,9 @@ struct ScreenTriangle {
     Edge edge[3];
     float x = 0, y = 0;  // of one corner, from which the planes count
     ScreenPlane near, shade;
-    float colour[3], brighter[3];  // 0 to 255, at shade 0, and what comes on top at shade 1
-    float tint = 0;                // of glass: thickness, in panes seen straight
-    std::uint32_t number = 0;      // of the triangle, for who asks; from 1 on
+    float colour[3], brighter[3];        // 0 to 255, at shade 0, and what comes on top at shade 1
+    float tint = 0;                      // of glass: thickness, in panes seen straight
+    std::uint32_t number = 0;            // of the triangle, for who asks; from 1 on
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels that it may touch; high ends excluded
 };
 

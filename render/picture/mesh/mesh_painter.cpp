@@ -13,9 +13,9 @@ namespace grainreel {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-constexpr int kPad = 64;            // numbers after a row, which kernels may write
-constexpr float kApart = 3;         // pixels, of depth: samples that lie farther apart may have grains between them
-constexpr float kOnThePlane = 1;    // pixels, by which a line may lie behind a plane and be seen as on it
+constexpr int kPad = 64;     // numbers after a row, which kernels may write
+constexpr float kApart = 3;  // pixels, of depth: samples that lie farther apart may have grains between them
+constexpr float kOnThePlane = 1;  // pixels, by which a line may lie behind a plane and be seen as on it
 
 float depth_of(const Sight& sight, float near) {
     return sight.orthographic ? -near : 1 / near;
@@ -127,7 +127,8 @@ void MeshPainter::draw_solid_band(int band, const MeshProjection& meshes, const 
                               away_.data() + place(0, y), worker.bits.data());
         replace_row(behind_, y, worker.row.data(), columns.x0, columns.x1);
         take_mixed(y, rows, columns, sight, apart, worker, state.mixed);
-        const auto begin = static_cast<std::ptrdiff_t>(place(columns.x0, y - y0)), end = static_cast<std::ptrdiff_t>(place(columns.x1, y - y0));
+        const auto begin = static_cast<std::ptrdiff_t>(place(columns.x0, y - y0)),
+                   end = static_cast<std::ptrdiff_t>(place(columns.x1, y - y0));
         for (int s = 0; s < kMeshSamples; ++s) {
             std::fill(worker.near[s].begin() + begin, worker.near[s].begin() + end, kNowhereNear);
             std::fill(worker.colour[s].begin() + begin, worker.colour[s].begin() + end, 0u);
@@ -150,8 +151,7 @@ void MeshPainter::take_mixed(int y, const MeshRows& rows, const Columns& columns
                 farthest = std::min(farthest, near[at]);
             }
             if (nearest == kNowhereNear) continue;
-            const bool stepped =
-                nearest > (sight.orthographic ? farthest + apart : farthest * (1 + apart));
+            const bool stepped = nearest > (sight.orthographic ? farthest + apart : farthest * (1 + apart));
             const float middle = stepped ? 0.5f * (nearest + farthest) : kNowhereNear;
             Mixed pixel{x, y, 0, 0, depth_of(sight, nearest), depth_of(sight, farthest)};
             for (int s = 0; s < kMeshSamples; ++s) {
@@ -200,8 +200,10 @@ void MeshPainter::draw_line(const ScreenLine& line, int y0, int y1, const Job& j
         }
         if (begin > end) continue;
         const float xa = from.x() + begin * along.x(), xb = from.x() + end * along.x();
-        const int x0 = static_cast<int>(std::clamp(std::min(xa, xb) - reach, 0.0f, static_cast<float>(width_)));
-        const int x1 = static_cast<int>(std::clamp(std::max(xa, xb) + reach + 1, 0.0f, static_cast<float>(width_)));
+        const int x0 =
+            static_cast<int>(std::clamp(std::min(xa, xb) - reach, 0.0f, static_cast<float>(width_)));
+        const int x1 =
+            static_cast<int>(std::clamp(std::max(xa, xb) + reach + 1, 0.0f, static_cast<float>(width_)));
         for (int x = x0; x < x1; ++x) {
             const Eigen::Vector2f p(static_cast<float>(x) + 0.5f, py);
             const float share = std::clamp((p - from).dot(along) / square, 0.0f, 1.0f);
@@ -250,14 +252,16 @@ void MeshPainter::draw_rest_band(int band, const Job& job, Worker& worker) {
     for (const std::uint32_t i : what.glass) {
         const ScreenTriangle& t = job.meshes.glass(i);
         columns.take(t.x0, t.x1);
-        const GlassRows rows{job.seen.depth(y0),     worker.glass.data(), job.seen.stride(), stride_, y0,
+        const GlassRows rows{job.seen.depth(y0),    worker.glass.data(), job.seen.stride(), stride_, y0,
                              job.sight.orthographic};
         mesh_kernels().glass(t, rows, y0, y1);
     }
     for (const std::uint32_t i : what.lines) {
         const ScreenLine& line = job.meshes.line(i);
         const float wide = line.half_width + 1;
-        const auto pixel = [&](float x) { return static_cast<int>(std::clamp(x, 0.0f, static_cast<float>(width_))); };
+        const auto pixel = [&](float x) {
+            return static_cast<int>(std::clamp(x, 0.0f, static_cast<float>(width_)));
+        };
         columns.take(pixel(std::min(line.from.x(), line.to.x()) - wide),
                      pixel(std::max(line.from.x(), line.to.x()) + wide + 1));
         draw_line(line, y0, y1, job, worker);

@@ -3,8 +3,8 @@
 // First what is solid: four samples a pixel. Where it stands before grains, these are not drawn at all
 // (Visibility takes its depth). Where the outlines of both meet, the share of a pixel that stands before the
 // grain goes into the layer over the grains. Then glass, thinly laid over whatever is behind it, and lines
-// along edges, which are seen unless a solid plane is before them. Rows are worked on in bands; the team's size does not
-// show in the picture.
+// along edges, which are seen unless a solid plane is before them. Rows are worked on in bands; the team's
+// size does not show in the picture.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ class MeshPainter {
     // m, z in the middle of each pixel.
     SolidDepth depth() const { return {away_.data(), stride_}; }
     // What depends on the grains, which `seen` knows; it was made with depth().
-    void draw_rest(const MeshProjection& meshes, const Sight& sight, const Visibility& seen,
-                   const Inks& inks, Team& team);
+    void draw_rest(const MeshProjection& meshes, const Sight& sight, const Visibility& seen, const Inks& inks,
+                   Team& team);
 
     const Layer& behind() const { return behind_; }
     const Layer& before() const { return before_; }
@@ -45,8 +45,8 @@ class MeshPainter {
     // Samples of one pixel that are not alike: those nearer, and those farther away by a step.
     struct Mixed {
         int x, y;
-        std::uint32_t near, far;      // colours, multiplied by the share of the samples
-        float near_away, far_away;    // m, z
+        std::uint32_t near, far;    // colours, multiplied by the share of the samples
+        float near_away, far_away;  // m, z
     };
     // Columns that something is drawn in; high end excluded.
     struct Columns {
@@ -88,13 +88,15 @@ class MeshPainter {
     void bring_forward(int y, const Job& job, Worker& worker, const Columns& columns);
     void split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker);
     void lay_glass_and_lines(int y, const Columns& columns, const Inks& inks, Worker& worker);
-    std::size_t place(int x, int y) const { return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x); }
+    std::size_t place(int x, int y) const {
+        return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x);
+    }
     int bands() const { return (height_ + kBand - 1) / kBand; }
 
     const int width_, height_;
     const std::size_t stride_;
     Layer behind_, before_;
-    std::vector<float> away_;           // rows of `stride_`
+    std::vector<float> away_;            // rows of `stride_`
     std::vector<std::uint32_t> number_;  // of the solid triangle seen in the pixel's middle, or 0
     std::vector<BandState> states_;
     std::vector<Worker> workers_;

@@ -13,7 +13,8 @@ constexpr float kKeyShare = 0.62f;  // of the light on walls; the sky gives the 
 // Lines: what share of a main line's width, and how strong.
 constexpr float kFeatureWidth = 0.8f, kOutlineWidth = 1;
 constexpr float kSolidLine = 0.85f, kGlassLine = 0.42f, kOutline = 0.7f;
-// An edge becomes one of glass while its last solid face turns edge-on; the sine of the angle that this takes.
+// An edge becomes one of glass while its last solid face turns edge-on; the sine of the angle that this
+// takes.
 constexpr float kFade = 0.14f;
 
 // More of the pane is in the way where it is seen at a slant.
@@ -60,10 +61,13 @@ void MeshProjection::take(const View& view, const Sight& sight, const Cut& cut,
 MeshProjection::Seen MeshProjection::look_at(const MeshShape& shape, std::size_t t) const {
     const Eigen::Vector3f normal = turn_ * shape.normals[t].cast<float>();
     const auto& [a, b, c] = shape.triangles[t];
-    const Eigen::Vector3f middle = (vertices_[static_cast<std::size_t>(a)] + vertices_[static_cast<std::size_t>(b)] +
-                                    vertices_[static_cast<std::size_t>(c)]) / 3;
+    const Eigen::Vector3f middle =
+        (vertices_[static_cast<std::size_t>(a)] + vertices_[static_cast<std::size_t>(b)] +
+         vertices_[static_cast<std::size_t>(c)]) /
+        3;
     // By a corner, so that the side changes just where the triangle is edge-on.
-    const float height = sight_.orthographic ? normal.z() : normal.dot(vertices_[static_cast<std::size_t>(a)]);
+    const float height =
+        sight_.orthographic ? normal.z() : normal.dot(vertices_[static_cast<std::size_t>(a)]);
     const float length = sight_.orthographic ? 1 : std::max(middle.norm(), 1e-30f);
     const bool front = height < 0;
     const MeshShape::Sides& sides = shape.sides[t];
@@ -155,7 +159,8 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
         }
         const Eigen::Vector3f normal =
             (seen.front ? 1.0f : -1.0f) * (turn_ * mesh.shape->normals[t].cast<float>());
-        share.planes.push_back({normal, normal.dot(vertices_[static_cast<std::size_t>(mesh.shape->triangles[t][0])])});
+        share.planes.push_back(
+            {normal, normal.dot(vertices_[static_cast<std::size_t>(mesh.shape->triangles[t][0])])});
         triangle.number = static_cast<std::uint32_t>(share.planes.size());
         share.solid.push_back(triangle);
     }
@@ -181,8 +186,9 @@ void MeshProjection::add_edge(const MeshShape::Edge& edge, Share& share) const {
         return;
     line.glass = glass;
     line.half_width = 0.5f * paints_.pen * (edge.feature ? kFeatureWidth : kOutlineWidth);
-    line.strength = edge.feature ? kGlassLine + (glass ? 0 : smooth(turned / kFade) * (kSolidLine - kGlassLine))
-                                 : (glass ? kGlassLine : kOutline);
+    line.strength = edge.feature
+                        ? kGlassLine + (glass ? 0 : smooth(turned / kFade) * (kSolidLine - kGlassLine))
+                        : (glass ? kGlassLine : kOutline);
     share.lines.push_back(line);
 }
 
@@ -198,7 +204,8 @@ void MeshProjection::sort_into_bands() {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         const ScreenLine& line = lines_[i];
         const float wide = line.half_width + 1;
-        const float top = std::min(line.from.y(), line.to.y()) - wide, bottom = std::max(line.from.y(), line.to.y()) + wide;
+        const float top = std::min(line.from.y(), line.to.y()) - wide,
+                    bottom = std::max(line.from.y(), line.to.y()) + wide;
         if (!(bottom > 0) || !(top < static_cast<float>(port_.height))) continue;
         put(&Band::lines, i, static_cast<int>(std::max(top, 0.0f)),
             static_cast<int>(std::min(bottom, static_cast<float>(port_.height - 1))) + 1);

@@ -1,5 +1,5 @@
-// What is drawn of a mesh, found once: its vertices, its normals at corners, its edges, and which of its sides
-// are solid and which are glass.
+// What is drawn of a mesh, found once: its vertices, its normals at corners, its edges, and which of its
+// sides are solid and which are glass.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ struct MeshShape {
 
     std::vector<Vec3> vertices;  // m, at rest
     std::vector<TriangleMesh::Triangle> triangles;
-    std::vector<Vec3> normals;                              // unit, a triangle
-    std::vector<std::array<Eigen::Vector3f, 3>> corners;    // unit normals, smooth but across feature edges
+    std::vector<Vec3> normals;                            // unit, a triangle
+    std::vector<std::array<Eigen::Vector3f, 3>> corners;  // unit normals, smooth but across feature edges
     std::vector<Edge> edges;
     std::vector<Sides> sides;  // a triangle
 };

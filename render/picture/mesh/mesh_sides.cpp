@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int kRays = 12;             // to each side of a place
+constexpr int kRays = 12;              // to each side of a place
 constexpr std::size_t kPlaces = 4000;  // that are asked, at most
 constexpr std::size_t kPlacesOfPatch = 8;
 
@@ -33,8 +33,8 @@ std::array<Vec3, kRays> make_directions() {
 
 // What was seen from the places asked of one patch, or of all that hangs together.
 struct Seen {
-    double area = 0;          // m2, of all
-    double weight = 0;        // of the places asked
+    double area = 0;             // m2, of all
+    double weight = 0;           // of the places asked
     double front = 0, back = 0;  // times the share that is surface
     double front_share() const { return weight > 0 ? front / weight : 0; }
     double back_share() const { return weight > 0 ? back / weight : 0; }
@@ -79,7 +79,9 @@ class SideFinder {
     void find_parts() {
         const std::vector<std::int32_t> part = smooth_patches(surface_, std::numbers::pi);
         const auto count = [](const std::vector<std::int32_t>& numbers) {
-            return numbers.empty() ? 0 : static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) + 1;
+            return numbers.empty()
+                       ? 0
+                       : static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) + 1;
         };
         members_.resize(count(patch_));
         part_of_patch_.resize(members_.size());
@@ -140,7 +142,8 @@ class SideFinder {
         seen.back += weight * surface_seen(middle(t) - small_ * normal, -normal);
     }
 
-    // Of what is closed, the side that can be seen is the one from which a ray crosses an even number of times.
+    // Of what is closed, the side that can be seen is the one from which a ray crosses an even number of
+    // times.
     void look_for_material(std::size_t part, std::int32_t t) {
         const Vec3 normal = surface_.normal(t);
         std::vector<Surface::Hit> hits;
@@ -204,7 +207,8 @@ class SideFinder {
             const double side = visible_front_[part_of_patch_[patch]] ? 1 : -1;
             const Vec3 normal = side * surface_.normal(t);
             const auto hit = surface_.first_hit(middle(t) - small_ * normal, -normal);
-            if (hit) backed += is_inner(static_cast<std::size_t>(patch_[static_cast<std::size_t>(hit->triangle)]));
+            if (hit)
+                backed += is_inner(static_cast<std::size_t>(patch_[static_cast<std::size_t>(hit->triangle)]));
         }
         return 2 * backed >= places;
     }

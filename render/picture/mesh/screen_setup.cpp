@@ -28,8 +28,10 @@ bool set_edge(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Eige
 
 // Through three values; area: twice the triangle's, with its sign.
 ScreenPlane plane_through(const Eigen::Vector3f (&at)[3], const std::array<float, 3>& value, double area) {
-    const double x1 = static_cast<double>(at[1].x()) - at[0].x(), y1 = static_cast<double>(at[1].y()) - at[0].y();
-    const double x2 = static_cast<double>(at[2].x()) - at[0].x(), y2 = static_cast<double>(at[2].y()) - at[0].y();
+    const double x1 = static_cast<double>(at[1].x()) - at[0].x(),
+                 y1 = static_cast<double>(at[1].y()) - at[0].y();
+    const double x2 = static_cast<double>(at[2].x()) - at[0].x(),
+                 y2 = static_cast<double>(at[2].y()) - at[0].y();
     const double d1 = static_cast<double>(value[1]) - value[0], d2 = static_cast<double>(value[2]) - value[0];
     ScreenPlane plane;
     plane.at = value[0];

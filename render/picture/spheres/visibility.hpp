@@ -15,7 +15,8 @@
 
 namespace grainreel {
 
-// What stands before grains: z in the middle of each pixel, infinite where there is nothing; m. Rows of `stride` numbers.
+// What stands before grains: z in the middle of each pixel, infinite where there is nothing; m. Rows of
+// `stride` numbers.
 struct SolidDepth {
     const float* away = nullptr;  // null: nothing anywhere
     std::size_t stride = 0;
@@ -26,8 +27,8 @@ class Visibility {
     // Pixels, >= 1.
     Visibility(int width, int height);
 
-    // Numbers are indices + 1. The team's size does not show in the result. With something solid, grains are seen
-    // only where they are nearer than that, and depths are kept.
+    // Numbers are indices + 1. The team's size does not show in the result. With something solid, grains are
+    // seen only where they are nearer than that, and depths are kept.
     void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team,
                 const SolidDepth& solid = {});
 
@@ -37,9 +38,7 @@ class Visibility {
         return seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
     }
     // m, of a row: z of what is seen in the middle of each pixel, grain or solid. Only with something solid.
-    const float* depth(int y) const {
-        return depth_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
-    }
+    const float* depth(int y) const { return depth_.data() + static_cast<std::size_t>(y) * stride_ + kPad; }
     std::size_t stride() const { return stride_; }  // from row to row
     // Indices of the grains that are seen at all, rising.
     const std::vector<std::uint32_t>& shown() const { return shown_; }

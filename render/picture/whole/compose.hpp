@@ -19,7 +19,7 @@ struct Layers {
     const Layer& behind;
     const Layer* meshes_behind;  // over `behind`; may be null
     const Layer& grains;
-    const Layer* ghosts;  // laid over the grains at a part of their strength; may be null
+    const Layer* ghosts;         // laid over the grains at a part of their strength; may be null
     const Layer* meshes_before;  // under `before`; may be null
     const Layer& before;
     const Layer* marks;                           // over all others; may be null

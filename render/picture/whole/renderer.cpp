@@ -241,7 +241,7 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
              walls_behind, mesh_painter ? &mesh_painter->behind() : nullptr, grains, ghosts,
              mesh_painter ? &mesh_painter->before() : nullptr, before.layer(), marked_alone,
-             exit_fade(scene, eye, port.height)},
+             exit_fade(scene, eye, port.height, path.meshes())},
             port, into, team);
     for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();

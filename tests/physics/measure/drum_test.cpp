@@ -72,12 +72,12 @@ TEST(DrumInstrument, CountsRevolutionsOfTheContainer) {
     bed.pose.time = 2;
     EXPECT_NEAR(bed.look(2000, "revolutions"), 3 * 2 / (2 * pi), 1e-12);
     EXPECT_NEAR(bed.look(2000, "froude_number"), 9 * 20.0 / 10, 1e-12);  // half_width is 20
-    EXPECT_TRUE(std::isnan(bed.look(2000, "repose_angle_deg")));         // no grains
+    EXPECT_TRUE(std::isnan(bed.look(2000, "repose_angle_degree")));         // no grains
 }
 
 TEST(DrumInstrument, HasNoValueWhereNothingTurns) {
     Bed bed("drum");
-    for (const char* column : {"revolutions", "froude_number", "repose_angle_deg"})
+    for (const char* column : {"revolutions", "froude_number", "repose_angle_degree"})
         EXPECT_TRUE(std::isnan(bed.look(0, column))) << column;
 }
 

@@ -1,0 +1,43 @@
+// What meshes take of the light that falls on the ground.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+// Their surfaces as small patches. A vessel lets most of the light through, as all walls do.
+class MeshShadows {
+  public:
+    explicit MeshShadows(const FilmedScene& scene);
+
+    bool any() const { return !patches_.empty(); }
+    double lowest() const { return lowest_; }  // m, z that any of them reaches but for the drive; 0 without
+
+    // Calls visit(place, area that is taken from light which comes from `to_light`) for each patch; m, m2.
+    template <class Visit>
+    void visit(const Frame& frame, const Vec3& to_light, const Visit& visit) const {
+        for (const Patch& patch : patches_) {
+            const BodyPose pose = frame.body(patch.body);
+            visit(pose.moved(patch.at), std::abs(to_light.dot(pose.rotation * patch.area)));
+        }
+    }
+
+  private:
+    struct Patch {
+        Vec3 at;    // m, at rest
+        Vec3 area;  // m2, along its normal, times the share of the light that it takes
+        std::size_t body;
+    };
+    // along: patches wanted along each side.
+    void add(const Surface& surface, std::int32_t t, double along, double share, std::size_t body);
+
+    std::vector<Patch> patches_;
+    double lowest_ = 0;
+};
+
+}  // namespace grainreel

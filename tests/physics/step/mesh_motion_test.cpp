@@ -1,0 +1,316 @@
+// Meshes and faces that turn: what they do to a ball, and the same bits on any number of threads and through
+// a checkpoint.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <sstream>
+
+#include "engine/base/binary.hpp"
+#include "tests/physics/step/mesh_world.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s2
+
+Face turning_floor(const BodyTurn& turn) {
+    Face face = floor_face();
+    face.body.turn = turn;
+    face.reach = 0.1;
+    return face;
+}
+
+// A ball that rolls without slip on a turning plate goes round in circles, at 2/7 of the plate's rate:
+// m a = T, I w' = -r z x T and no slip give v' = 2/7 W x v (Weltner 1979, Am. J. Phys. 47, 984).
+class TurningPlate : public testing::TestWithParam<bool> {};
+
+TEST_P(TurningPlate, LeadsARollingBallRoundATwoSeventhsOfItsRate) {
+    const double rate = 8;  // rad/s
+    const Vec3 through(0.003, -0.002, 0);
+    World w = make_world(walton_braun_pair(0.9, 0.8), 2e-6);
+    const BodyTurn turn = turn_about(Vec3(0, 0, 1), rate, through);
+    if (GetParam())
+        add_mesh(w, "plate", square_mesh(0.2, 13)).body.turn = turn;
+    else
+        w.around.faces = {turning_floor(turn)}, start_clock(w);
+    w.around.gravity = {0, 0, -kGravity};
+    const double sink = sphere_mass() * kGravity / kStiffness;
+    const Vec3 at(0.02, 0.01, kRadius - sink), velocity(0.05, 0.02, 0);
+    w.grains.add(0, 0, at, kRadius, kDensity);
+    w.grains.motion[0].velocity = velocity;
+    // Of the ball's lowest point: v + w x (-d z) is the plate's velocity.
+    const Vec3 slip = rate * Vec3(0, 0, 1).cross(at - through) - velocity;
+    w.grains.motion[0].spin = Vec3(-slip.y(), slip.x(), 0) / at.z() * -1;
+    w.start();
+    for (int k = 1; k <= 10; ++k) {
+        w.run(25000);
+        const double angle = 2.0 / 7 * rate * 25000 * k * w.plan.clock.step;
+        const Vec3 expected = Eigen::AngleAxisd(angle, Vec3::UnitZ()) * velocity;
+        EXPECT_LT((w.velocity(0) - expected).norm(), 2e-3 * velocity.norm()) << k;
+        EXPECT_NEAR(w.position(0).z(), at.z(), 1e-7);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, TurningPlate, testing::Values(true, false),
+                         [](const auto& of) { return std::string(of.param ? "OfTriangles" : "OfAFace"); });
+
+// A ball pressed to a drum's wall by gravity across its axis.
+struct InDrum {
+    Vec3 position, velocity, spin;
+    double work;    // J, of the drum
+    double moment;  // N m, mean, about its axis
+};
+InDrum in_drum(int facets, std::int64_t steps, double friction = 0.5, double rolling = 0) {
+    PairPlan pair = walton_braun_pair(0.6, friction);
+    pair.rolling_friction = rolling;
+    pair.model.rolls = rolling > 0;
+    World w = make_world(pair, 2e-6);
+    const double radius = 0.02;
+    const BodyTurn turn = turn_about(Vec3(0, 0, 1), 5);
+    if (facets > 0) {
+        add_mesh(w, "drum", tube_mesh(radius, 0.02, facets, 3)).body.turn = turn;
+    } else {
+        Face wall;
+        wall.kind = Face::Kind::cylinder;
+        wall.name = "drum";
+        wall.radius = radius;
+        wall.body.turn = turn;
+        w.around.faces = {wall};
+        start_clock(w);
+    }
+    w.around.gravity = {0, -kGravity, 0};
+    w.grains.add(0, 0, Vec3(0, -radius + kRadius, 0.0011), kRadius, kDensity);
+    w.start();
+    WallScale scale;
+    scale.force = 0x1p-60;
+    scale.length = 0x1p-10;
+    w.loop->tally_walls(scale, 0);
+    w.run(steps);
+    const WallSums sums = w.loop->wall_sums();
+    const double moment = static_cast<double>(sums.faces[0].moment[2]) * scale.force * scale.length;
+    return {w.position(0), w.velocity(0), w.spin(0), w.grains.wall_work[0],
+            moment / static_cast<double>(steps)};
+}
+
+// At first it slips, and the wall drags it with mu m g; at last it rolls at the bottom, or swings about it.
+TEST(TurningDrum, SpinsABallUp) {
+    for (const int facets : {0, 360}) {
+        const InDrum end = in_drum(facets, 500000);
+        // No slip: the ball's surface moves with the wall.
+        const Vec3 k = Vec3(end.position.x(), end.position.y(), 0).normalized();
+        const Vec3 wall = 5 * Vec3(0, 0, 1).cross(0.02 * k);
+        const Vec3 slip = end.velocity + end.spin.cross(kRadius * k) - wall;
+        EXPECT_LT(slip.norm(), 0.01 * wall.norm()) << facets;
+    }
+}
+
+TEST(TurningDrum, Of360FacetsTakesTheTorqueOfTheRoundOne) {
+    // While the ball slips.
+    const InDrum round = in_drum(0, 20000), facets = in_drum(360, 20000);
+    ASSERT_GT(std::abs(round.moment), 0.3 * 0.5 * sphere_mass() * kGravity * 0.02);
+    EXPECT_NEAR(facets.moment, round.moment, 0.01 * std::abs(round.moment));
+    // The drum's work is its moment times its angle.
+    EXPECT_NEAR(facets.work, -5 * facets.moment * 20000 * 2e-6, 1e-3 * std::abs(facets.work));
+    EXPECT_NEAR(round.work, -5 * round.moment * 20000 * 2e-6, 1e-3 * std::abs(round.work));
+    EXPECT_NEAR(facets.work, round.work, 0.01 * round.work);
+}
+
+TEST(TurningDrum, WithoutFrictionNeedsNoPower) {
+    const InDrum round = in_drum(0, 20000, 0), facets = in_drum(360, 20000, 0);
+    const double of_friction = std::abs(in_drum(0, 20000).moment);
+    EXPECT_LT(std::abs(round.moment), 1e-9 * of_friction);
+    EXPECT_LT(std::abs(facets.moment), 0.02 * of_friction);  // a polygon has lower and higher places
+}
+
+TEST(TurningDrum, DoesTheWorkOfRollingResistanceToo) {
+    const InDrum round = in_drum(0, 20000, 0.5, 0.3), facets = in_drum(360, 20000, 0.5, 0.3);
+    EXPECT_NEAR(facets.work, -5 * facets.moment * 20000 * 2e-6, 1e-3 * std::abs(facets.work));
+    EXPECT_NEAR(facets.work, round.work, 0.01 * round.work);
+}
+
+// Ball and wall turn as one body, about an axis far away: nothing slips, and what was stored stays.
+TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
+    const double rate = 30;
+    for (const bool triangles : {true, false}) {
+        World w = make_world(walton_braun_pair(1, 0.8), 1e-6);
+        const BodyTurn turn = turn_about(Vec3(1, 2, 2) / 3, rate, Vec3(0.02, 0.01, 0.01));
+        if (triangles)
+            add_mesh(w, "plate", square_mesh(0.03, 5)).body.turn = turn;
+        else
+            w.around.faces = {turning_floor(turn)}, start_clock(w);
+        const Vec3 at(0.0013, 0.0007, kRadius - 1e-6);
+        w.grains.add(0, 0, at, kRadius, 1e9);  // so heavy that forces do not matter
+        w.grains.motion[0].spin = rate * turn.axis;
+        w.grains.motion[0].velocity = rate * turn.axis.cross(at - turn.through);
+        w.start();
+        // The centre would fly straight on. It is put where the turn takes it.
+        double largest = 0;
+        for (int k = 1; k <= 2000; ++k) {
+            w.run(1);
+            const Quaternion turned(Eigen::AngleAxisd(rate * k * 1e-6, turn.axis));
+            w.grains.place[0].position = turn.through + turned * (at - turn.through);
+            w.grains.motion[0].velocity =
+                (turned * (at - turn.through) -
+                 Eigen::AngleAxisd(rate * (k - 1) * 1e-6, turn.axis) * (at - turn.through)) /
+                1e-6;
+            w.loop->visit_contacts(w.step, [&](const ContactView& c) {
+                largest = std::max(largest, c.tangential.norm() / c.normal_force);
+            });
+        }
+        // Of the 60,000 micrometres of arc none is felt as slip.
+        EXPECT_LT(largest, 1e-3) << triangles;
+    }
+}
+
+// A bed in a closed box with a vane that turns and a tube that is shaken.
+World bed(int threads) {
+    PairPlan pair = walton_braun_pair(0.7, 0.5);
+    pair.rolling_friction = 0.1;
+    pair.model.rolls = true;
+    World w = make_world(pair, 5e-6);
+    w.team = std::make_unique<Team>(threads);
+    add_mesh(w, "box", box_mesh(Vec3(-0.016, -0.016, 0), Vec3(0.016, 0.016, 0.05), 9));
+    TriangleMesh vane;
+    add_sheet(
+        4, 3, [](double u, double v) { return Vec3(0.026 * (u - 0.5), 0, 0.005 + 0.02 * v); }, vane);
+    add_mesh(w, "vane", vane).body.turn = turn_about(Vec3(0, 0, 1), 20);
+    TriangleMesh tube = tube_mesh(0.004, 0.01, 24, 2);
+    for (Vec3& vertex : tube.vertices) vertex += Vec3(0.011, 0.011, 0.035);
+    add_mesh(w, "tube", tube).body.velocity = Vec3(0, 0, -0.05);
+    w.around.gravity = {0.5, 0, -kGravity};
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> some(-1, 1);
+    int id = 0;
+    for (int z = 0; z < 9; ++z)
+        for (int x = 0; x < 6; ++x)
+            for (int y = 0; y < 6; ++y) {
+                const Vec3 at =
+                    0.0045 * Vec3(x - 2.5, y - 2.5, z + 0.8) + 0.0002 * Vec3(some(random), some(random), 0);
+                if (std::abs(at.y()) < 0.0025 && at.z() < 0.028) continue;
+                if (at.z() > 0.026 && at.x() > 0.003 && at.y() > 0.003) continue;
+                w.grains.add(id++, 0, at, kRadius * (1 + 0.05 * some(random)), kDensity);
+                w.grains.motion.back().velocity = 0.2 * Vec3(some(random), some(random), some(random));
+            }
+    w.around.skin = 0.3 * kRadius;
+    w.start();
+    return w;
+}
+
+std::string state_of(const World& w) {
+    std::ostringstream out;
+    w.loop->save(out);
+    for (std::size_t i = 0; i < w.grains.size(); ++i) {
+        write_value(out, w.grains.id[i]);
+        write_value(out, w.grains.place[i].position);
+        write_value(out, w.grains.motion[i].velocity);
+        write_value(out, w.grains.motion[i].spin);
+        write_value(out, w.grains.load[i].force);
+        write_value(out, w.grains.wall_work[i]);
+    }
+    return out.str();
+}
+
+std::string seen_in(const World& w) {
+    std::ostringstream out;
+    w.loop->visit_contacts(w.step, [&](const ContactView& c) {
+        write_value(out, c.first), write_value(out, c.second), write_value(out, c.triangle);
+        write_value(out, c.normal_force), write_value(out, c.tangential), write_value(out, c.point);
+    });
+    return out.str();
+}
+
+TEST(MeshSameBits, OnOneTwoAndThreeThreads) {
+    std::vector<std::string> states, seen;
+    for (const int threads : {1, 2, 3}) {
+        World w = bed(threads);
+        for (int k = 0; k < 40; ++k) w.run(150);
+        states.push_back(state_of(w));
+        seen.push_back(seen_in(w));
+        int at_meshes[3] = {0, 0, 0};
+        w.loop->visit_contacts(w.step, [&](const ContactView& c) {
+            if (c.second < 0) ++at_meshes[-1 - c.second];
+        });
+        EXPECT_GT(at_meshes[0], 20);
+        EXPECT_GT(at_meshes[1], 2);
+        EXPECT_GT(w.loop->rebuilds(), 2);
+    }
+    EXPECT_EQ(states[0], states[1]);
+    EXPECT_EQ(states[0], states[2]);
+    EXPECT_EQ(seen[0], seen[1]);
+    EXPECT_EQ(seen[0], seen[2]);
+}
+
+// Saved in mid-contact, and read by another number of threads.
+TEST(MeshSameBits, ThroughACheckpoint) {
+    for (const std::int64_t at : {1500, 2777, 4001}) {
+        World whole = bed(1);
+        whole.run(at);
+        std::ostringstream saved;
+        whole.loop->save(saved);
+        const std::string before = seen_in(whole);
+        for (const int threads : {1, 2, 3}) {
+            World w = bed(1);
+            w.grains = whole.grains;
+            w.step = at;
+            w.team = std::make_unique<Team>(threads);
+            w.loop = std::make_unique<StepLoop>(w.plan, w.around, w.grains, *w.team);
+            const std::string text = saved.str();
+            Bytes in(text);
+            w.loop->load(in, at);
+            ASSERT_FALSE(in.failed());
+            EXPECT_EQ(seen_in(w), before);
+            w.run(1300);
+            World on = bed(1);
+            on.run(at), on.run(1300);
+            EXPECT_EQ(state_of(w), state_of(on)) << at << " " << threads;
+        }
+    }
+}
+
+// A checkpoint that was tampered with is refused, and nothing is read beyond its end.
+TEST(MeshSameBits, AForgedTriangleIsRefused) {
+    World w = bed(1);
+    w.run(2000);
+    std::ostringstream saved;
+    w.loop->save(saved);
+    const std::string good = saved.str();
+    std::mt19937_64 random(6);
+    int refused = 0;
+    for (int k = 0; k < 200; ++k) {
+        std::string text = good;
+        const std::size_t at = random() % (text.size() - 8);
+        for (std::size_t b = 0; b < 8; ++b) text[at + b] = static_cast<char>(random());
+        Bytes in(text);
+        World other = bed(1);
+        other.grains = w.grains;
+        other.loop = std::make_unique<StepLoop>(other.plan, other.around, other.grains, *other.team);
+        other.loop->load(in, w.step);
+        refused += in.failed();
+        if (!in.failed()) (void)seen_in(other);
+    }
+    EXPECT_GT(refused, 20);
+}
+
+// Grains that leave take their contacts with meshes along; the others keep theirs.
+TEST(MeshSameBits, WhenGrainsLeaveAndCome) {
+    std::vector<std::string> states;
+    for (const int threads : {1, 2, 3}) {
+        World w = bed(threads);
+        w.run(3000);
+        w.loop->remove({5, 17, 40, 41, 90}, w.step);
+        w.run(1);
+        NewGrain grain;
+        grain.radius = kRadius;
+        grain.density = kDensity;
+        grain.position = {-0.01, -0.01, 0.046};
+        w.loop->insert({grain});
+        w.step += 0;
+        w.run(1500);
+        states.push_back(state_of(w));
+    }
+    EXPECT_EQ(states[0], states[1]);
+    EXPECT_EQ(states[0], states[2]);
+}
+
+}  // namespace
+}  // namespace grainreel
