@@ -111,7 +111,8 @@ TEST(FramedPart, SlantedWallsStayInThePicture) {
                 scene.film.camera.field_of_view = field;
                 const View view = view_of(scene);
                 for (double top = 0.01; top <= 0.5; top += 0.01)
-                    for (const Vec3& point : framing_points(scene, scene.film.camera.azimuth, {top, true}, {})) {
+                    for (const Vec3& point :
+                         framing_points(scene, scene.film.camera.azimuth, {top, true}, {})) {
                         const Pixel seen = view.project(point);
                         if (seen.y() < 0) continue;
                         // The camera looks at some heights only, so that a wall may be half a pixel off.

@@ -185,6 +185,24 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
                 "height = \"40 mm\"\nwall_grains = { faces = [\"floor\"] }\n[contact.wall]\nlaw = \"hertz\"\n"
                 "[[contact.pair]]\nbetween = [\"small\", \"small\"]\nlaw = \"hertz\"\n"));
 
+    const auto with_mesh = [&](const std::string& motion) {
+        take(walton +
+             "[[mesh]]\nname = \"vane\"\nfile = \"shipped:gate.stl\"\nscale = 0.05\n"
+             "position = [0, 0, 0.03]\nrotation = { axis = [0, 0, 1], angle = \"10 deg\" }\n" +
+             motion);
+    };
+    std::ofstream(here / "path.csv") << "t,x,y,z\n0,0,0,0\n5,0,0,0.001\n10,0,0,0\n20,0,0,0\n";
+    with_mesh("turn = { axis = [0, 0, 1], through = [0, 0, 0.03], rate = \"10 rpm\" }\n");
+    with_mesh("velocity = [0, 0, 1e-6]\n");
+    with_mesh("driven = true\n");
+    with_mesh("path = \"" + (here / "path.csv").string() + "\"\n");
+    take(walton + "[[exit]]\nlow = [-1, -1, -1]\nhigh = [1, 1, -0.5]\noutside = true\n");
+    take(changed("height = \"40 mm\"\n",
+                 "height = \"40 mm\"\nturn = { axis = [1, 0, 0], through = [0, 0, 0], rate = \"1 rpm\" }\n"));
+    take(changed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"40 mm\"\n",
+                 "shape = \"mesh\"\nmesh = \"drum\"\n[[mesh]]\nname = \"drum\"\nfile = "
+                 "\"shipped:drum.stl\"\n"));
+
     const auto compared = deciding_differences("", all);
     const auto is_compared = [&](const std::string& key) {
         return std::any_of(compared.begin(), compared.end(), [&](const KeyDifference& d) {
