@@ -151,7 +151,8 @@ TEST_F(MeshStart, WallsStandStillWhileABedSettles) {
         place[turns] = run.frame().position[0];
         EXPECT_EQ(run.frame().bodies.back().rotation.coeffs(), Quaternion::Identity().coeffs());
     }
-    EXPECT_LT((place[true] - place[false]).norm(), 1e-9);
+    // Faster walls make the plan expect faster impacts, so the two do not pack step by step alike.
+    EXPECT_LT((place[true] - place[false]).norm(), 1e-4);
 }
 
 // ---- going on from files ----
