@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/picture/mesh/mesh_sides.hpp"
 
@@ -55,6 +56,32 @@ std::uint8_t third_corner(const TriangleMesh::Triangle& triangle, std::int32_t f
     return 2;
 }
 
+// rad, how much the surface turns across an edge: > 0 where it is convex for who stands on its front.
+double fold_at(const Surface& surface, std::int32_t t, int e) {
+    const Neighbour& beyond = surface.neighbour(t, e);
+    if (beyond.triangle < 0) return 0;
+    double height = 0;  // of the neighbour's third corner over the triangle
+    for (int k = 0; k < 3; ++k) {
+        const double one = surface.normal(t).dot(surface.corner(beyond.triangle, k) - surface.corner(t, e));
+        if (std::abs(one) > std::abs(height)) height = one;
+    }
+    return height > 0 ? -turn_of(surface, t, beyond) : turn_of(surface, t, beyond);
+}
+
+// Twisted surfaces that are cut into triangles fold up and down from one to the next. No such fold is an
+// edge.
+bool is_ripple(const Surface& surface, std::int32_t t, int e) {
+    constexpr double kMostRipple = std::numbers::pi / 3;
+    const double fold = fold_at(surface, t, e);
+    if (std::abs(fold) > kMostRipple) return false;
+    const auto folds_back = [&](std::int32_t triangle) {
+        for (int other = 0; other < 3; ++other)
+            if (fold_at(surface, triangle, other) * fold < -0.25 * fold * fold) return true;
+        return false;
+    };
+    return folds_back(t) && folds_back(surface.neighbour(t, e).triangle);
+}
+
 void add_edges(const Surface& surface, double edge_angle, MeshShape& shape) {
     for (std::int32_t t = 0; t < surface.size(); ++t)
         for (int e = 0; e < 3; ++e) {
@@ -64,7 +91,8 @@ void add_edges(const Surface& surface, double edge_angle, MeshShape& shape) {
             const TriangleMesh::Triangle& corners = shape.triangles[static_cast<std::size_t>(t)];
             const std::int32_t from = corners[static_cast<std::size_t>(e)],
                                to = corners[static_cast<std::size_t>((e + 1) % 3)];
-            const bool feature = right < 0 || turn_of(surface, t, beyond) > edge_angle;
+            const bool feature =
+                right < 0 || (turn_of(surface, t, beyond) > edge_angle && !is_ripple(surface, t, e));
             const std::uint8_t third =
                 right < 0 ? std::uint8_t{0}
                           : third_corner(shape.triangles[static_cast<std::size_t>(right)], from, to);
