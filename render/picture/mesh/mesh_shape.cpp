@@ -32,8 +32,9 @@ double fold_at(const Surface& surface, std::int32_t t, int e) {
 // edge.
 bool is_ripple(const Surface& surface, std::int32_t t, int e) {
     constexpr double kMostRipple = std::numbers::pi / 3;
+    constexpr double kFlat = std::numbers::pi / 90;
     const double fold = fold_at(surface, t, e);
-    if (std::abs(fold) > kMostRipple) return false;
+    if (std::abs(fold) > kMostRipple || std::abs(fold) < kFlat) return false;
     const auto folds_back = [&](std::int32_t triangle) {
         for (int other = 0; other < 3; ++other)
             if (fold_at(surface, triangle, other) * fold < -0.25 * fold * fold) return true;
@@ -103,7 +104,17 @@ EdgeFlags feature_edges(const Surface& surface, double edge_angle) {
     return features;
 }
 
+// Triangles: whether they stand for parts of a twisted surface.
+std::vector<char> rippled_triangles(const Surface& surface) {
+    std::vector<char> rippled(static_cast<std::size_t>(surface.size()), 0);
+    for (std::int32_t t = 0; t < surface.size(); ++t)
+        for (int e = 0; e < 3; ++e)
+            if (is_ripple(surface, t, e)) rippled[static_cast<std::size_t>(t)] = 1;
+    return rippled;
+}
+
 void add_edges(const Surface& surface, const EdgeFlags& features, MeshShape& shape) {
+    const std::vector<char> ripples = rippled_triangles(surface);
     for (std::int32_t t = 0; t < surface.size(); ++t)
         for (int e = 0; e < 3; ++e) {
             const std::int32_t right = surface.neighbour(t, e).triangle;
@@ -114,8 +125,10 @@ void add_edges(const Surface& surface, const EdgeFlags& features, MeshShape& sha
             const std::uint8_t third =
                 right < 0 ? std::uint8_t{0}
                           : third_corner(shape.triangles[static_cast<std::size_t>(right)], from, to);
-            shape.edges.push_back(
-                {from, to, t, right, static_cast<std::uint8_t>((e + 2) % 3), third, flag_at(features, t, e)});
+            const bool rippled = ripples[static_cast<std::size_t>(t)] ||
+                                 (right >= 0 && ripples[static_cast<std::size_t>(right)]);
+            shape.edges.push_back({from, to, t, right, static_cast<std::uint8_t>((e + 2) % 3), third,
+                                   flag_at(features, t, e), rippled});
         }
 }
 
