@@ -13,6 +13,11 @@ constexpr std::array<int, 5> tried{1, 7, 11, 5, 14};
 
 bool EnclosedRoom::holds(const Vec3& place) const {
     if (slices_.empty() || !(place.z() >= base_ && place.z() <= top_)) return false;
+    const RoomGrid::Answer answer = grid_.at(place);
+    return answer == RoomGrid::Answer::unknown ? holds_by_rays(place) : answer == RoomGrid::Answer::inside;
+}
+
+bool EnclosedRoom::holds_by_rays(const Vec3& place) const {
     for (int i = 0; i < 2 * kLevelAxes; ++i)
         if (!surface_->meets(place, level_direction(i))) return false;
     if (!any_closed_) return true;

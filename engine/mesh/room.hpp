@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/mesh/room_grid.hpp"
 #include "engine/mesh/surface.hpp"
 
 namespace grainreel {
@@ -63,6 +64,7 @@ class EnclosedRoom {
 
     const Slice* slice_at(double z) const;
     double value_at(double z, Line Slice::*line) const;
+    bool holds_by_rays(const Vec3& place) const;
     std::optional<int> winding_along(const Vec3& place, const Vec3& direction) const;
 
     std::shared_ptr<const Surface> surface_;
@@ -72,6 +74,7 @@ class EnclosedRoom {
     double base_ = 0, top_ = 0;
     std::vector<Slice> slices_;  // rising, without gaps
     Vec3 widest_{0, 0, 0};
+    RoomGrid grid_;
     bool open_above_ = false, open_below_ = false;
 };
 

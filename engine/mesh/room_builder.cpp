@@ -50,6 +50,10 @@ class EnclosedRoom::Builder {
         add_up();
         find_widest();
         find_ends();
+        const Vec3 &low = surface_.facts().low, &high = surface_.facts().high;
+        room_.grid_ =
+            RoomGrid(surface_, {Vec3(low.x(), low.y(), room_.base_), Vec3(high.x(), high.y(), room_.top_)},
+                     [this](const Vec3& place) { return room_.holds_by_rays(place); });
     }
 
   private:

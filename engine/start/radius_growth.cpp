@@ -113,8 +113,7 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
                         Grains& grains, Team& team,
                         const std::function<bool(double, std::int64_t)>& watcher) {
     const Plan growth = growth_plan(plan);
-    const double step = growth_step(growth, grains);
-    const double drag = 0.05 / step;  // overdamped: grains creep apart, they do not fly
+    double step = growth_step(growth, grains);
     Surroundings still = surroundings;
     still.gravity.setZero();
     Growing g{scene, still, grains, std::vector<double>(grains.size())};
@@ -123,6 +122,9 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
 
     StepLoop loop(growth, still, grains, team);
     GrowthReport report;
+    // Small grains are light, and with the step of full ones those that overlap fly. Planes push them back
+    // from beyond, but a sheet of triangles does not.
+    const bool by_mass_now = !still.meshes.empty();
     for (;; ++report.cycles) {
         double smallest_share = 1;
         for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -132,6 +134,8 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
             g.set_radius(i, radius);
         }
         loop.restart();
+        if (by_mass_now) step = growth_step(growth, grains);
+        const double drag = 0.05 / step;  // overdamped: grains creep apart, they do not fly
         loop.run(0, kStepsPerCycle, step, drag);
         report.steps += kStepsPerCycle;
         if (!watcher(smallest_share, report.steps)) {

@@ -71,8 +71,12 @@ void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double
         mine.clock.lap(Cost::neighbours);
 
         const std::int64_t at_step = evaluations.step_number();
-        const ForceTimes times{at.since, scheme_.ahead, at.acts, scheme_.corrects ? 0 : at.since,
-                               lists_.life().reach(member).moved};
+        const ForceTimes times{at.since,
+                               scheme_.ahead,
+                               at.acts,
+                               scheme_.corrects ? 0 : at.since,
+                               lists_.life().reach(member).moved,
+                               kicks.keep < 1};
         evaluations.go_on();
         if (all.may_leave) to = evaluations.step_number();
         const bool goes_on = evaluations.step_number() < to;

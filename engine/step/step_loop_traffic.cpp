@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/step/lists/hand_over.hpp"
+#include "engine/step/lists/change_owners.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

@@ -13,15 +13,14 @@ std::vector<double> heights_of_walls(const Surroundings& around) {
     return heights;
 }
 
-// m, from a wall's point to a place; of a face that turns from a point of its axis.
+// m, from a wall's point to a place.
 Vec3 arm_at(const Surroundings& around, std::size_t wall, const Pose& pose, const Vec3& place) {
     if (wall >= around.faces.size()) {
         const MeshWall& mesh = around.meshes[wall - around.faces.size()];
         return place - mesh.body.at(pose).moved(mesh.point);
     }
     const Face& face = around.faces[wall];
-    if (face.body.turn) return place - face.body.at(pose).moved(face.body.turn->through);
-    if (face.body.has_own_motion()) return place - face.body.at(pose).moved(face.point);
+    if (face.body.has_own_motion()) return place - face.body.at(pose).moved(moment_point(face));
     return place - face.point - face.displacement(pose);
 }
 

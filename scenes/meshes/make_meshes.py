@@ -117,18 +117,23 @@ def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.01
     return along_x(prism(ring, length / 2))
 
 
-def screw(radius=0.024, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, facets=36):
+def screw(radius=0.02, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, facets=36):
     """A right-handed blade about a shaft, along y, from y = 0 on."""
-    steps = round(turns * facets)
+    steps, rings = round(turns * facets), 5
     inner = 0.8 * shaft  # the blade begins inside the shaft
+    # Rings by equal ratios, so that neighbours on the blade, which is steeper at the shaft, turn by less than 10 degrees.
+    radii = [inner * (radius / inner) ** (k / rings) for k in range(rings + 1)]
+    section = [(r, -1) for r in radii] + [(r, 1) for r in reversed(radii)]
     rows = []
     for i in range(steps + 1):
         angle, z = 2 * pi * i / facets, pitch * i / facets
-        rows.append([(r * cos(angle), r * sin(angle), z + side * thickness / 2)
-                     for r, side in ((inner, -1), (radius, -1), (radius, 1), (inner, 1))])
-    blade = [t for here, there in zip(rows, rows[1:]) for k in range(4)
-             for t in quad(here[k], there[k], there[(k + 1) % 4], here[(k + 1) % 4])]
-    blade += quad(*rows[0]) + turned(quad(*rows[-1]))
+        rows.append([(r * cos(angle), r * sin(angle), z + side * thickness / 2) for r, side in section])
+    n = len(section)
+    blade = [t for here, there in zip(rows, rows[1:]) for k in range(n)
+             for t in quad(here[k], there[k], there[(k + 1) % n], here[(k + 1) % n])]
+    for row, face in ((rows[0], list), (rows[-1], turned)):
+        for k in range(rings):
+            blade += face(quad(row[k], row[k + 1], row[n - 2 - k], row[n - 1 - k]))
     length = pitch * turns
     axle = prism([(x, y) for x, y, _ in circle(shaft, facets, 0.0)], length / 2 + thickness)
     axle = [tuple((x, y, z + length / 2) for x, y, z in t) for t in axle]

@@ -82,6 +82,11 @@ def write_table(file, rows):
             out.write(f"{i},{kind},{radius:.17g},{x:.17g},{y:.17g},{z:.17g},0,0,{fall:g},0,0,0\n")
 
 
+# m/s, downwards, of one grain. A bed in which a grain moves is taken as it is; one at rest would be brought to rest
+# under the laws of the scene before the run begins, and here the walls move or open at once.
+NUDGE = 0.3
+
+
 def published_grains(file):
     """Rows of (radius, x, y, z)."""
     with lzma.open(file, "rt") as lines:
@@ -137,7 +142,7 @@ class Drum:
         grains = published_grains(job.data / "mercury" / "Drum_PartCoordinates.txt.xz")
         small = sum(radius < 0.0015 for radius, *_ in grains)
         write_table(job.folder / "start.csv",
-                    [(1 if radius < 0.0015 else 2, radius, x, y, z, 0) for radius, x, y, z in grains])
+                    [(1 if grain[0] < 0.0015 else 2, *grain, 0 if i else -NUDGE) for i, grain in enumerate(grains)])
         shutil.copy(job.data / "stl" / "drum_m.stl", job.folder / "drum.stl")
         return (species_table("M1", "M1", small, 0.002) + species_table("M2", "M2", len(grains) - small, 0.004) +
                 contacts({"M1": "M1", "M2": "M2"}, "drum", self.softer) +
@@ -211,7 +216,10 @@ class Silo:
                 job.call(job.folder / f"{name}.toml", job.folder / name)
             shutil.copy(job.folder / name / "final.csv", job.folder / f"{name}.csv")  # a table without its run
             start = f"[start]\nmethod = \"file\"\nfile = \"{name}.csv\"\n"
-        return self.scene(1, start, False, (self.step,), job)
+        rows = table(job.folder / f"{name}.csv")
+        write_table(job.folder / "start.csv", [(1, row["radius"], row["x"], row["y"], row["z"], 0 if i else -NUDGE)
+                                               for i, row in enumerate(rows)])
+        return self.scene(1, start.replace(name, "start"), False, (self.step,), job)
 
     def curve(self, job):
         left = sorted(row["time_s"] for row in table(job.run / "outflow.csv"))
@@ -259,7 +267,8 @@ class Job:
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def run_table(self, step, duration=None):
-        return f"[run]\nduration = {duration or self.until:g}\nstep = {step:.10g}\n"
+        # A step more, so that the last moment that is asked for is there.
+        return f"[run]\nduration = {(duration or self.until) + step:.10g}\nstep = {step:.10g}\n"
 
     def call(self, scene, out):
         subprocess.run([self.program, "movie", scene, "--no-film", "--no-report", "--out", out, "--force",

@@ -86,7 +86,7 @@ def box(low, high):
                 which = list(pair)
                 which.insert(axis, side)
                 around.append(corner(*which))
-            if not side:
+            if (side == 1) == (axis == 1):
                 around.reverse()
             triangles += [tuple(around[:3]), (around[0], around[2], around[3])]
     return triangles

@@ -54,7 +54,7 @@ file = "plate.stl"
 name = "paddle"
 file = "plate.obj"
 scale = 0.001
-position = [0, 0, "0.3 m"]
+position = [0, 0, "15 mm"]
 turn = { axis = [0, 0, 1], through = [0, 0, 0], rate = "30 rpm", from = "10 ms", over = "20 ms" }
 [[grain]]
 position = ["10 mm", "20 mm", "7 mm"]

@@ -77,7 +77,7 @@ TEST(FramedPart, FillsThePicture) {
                     const Pixel size(view.port.width, view.port.height);
                     ASSERT_GT(low.minCoeff(), margin - 1e-3);
                     ASSERT_GT((size - high).minCoeff(), margin - 1e-3);
-                    for (const Vec3& corner : framing_points(scene, 20, whole_container(scene)))
+                    for (const Vec3& corner : framing_points(scene, 20, whole_container(scene), {}))
                         ASSERT_TRUE(field == 0 || view.to_view(corner).z() > 0);
                 }
 }
@@ -111,7 +111,7 @@ TEST(FramedPart, SlantedWallsStayInThePicture) {
                 scene.film.camera.field_of_view = field;
                 const View view = view_of(scene);
                 for (double top = 0.01; top <= 0.5; top += 0.01)
-                    for (const Vec3& point : framing_points(scene, scene.film.camera.azimuth, {top, true})) {
+                    for (const Vec3& point : framing_points(scene, scene.film.camera.azimuth, {top, true}, {})) {
                         const Pixel seen = view.project(point);
                         if (seen.y() < 0) continue;
                         // The camera looks at some heights only, so that a wall may be half a pixel off.

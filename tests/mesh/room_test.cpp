@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <random>
+
 #include "engine/mesh/room.hpp"
 #include "tests/mesh/shapes.hpp"
 
@@ -121,6 +124,58 @@ TEST(RoomOfAMesh, SheetsInItChangeNothing) {
     EXPECT_NEAR(room.volume(), 64, 1e-11);
     EXPECT_TRUE(room.holds({0.01, 0, 2}));
     EXPECT_TRUE(room.holds({-0.01, 0, 2}));
+}
+
+// Most places are answered by a grid; what it says is what the shape says.
+TEST(RoomOfAMesh, HoldsWhatTheShapeHolds) {
+    constexpr int sides = 30;
+    TriangleMesh mesh = cup(0.1, 0.12, 0.02, 0.3, sides);
+    shapes::add(mesh, shapes::box({-0.03, -0.02, 0.1}, {0.03, 0.02, 0.2}));
+    const EnclosedRoom room = room_of(mesh);
+    const double apothem = 0.1 * std::cos(std::numbers::pi / sides);
+    std::mt19937 random(3);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    int inside = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 place(between(-0.13, 0.13), between(-0.13, 0.13), between(-0.01, 0.31));
+        double farthest = 0;  // across the sides
+        for (int k = 0; k < sides; ++k) {
+            const double angle = 2 * std::numbers::pi * (k + 0.5) / sides;
+            farthest = std::max(farthest, place.x() * std::cos(angle) + place.y() * std::sin(angle));
+        }
+        const bool solid =
+            std::abs(place.x()) < 0.03 && std::abs(place.y()) < 0.02 && place.z() > 0.1 && place.z() < 0.2;
+        const bool expected = farthest < apothem && place.z() > 0.02 && place.z() < 0.3 && !solid;
+        EXPECT_EQ(room.holds(place), expected) << place.transpose();
+        inside += expected;
+    }
+    EXPECT_GT(inside, 5000);
+}
+
+// Pits in a landscape are rooms, though all the air above them hangs together.
+TEST(RoomOfAMesh, PitsAreToldFromTheAirAboveThem) {
+    const EnclosedRoom room = room_of(shapes::sheet(1, 60, [](double x, double y) {
+        return 0.5 * std::sin(std::numbers::pi * x) * std::sin(std::numbers::pi * y);
+    }));
+    for (const double x : {-0.5, 0.5}) {
+        EXPECT_TRUE(room.holds({x, -x, -0.1}));   // deep in a pit
+        EXPECT_FALSE(room.holds({x, x, -0.1}));   // below a hill
+        EXPECT_FALSE(room.holds({x, -x, 0.45}));  // over the pit
+    }
+    EXPECT_TRUE(room.holds(room.widest_place()));
+}
+
+// A wall is missing on one side: places from which a level ray leaves through it are not enclosed.
+TEST(RoomOfAMesh, BesideAHoleRaysDecide) {
+    TriangleMesh mesh = shapes::box({-1, -1, 0}, {1, 1, 2}, false);
+    std::erase_if(mesh.triangles, [&](const TriangleMesh::Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](std::int32_t i) {
+            return mesh.vertices[static_cast<std::size_t>(i)].x() == 1;
+        });
+    });
+    EXPECT_FALSE(room_of(mesh).holds({0, 0, 1}));
 }
 
 // Turned, so that no face lies along an axis and both ends are corners.

@@ -466,7 +466,7 @@ CHECKS = [
         what="dynamic angle of repose from 2 to 4 s, degrees",
         number=lambda run: run.mean("repose_angle_degree", 2),
         least=20,
-        most=40,
+        most=45,
     ),
     Check(
         name="drum_centrifuges",
@@ -517,7 +517,7 @@ CHECKS = [
         control=["drive.direction=[0, 0, 1]"],
         what="speed of the grains from 0.4 to 1 s over that of the block, 0.25 m/s",
         number=lambda run: slope(run, "centre_y", 0.4, 1) / thrown_speed(2.5, math.radians(30), 25),
-        least=0.6,
-        most=1.2,
+        least=0.8,
+        most=1.1,
     ),
 ]

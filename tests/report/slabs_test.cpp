@@ -121,5 +121,26 @@ TEST(Slabs, TheBoxHasAllOfThem) {
     EXPECT_LT(box.low.z(), 0);
 }
 
+// A box that is turned by a quarter about its middle is as wide as it was high.
+TEST(Slabs, TheBoxHasThemWhereTheyAreTurned) {
+    const FilmedScene scene = with(Container::Shape::box);
+    const std::vector<Slab> slabs = slabs_of(scene);
+    Extent box = box_of(slabs, scene);
+    const Extent rest = box;
+    take_turned(box, slabs, {Frame()});
+    EXPECT_EQ(box.low, rest.low);
+    EXPECT_EQ(box.high, rest.high);
+    Frame turned;
+    for (BodyPose& pose : turned.bodies) {
+        pose.rotation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3(1, 0, 0)));
+        pose.place = Vec3(0, 0.05, 0.05);  // y and z become 0.05 - z and 0.05 + y
+    }
+    take_turned(box, slabs, {turned});
+    EXPECT_NEAR(box.low.y(), std::min(rest.low.y(), 0.05 - rest.high.z()), 1e-12);
+    EXPECT_NEAR(box.high.y(), std::max(rest.high.y(), 0.05 - rest.low.z()), 1e-12);
+    EXPECT_NEAR(box.low.z(), std::min(rest.low.z(), 0.05 + rest.low.y()), 1e-12);
+    EXPECT_NEAR(box.high.z(), std::max(rest.high.z(), 0.05 + rest.high.y()), 1e-12);
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -133,7 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"\"2 s\"", "0", "27:1: 'duration' must be larger than 0, but is 0; write for example \"10 s\""},
         Case{"\"2 s\"", "inf", "27:1: 'duration' must be finite, but is inf; write for example \"10 s\""},
         Case{"\"wedge\"", "\"cone\"",
-             "17:1: 'shape' must be \"wedge\" or \"box\" or \"cylinder\" or \"mesh\" or \"none\", but is \"cone\""},
+             "17:1: 'shape' must be \"wedge\" or \"box\" or \"cylinder\" or \"mesh\" or \"none\", but is "
+             "\"cone\""},
         Case{"name = \"small\"", "name = 3",
              "4:1: 'name' must be text, but is 3; write for example \"small\""},
         Case{"name = \"small\"", "name = \"wall\"",

@@ -34,11 +34,14 @@ const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
     for (; triangle != end && triangle->distance < reach; ++triangle) patches_.add(triangle->number);
     patches_.find();
     if (patches_.all().empty()) return matched_;
-    normals_.clear();
-    for (const Patch& patch : patches_.all()) normals_.push_back(pose.turned * patch.normal);
+    normals_.clear(), distances_.clear();
+    for (const Patch& patch : patches_.all()) {
+        normals_.push_back(pose.turned * patch.normal);
+        distances_.push_back(patch.distance);
+    }
     find_before(group, near, table);
+    look_for_crossings(in, near, pose);
     find_owners();
-    look_for_faults(in, near, pose);
     put_together(static_cast<std::int32_t>(in.walls.faces.size()) + near.mesh);
     return matched_;
 }
@@ -79,24 +82,27 @@ void PatchMatcher::find_owners() {
 }
 
 // A centre has come through the surface if it now sees it on the other side, and nearer than it can have come
-// in any other way.
-void PatchMatcher::look_for_faults(const ForceInput& in, const MeshNear& near, const WallPose& pose) {
+// in any other way. Such a grain ends the run. While grains settle or grow, it is pushed back, as by a plane.
+void PatchMatcher::look_for_crossings(const ForceInput& in, const MeshNear& near, const WallPose& pose) {
     using Kind = MeshFault::Kind;
     constexpr double kOpposite = -0.5, kDeep = 0.5;  // cosine; of the radius
     const std::vector<Patch>& all = patches_.all();
+    const Place& grain = in.grains.place[near.grain];
     const auto note = [&](Kind kind, const Patch& patch) {
-        fault_ = {kind, in.grains.id[near.grain], near.mesh, patch.triangle,
-                  in.grains.place[near.grain].position};
+        fault_ = {kind, in.grains.id[near.grain], near.mesh, patch.triangle, grain.position};
     };
     if (std::ssize(all) > kMostPatches) note(Kind::many_patches, all[0]);
     for (std::size_t p = 0; p < all.size(); ++p) {
         const Vec3 velocity = in.grains.motion[near.grain].velocity - pose.mean_velocity(all[p].at);
-        const double way =
-            std::max(kDeep * in.grains.place[near.grain].radius, velocity.norm() * in.times.since);
-        const bool flips = std::any_of(before_.begin(), before_.end(), [&](const Before& before) {
-            return before.normal.dot(normals_[p]) < kOpposite;
-        });
-        if (!(all[p].distance > 0) || (flips && all[p].distance < way)) note(Kind::crossed, all[p]);
+        const double way = std::max(kDeep * grain.radius, velocity.norm() * in.times.since);
+        const bool flips =
+            all[p].distance < way && std::any_of(before_.begin(), before_.end(), [&](const Before& before) {
+                return before.normal.dot(normals_[p]) < kOpposite;
+            });
+        if (flips && in.times.drags)
+            normals_[p] = -normals_[p], distances_[p] = -distances_[p];
+        else if (flips || (!(all[p].distance > 0) && !in.times.drags))
+            note(Kind::crossed, all[p]);
     }
 }
 
@@ -113,7 +119,7 @@ void PatchMatcher::put_together(std::int32_t wall) {
         const std::int32_t number = goes_on ? before_[owner_[p]].number : free++;
         const Vec3 before = goes_on ? before_[owner_[p]].normal : Vec3(0, 0, 0);
         matched_.push_back(
-            {number, goes_on, {wall, patch.triangle, patch.distance, patch.at, normals_[p], before}});
+            {number, goes_on, {wall, patch.triangle, distances_[p], patch.at, normals_[p], before}});
     }
 }
 

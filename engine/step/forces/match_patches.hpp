@@ -44,11 +44,12 @@ class PatchMatcher {
     void find_before(const ContactGroup& group, const MeshNear& near, const ContactTable& table);
     void find_owners();
     int patch_of(const Before& before) const;
-    void look_for_faults(const ForceInput& in, const MeshNear& near, const WallPose& pose);
+    void look_for_crossings(const ForceInput& in, const MeshNear& near, const WallPose& pose);
     void put_together(std::int32_t wall);
 
     Patches patches_;
-    std::vector<Vec3> normals_;  // of the patches, in the frame of the scene
+    std::vector<Vec3> normals_;      // of the patches, in the frame of the scene
+    std::vector<double> distances_;  // likewise, m; negative for a centre that is to be pushed back
     std::vector<Before> before_;
     std::array<int, kMostPatches> owner_{};  // of each patch: which of before_; -1 for none
     std::vector<MatchedPatch> matched_;

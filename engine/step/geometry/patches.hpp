@@ -20,8 +20,8 @@ namespace grainreel {
 struct Patch {
     std::int32_t triangle;  // that has the nearest point; of equals a face before an edge before a corner,
                             // and then the lowest
-    Vec3 at;          // m, the nearest point
-    Vec3 normal;      // unit, from the centre to it
+    Vec3 at;                // m, the nearest point
+    Vec3 normal;            // unit, from the centre to it
     double distance;  // m, of the centre; 0 where the centre lies in the surface, and `normal` is that of
                       // the triangle
 };

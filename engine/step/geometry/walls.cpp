@@ -31,7 +31,6 @@ void WallPose::set(const Body& body, const Vec3& rest_point, const Pose& before_
     now = body.at(now_drive);
     turned = now.rotation.toRotationMatrix();
     point = now.moved(rest_point);
-    point_before = before.moved(rest_point);
     if (step > 0) {
         const Eigen::AngleAxisd turn(now.rotation * before.rotation.conjugate());
         moved = (now.place - before.place) / step;
@@ -50,9 +49,10 @@ void WallState::set(const Surroundings& around, const Pose& before, const Pose& 
     poses.resize(around.faces.size() + around.meshes.size());
     for (std::size_t f = 0; turning && f < around.faces.size(); ++f) {
         const Face& face = around.faces[f];
-        poses[f].set(face.body, face.point, before, now, step);
-        if (face.body.turn) poses[f].point = poses[f].now.moved(face.body.turn->through);
-        poses[f].normal_before = face.body.at(before).rotation * face.normal;
+        const BodyPose was = face.body.at(before);
+        poses[f].set(face.body, moment_point(face), before, now, step);
+        poses[f].point_before = was.moved(face.point);
+        poses[f].normal_before = was.rotation * face.normal;
     }
     for (std::size_t m = 0; m < around.meshes.size(); ++m)
         poses[around.faces.size() + m].set(around.meshes[m].body, around.meshes[m].point, before, now, step);

@@ -34,6 +34,11 @@ struct alignas(64) FaceMotion {
     double unused_two;
 };
 
+// m, at rest: the point about which a face's moment counts. It stays where it is while the body turns.
+inline Vec3 moment_point(const Face& face) {
+    return face.body.turn ? face.body.turn->through : face.point;
+}
+
 // A wall whose points move in different ways, over one step.
 struct WallPose {
     BodyPose now;
@@ -45,7 +50,7 @@ struct WallPose {
     Vec3 point_before{0, 0, 0};   // m, of a face: its point a step ago
     Vec3 normal_before{0, 0, 0};  // of a face: its normal a step ago
 
-    // From `before` to `now` within `step` seconds; point: m, at rest.
+    // From `before` to `now` within `step` seconds; rest_point: m, that `point` is at rest.
     void set(const Body& body, const Vec3& rest_point, const Pose& before, const Pose& now, double step);
     // m/s, of a point that is given in the body's frame: its way in the step over the step.
     Vec3 mean_velocity(const Vec3& at_rest) const { return moved + rate * at_rest; }

@@ -6,7 +6,7 @@
 #include "engine/base/ticks.hpp"
 #include "engine/step/grid/mesh_search.hpp"
 #include "engine/step/lists/candidates.hpp"
-#include "engine/step/lists/hand_over.hpp"
+#include "engine/step/lists/change_owners.hpp"
 
 namespace grainreel {
 
@@ -72,7 +72,7 @@ void BedLists::rebuild(int thread, const Pose& pose, double time, double lasted)
         ++rebuilds_;
     }
     me.wait();
-    hand_over(me);
+    change_owners(me);
     if (me.leads()) place_halos();
     me.wait();
     refresh(thread);
@@ -129,7 +129,7 @@ std::ptrdiff_t BedLists::found_before(int thread, std::vector<WallNeighbour> Thr
 }
 
 // Hands the contacts over to those who own their grains from now on.
-void BedLists::hand_over(const TeamMember& me) {
+void BedLists::change_owners(const TeamMember& me) {
     Thread& mine = threads_[me.member];
     renumber(rules_, me.member, {new_index_, shares_.before(), shares_.now()}, mine.contacts, mine.leaving);
     me.wait();

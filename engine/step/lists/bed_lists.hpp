@@ -3,9 +3,9 @@
 //
 // The bits do not depend on the number of threads, for three reasons. The grains have one spatial order,
 // whatever the team. Every thread computes all contacts of its own grains. Every grain sums its contacts in
-// one order: walls before pairs, law by law. Within a law, the contacts that began since the last refresh
-// come first, in the order in which they began. Then come the contacts in which the grain is the second body,
-// by rising first body, then those in which it is the first body, by rising second body.
+// one order: meshes before walls before pairs, law by law. Within a law, the contacts that began since the
+// last refresh come first, in the order in which they began. Then come the contacts in which the grain is the
+// second body, by rising first body, then those in which it is the first body, by rising second body.
 #pragma once
 
 #include <cstdint>
@@ -93,7 +93,7 @@ class BedLists {
     void search(int thread, const Pose& pose);
     void join_parts(const TeamMember& me);
     std::ptrdiff_t found_before(int thread, std::vector<WallNeighbour> Thread::*part) const;
-    void hand_over(const TeamMember& me);
+    void change_owners(const TeamMember& me);
     void place_halos();
     void refresh(int thread);
 

@@ -34,18 +34,21 @@ std::string shape_text(const SceneMesh& mesh) {
     return text;
 }
 
-// "2 solids, closed"
+std::string slender_text(const MeshFacts& facts) {
+    if (facts.slender == 0) return "";
+    return fmt::format(", {} slender (lower than a thousandth of their longest side)",
+                       counted(facts.slender, "triangle", "triangles"));
+}
+
+// "2 solids, closed"; "1 part, open: 4 edges of one triangle alone"
 std::string edges_text(const MeshFacts& facts) {
-    std::string text = counted(facts.solids, "solid", "solids");
-    if (facts.closed()) text += ", closed";
+    if (facts.closed()) return counted(facts.solids, "solid", "solids") + ", closed" + slender_text(facts);
+    std::string text = counted(facts.solids, "part", "parts");
     if (facts.open_edges > 0)
         text += ", open: " + counted(facts.open_edges, "edge", "edges") + " of one triangle alone";
     if (facts.crowded_edges > 0)
         text += ", " + counted(facts.crowded_edges, "edge", "edges") + " of more than two triangles";
-    if (facts.slender > 0)
-        text += ", " + counted(facts.slender, "triangle", "triangles") +
-                " slender (height below a thousandth of the longest side)";
-    return text;
+    return text + slender_text(facts);
 }
 
 }  // namespace

@@ -159,12 +159,16 @@ double packing_cost(const FilmedScene& scene, const Plan& plan, double& steps) {
 double measuring_cost(const FilmedScene& scene, const Plan& plan, double grains, double contacts) {
     const auto steps = static_cast<double>(plan.steps);
     const std::vector<std::string> instruments = scene.instruments();
-    const bool balance =
-        std::find(instruments.begin(), instruments.end(), "energy_balance") != instruments.end();
+    const auto has = [&](const char* one) {
+        return std::find(instruments.begin(), instruments.end(), one) != instruments.end();
+    };
+    const bool balance = has("energy_balance");
     const double others = static_cast<double>(instruments.size()) - (balance ? 1 : 0);
     double cost = steps / static_cast<double>(plan.measures_every) * grains * (kRow + others * kInstrument);
     if (scene.output.fields.wanted()) cost += steps / plan.fields.every * grains * kFieldMoment;
-    if (balance) cost += steps * (kStep + grains * (kBalance + kBalanceContact * contacts));
+    const double look = kStep + grains * (kBalance + kBalanceContact * contacts);
+    if (balance) cost += steps * look;
+    if (has("wear")) cost += 0.5 * steps * look;  // at every second step
     return cost;
 }
 

@@ -143,4 +143,16 @@ Extent box_of(const std::vector<Slab>& slabs, const FilmedScene& scene) {
     return box;
 }
 
+void take_turned(Extent& box, const std::vector<Slab>& slabs, const std::vector<Frame>& moments) {
+    constexpr std::size_t most_moments = 60;
+    for (std::size_t k = 0; k < moments.size(); k += 1 + moments.size() / most_moments)
+        for (const Slab& slab : slabs) {
+            if (slab.body == kTrayBody) continue;
+            const BodyPose pose = moments[k].body(static_cast<std::size_t>(slab.body));
+            if (pose.rotation.vec().isZero(0)) continue;
+            for (const std::vector<Vec3>* corners : {&slab.inner, &slab.outer})
+                for (const Vec3& corner : *corners) box.take(pose.moved(corner));
+        }
+}
+
 }  // namespace grainreel

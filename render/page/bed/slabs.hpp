@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/frame.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -25,5 +26,8 @@ std::vector<Slab> slabs_of(const FilmedScene& scene);
 
 // What the slabs at rest take up; of a scene without any the box of what is looked at.
 Extent box_of(const std::vector<Slab>& slabs, const FilmedScene& scene);
+
+// Makes the box hold the slabs of bodies that are turned, where they are at these moments.
+void take_turned(Extent& box, const std::vector<Slab>& slabs, const std::vector<Frame>& moments);
 
 }  // namespace grainreel

@@ -130,6 +130,7 @@ Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
 Json bed_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes) {
     const std::vector<Slab> slabs = slabs_of(scene);
     Extent box = box_of(slabs, scene);
+    take_turned(box, slabs, bed.moments);
     take_meshes(box, scene, bed.moments);
     Json times = Json::array(), bodies = Json::array();
     for (const Frame& moment : bed.moments) {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "render/picture/camera/mesh_reach.hpp"
+#include "render/picture/container/mesh_reach.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -7,9 +7,9 @@
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
-#include "render/picture/camera/mesh_reach.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/lab_marks.hpp"
+#include "render/picture/container/mesh_reach.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/picture/camera/mesh_reach.hpp"
+#include "render/picture/container/mesh_reach.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 
 namespace grainreel {

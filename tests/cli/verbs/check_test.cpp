@@ -175,7 +175,7 @@ TEST_F(CheckProgram, TellsWhatEachMeshIsAndWhatWasMended) {
     for (const char* line :
          {"plate: plate.stl, ASCII STL, 2 triangles, 200 mm x 200 mm x 0 mm from (-0.1, -0.1, 0) to (0.1, "
           "0.1, 0) m",
-          "1 solid, open: 4 edges of one triangle alone", "stands still",
+          "1 part, open: 4 edges of one triangle alone", "stands still",
           "paddle: plate.obj, OBJ, 2 triangles, 200 mm x 200 mm x 0 mm", "scaled by 0.001", "mended: ",
           "turns at 30 rpm about the axis (0, 0, 1) through (0, 0, 0) m, from 0.01 s, begun over 0.02 s",
           "ball - plate", "ball - paddle"})

@@ -72,7 +72,7 @@ TEST(DrumInstrument, CountsRevolutionsOfTheContainer) {
     bed.pose.time = 2;
     EXPECT_NEAR(bed.look(2000, "revolutions"), 3 * 2 / (2 * pi), 1e-12);
     EXPECT_NEAR(bed.look(2000, "froude_number"), 9 * 20.0 / 10, 1e-12);  // half_width is 20
-    EXPECT_TRUE(std::isnan(bed.look(2000, "repose_angle_degree")));         // no grains
+    EXPECT_TRUE(std::isnan(bed.look(2000, "repose_angle_degree")));      // no grains
 }
 
 TEST(DrumInstrument, HasNoValueWhereNothingTurns) {

@@ -97,8 +97,9 @@ TriangleMesh mesh_of(const std::vector<Face>& faces, double size) {
     TriangleMesh mesh;
     for (const Face& face : faces) {
         const Vec3 u = face.normal.unitOrthogonal(), v = face.normal.cross(u);
-        add_sheet(1, 1, [&](double a, double b) { return face.point + size * ((a - 0.5) * u + (b - 0.5) * v); },
-                  mesh);
+        add_sheet(
+            1, 1, [&](double a, double b) { return face.point + size * ((a - 0.5) * u + (b - 0.5) * v); },
+            mesh);
     }
     return mesh;
 }
@@ -134,7 +135,8 @@ TEST(MeshContacts, TheWedgeOfTrianglesPushesAsThatOfPlanes) {
         };
         const Load planes = pushed(false), mesh = pushed(true);
         touched += planes.force.norm() > 0;
-        EXPECT_LT((planes.force - mesh.force).norm(), of_rounding(1e-9, 1e-5) * (scale + planes.force.norm()));
+        EXPECT_LT((planes.force - mesh.force).norm(),
+                  of_rounding(1e-9, 1e-5) * (scale + planes.force.norm()));
         EXPECT_LT((planes.torque - mesh.torque).norm(),
                   of_rounding(1e-9, 1e-5) * (scale * kRadius + planes.torque.norm()));
     }
@@ -218,7 +220,8 @@ TEST(MeshContacts, AnElasticGasKeepsItsEnergyInAClosedMesh) {
         return std::abs(w.energy() - before) / before;
     };
     const double box = energies(false), mesh = energies(true);
-    std::printf("[ measured ] energy changes by %.1e in a box of planes, %.1e in one of triangles\n", box, mesh);
+    std::printf("[ measured ] energy changes by %.1e in a box of planes, %.1e in one of triangles\n", box,
+                mesh);
     EXPECT_LT(mesh, 2 * box + 1e-5);
 }
 

@@ -1,5 +1,5 @@
-// Meshes and faces that turn: what they do to a ball, and the same bits on any number of threads and through a
-// checkpoint.
+// Meshes and faces that turn: what they do to a ball, and the same bits on any number of threads and through
+// a checkpoint.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -32,7 +32,7 @@ TEST_P(TurningPlate, LeadsARollingBallRoundATwoSeventhsOfItsRate) {
     if (GetParam())
         add_mesh(w, "plate", square_mesh(0.2, 13)).body.turn = turn;
     else
-        w.around.faces = {turning_floor(turn)};
+        w.around.faces = {turning_floor(turn)}, start_clock(w);
     w.around.gravity = {0, 0, -kGravity};
     const double sink = sphere_mass() * kGravity / kStiffness;
     const Vec3 at(0.02, 0.01, kRadius - sink), velocity(0.05, 0.02, 0);
@@ -51,9 +51,8 @@ TEST_P(TurningPlate, LeadsARollingBallRoundATwoSeventhsOfItsRate) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(, TurningPlate, testing::Values(true, false), [](const auto& of) {
-    return std::string(of.param ? "OfTriangles" : "OfAFace");
-});
+INSTANTIATE_TEST_SUITE_P(, TurningPlate, testing::Values(true, false),
+                         [](const auto& of) { return std::string(of.param ? "OfTriangles" : "OfAFace"); });
 
 // A ball pressed to a drum's wall by gravity across its axis.
 struct InDrum {
@@ -77,18 +76,20 @@ InDrum in_drum(int facets, std::int64_t steps, double friction = 0.5, double rol
         wall.radius = radius;
         wall.body.turn = turn;
         w.around.faces = {wall};
+        start_clock(w);
     }
     w.around.gravity = {0, -kGravity, 0};
     w.grains.add(0, 0, Vec3(0, -radius + kRadius, 0.0011), kRadius, kDensity);
     w.start();
     WallScale scale;
-    scale.force = 0x1p-60;
+    scale.force = 0x1p-50;
     scale.length = 0x1p-10;
     w.loop->tally_walls(scale, 0);
     w.run(steps);
     const WallSums sums = w.loop->wall_sums();
     const double moment = static_cast<double>(sums.faces[0].moment[2]) * scale.force * scale.length;
-    return {w.position(0), w.velocity(0), w.spin(0), w.grains.wall_work[0], moment / static_cast<double>(steps)};
+    return {w.position(0), w.velocity(0), w.spin(0), w.grains.wall_work[0],
+            moment / static_cast<double>(steps)};
 }
 
 // At first it slips, and the wall drags it with mu m g; at last it rolls at the bottom, or swings about it.
@@ -104,13 +105,14 @@ TEST(TurningDrum, SpinsABallUp) {
 }
 
 TEST(TurningDrum, Of360FacetsTakesTheTorqueOfTheRoundOne) {
-    // While the ball slips.
-    const InDrum round = in_drum(0, 20000), facets = in_drum(360, 20000);
-    ASSERT_GT(std::abs(round.moment), 0.3 * 0.5 * sphere_mass() * kGravity * 0.02);
+    const std::int64_t steps = 2000;  // the ball slips meanwhile
+    const double time = 2e-6 * static_cast<double>(steps);
+    const InDrum round = in_drum(0, steps), facets = in_drum(360, steps);
+    EXPECT_NEAR(round.moment, -0.5 * sphere_mass() * kGravity * 0.02, 0.05 * std::abs(round.moment));
     EXPECT_NEAR(facets.moment, round.moment, 0.01 * std::abs(round.moment));
     // The drum's work is its moment times its angle.
-    EXPECT_NEAR(facets.work, -5 * facets.moment * 20000 * 2e-6, 1e-3 * std::abs(facets.work));
-    EXPECT_NEAR(round.work, -5 * round.moment * 20000 * 2e-6, 1e-3 * std::abs(round.work));
+    EXPECT_NEAR(facets.work, -5 * facets.moment * time, 1e-3 * std::abs(facets.work));
+    EXPECT_NEAR(round.work, -5 * round.moment * time, 1e-3 * std::abs(round.work));
     EXPECT_NEAR(facets.work, round.work, 0.01 * round.work);
 }
 
@@ -136,53 +138,54 @@ TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
         if (triangles)
             add_mesh(w, "plate", square_mesh(0.03, 5)).body.turn = turn;
         else
-            w.around.faces = {turning_floor(turn)};
+            w.around.faces = {turning_floor(turn)}, start_clock(w);
         const Vec3 at(0.0013, 0.0007, kRadius - 1e-6);
         w.grains.add(0, 0, at, kRadius, 1e9);  // so heavy that forces do not matter
         w.grains.motion[0].spin = rate * turn.axis;
         w.grains.motion[0].velocity = rate * turn.axis.cross(at - turn.through);
         w.start();
-        // The centre would fly straight on. It is put where the turn takes it.
+        // The centre would fly straight on. In each step it flies to where the turn takes it.
+        const auto place = [&](int k) {
+            return Vec3(turn.through + Eigen::AngleAxisd(rate * k * 1e-6, turn.axis) * (at - turn.through));
+        };
         double largest = 0;
-        for (int k = 1; k <= 2000; ++k) {
+        for (int k = 0; k < 2000; ++k) {
+            w.grains.place[0].position = place(k);
+            w.grains.motion[0].velocity = (place(k + 1) - place(k)) / 1e-6;
             w.run(1);
-            const Quaternion turned(Eigen::AngleAxisd(rate * k * 1e-6, turn.axis));
-            w.grains.place[0].position = turn.through + turned * (at - turn.through);
-            w.grains.motion[0].velocity =
-                (turned * (at - turn.through) - Eigen::AngleAxisd(rate * (k - 1) * 1e-6, turn.axis) *
-                                                    (at - turn.through)) /
-                1e-6;
             w.loop->visit_contacts(w.step, [&](const ContactView& c) {
                 largest = std::max(largest, c.tangential.norm() / c.normal_force);
             });
         }
-        // Of the 60,000 micrometres of arc none is felt as slip.
-        EXPECT_LT(largest, 1e-3) << triangles;
+        // Of 1.3 mm of arc none is felt as slip.
+        EXPECT_LT(largest, of_rounding(1e-4, 1e-2)) << triangles;
     }
 }
 
 // A bed in a closed box with a vane that turns and a tube that is shaken.
 World bed(int threads) {
-    PairPlan pair = walton_braun_pair(0.7, 0.5);
+    PairPlan pair = walton_braun_pair(0.4, 0.5);
     pair.rolling_friction = 0.1;
     pair.model.rolls = true;
     World w = make_world(pair, 5e-6);
     w.team = std::make_unique<Team>(threads);
     add_mesh(w, "box", box_mesh(Vec3(-0.016, -0.016, 0), Vec3(0.016, 0.016, 0.05), 9));
     TriangleMesh vane;
-    add_sheet(4, 3, [](double u, double v) { return Vec3(0.026 * (u - 0.5), 0, 0.005 + 0.02 * v); }, vane);
+    add_sheet(
+        4, 3, [](double u, double v) { return Vec3(0.026 * (u - 0.5), 0, 0.005 + 0.02 * v); }, vane);
     add_mesh(w, "vane", vane).body.turn = turn_about(Vec3(0, 0, 1), 20);
     TriangleMesh tube = tube_mesh(0.004, 0.01, 24, 2);
     for (Vec3& vertex : tube.vertices) vertex += Vec3(0.011, 0.011, 0.035);
     add_mesh(w, "tube", tube).body.velocity = Vec3(0, 0, -0.05);
-    w.around.gravity = {0.5, 0, -kGravity};
+    w.around.gravity = {0.5, 0, -60};
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> some(-1, 1);
     int id = 0;
     for (int z = 0; z < 9; ++z)
         for (int x = 0; x < 6; ++x)
             for (int y = 0; y < 6; ++y) {
-                const Vec3 at = 0.0045 * Vec3(x - 2.5, y - 2.5, z + 0.8) + 0.0002 * Vec3(some(random), some(random), 0);
+                const Vec3 at =
+                    0.0045 * Vec3(x - 2.5, y - 2.5, z + 0.8) + 0.0002 * Vec3(some(random), some(random), 0);
                 if (std::abs(at.y()) < 0.0025 && at.z() < 0.028) continue;
                 if (at.z() > 0.026 && at.x() > 0.003 && at.y() > 0.003) continue;
                 w.grains.add(id++, 0, at, kRadius * (1 + 0.05 * some(random)), kDensity);
@@ -220,7 +223,7 @@ TEST(MeshSameBits, OnOneTwoAndThreeThreads) {
     std::vector<std::string> states, seen;
     for (const int threads : {1, 2, 3}) {
         World w = bed(threads);
-        for (int k = 0; k < 60; ++k) w.run(100);
+        for (int k = 0; k < 40; ++k) w.run(150);
         states.push_back(state_of(w));
         seen.push_back(seen_in(w));
         int at_meshes[3] = {0, 0, 0};

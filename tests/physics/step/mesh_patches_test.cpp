@@ -35,7 +35,7 @@ TEST(Patches, APlaneIsTouchedOnceWhateverItsTriangles) {
         std::uniform_real_distribution<double> place(-0.35, 0.35);
         for (int k = 0; k < 200; ++k) {
             Vec3 centre(place(random), place(random), k % 2 ? 0.09 : -0.09);
-            if (k % 5 == 0) centre.x() = std::round(centre.x() * n) / n;  // above a seam
+            if (k % 5 == 0) centre.x() = std::round(centre.x() * n) / n;   // above a seam
             if (k % 10 == 0) centre.y() = std::round(centre.y() * n) / n;  // above a vertex
             const auto found = patches_of(*surface, centre);
             ASSERT_EQ(found.size(), 1u) << n << " " << centre.transpose();
@@ -90,10 +90,10 @@ TEST(Patches, AGrooveCountsTwiceUnlessItIsShallow) {
         EXPECT_EQ(touched_in_groove(40 * degree, Vec3(0.1, 0, 0.0999), n), 2);
         EXPECT_EQ(touched_in_groove(5 * degree, Vec3(0.1, 0, 0.0999), n), 1);
         // Lying on one side of it, with the edge within reach.
-        const double tilt = 20 * degree;
-        const Vec3 on_right = Vec3(0.1, 0, 0) + 0.04 * Vec3(0, std::cos(tilt), std::sin(tilt)) +
-                              0.0900 * Vec3(0, -std::sin(tilt), std::cos(tilt));
-        EXPECT_EQ(touched_in_groove(40 * degree, on_right, n), 1);
+        const double tilt = 6 * degree;
+        const Vec3 on_right = Vec3(0.1, 0.03 * std::cos(tilt) - 0.09 * std::sin(tilt),
+                                   0.03 * std::sin(tilt) + 0.09 * std::cos(tilt));
+        EXPECT_EQ(touched_in_groove(2 * tilt, on_right, n), 1);
         // From below it is a ridge.
         EXPECT_EQ(touched_in_groove(90 * degree, Vec3(0.1, 0, -0.05), n), 1);
         EXPECT_EQ(touched_in_groove(40 * degree, Vec3(0.1, 0.01, -0.05), n), 1);

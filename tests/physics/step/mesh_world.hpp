@@ -16,7 +16,8 @@
 namespace grainreel {
 
 // A patch of surface: place(u, v) for u and v from 0 to 1, in `along` x `across` squares of two triangles.
-inline void add_sheet(int along, int across, const std::function<Vec3(double, double)>& place, TriangleMesh& mesh) {
+inline void add_sheet(int along, int across, const std::function<Vec3(double, double)>& place,
+                      TriangleMesh& mesh) {
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
     for (int a = 0; a <= along; ++a)
         for (int b = 0; b <= across; ++b)
@@ -32,35 +33,39 @@ inline void add_sheet(int along, int across, const std::function<Vec3(double, do
 // A square in z = 0 with its middle at the origin, facing up, of 2 n^2 triangles.
 inline TriangleMesh square_mesh(double side, int n) {
     TriangleMesh mesh;
-    add_sheet(n, n, [&](double u, double v) { return Vec3((u - 0.5) * side, (v - 0.5) * side, 0); }, mesh);
+    add_sheet(
+        n, n, [&](double u, double v) { return Vec3((u - 0.5) * side, (v - 0.5) * side, 0); }, mesh);
     return mesh;
 }
 
 // A tube about the z axis, from -length / 2 to length / 2; corners of its facets lie on the circle.
 inline TriangleMesh tube_mesh(double radius, double length, int facets, int rings) {
     TriangleMesh mesh;
-    add_sheet(facets, rings,
-              [&](double u, double v) {
-                  const double angle = 2 * std::numbers::pi * u;
-                  return Vec3(radius * std::cos(angle), radius * std::sin(angle), (v - 0.5) * length);
-              },
-              mesh);
+    add_sheet(
+        facets, rings,
+        [&](double u, double v) {
+            const double angle = 2 * std::numbers::pi * u;
+            return Vec3(radius * std::cos(angle), radius * std::sin(angle), (v - 0.5) * length);
+        },
+        mesh);
     return mesh;
 }
 
 // Two half-planes that meet in the x axis and rise from it by these angles (rad) on either side.
 inline TriangleMesh groove_mesh(double size, double left, double right, int n = 1) {
     TriangleMesh mesh;
-    add_sheet(n, n,
-              [&](double u, double v) {
-                  return Vec3((v - 0.5) * size, -u * size * std::cos(left), u * size * std::sin(left));
-              },
-              mesh);
-    add_sheet(n, n,
-              [&](double u, double v) {
-                  return Vec3((u - 0.5) * size, v * size * std::cos(right), v * size * std::sin(right));
-              },
-              mesh);
+    add_sheet(
+        n, n,
+        [&](double u, double v) {
+            return Vec3((v - 0.5) * size, -u * size * std::cos(left), u * size * std::sin(left));
+        },
+        mesh);
+    add_sheet(
+        n, n,
+        [&](double u, double v) {
+            return Vec3((u - 0.5) * size, v * size * std::cos(right), v * size * std::sin(right));
+        },
+        mesh);
     return mesh;
 }
 
@@ -81,14 +86,15 @@ inline TriangleMesh box_mesh(const Vec3& low, const Vec3& high, int n) {
     TriangleMesh mesh;
     for (int axis = 0; axis < 3; ++axis)
         for (const bool upper : {false, true})
-            add_sheet(n, n,
-                      [&](double u, double v) {
-                          Vec3 at = upper ? high : low;
-                          at[(axis + 1) % 3] = low[(axis + 1) % 3] + u * (high - low)[(axis + 1) % 3];
-                          at[(axis + 2) % 3] = low[(axis + 2) % 3] + v * (high - low)[(axis + 2) % 3];
-                          return at;
-                      },
-                      mesh);
+            add_sheet(
+                n, n,
+                [&](double u, double v) {
+                    Vec3 at = upper ? high : low;
+                    at[(axis + 1) % 3] = low[(axis + 1) % 3] + u * (high - low)[(axis + 1) % 3];
+                    at[(axis + 2) % 3] = low[(axis + 2) % 3] + v * (high - low)[(axis + 2) % 3];
+                    return at;
+                },
+                mesh);
     return mesh;
 }
 
@@ -96,6 +102,11 @@ inline std::shared_ptr<const Surface> surface_of(TriangleMesh mesh) {
     MeshFacts facts;
     mend(mesh, facts);
     return std::make_shared<Surface>(std::move(mesh), facts, "by hand");
+}
+
+// Lets time pass for bodies with a motion of their own.
+inline void start_clock(World& w) {
+    w.around.motion = WallMotion(Drive{}, w.plan.clock);
 }
 
 // The contact is that of walls.
@@ -106,6 +117,7 @@ inline MeshWall& add_mesh(World& w, const std::string& name, TriangleMesh mesh) 
     wall.body.number = kFirstPlaneBody + static_cast<std::int32_t>(w.around.meshes.size());
     w.around.meshes.push_back(wall);
     w.plan.mesh.push_back(w.plan.wall[0]);
+    start_clock(w);
     return w.around.meshes.back();
 }
 

@@ -1,4 +1,4 @@
-#include "render/picture/camera/mesh_reach.hpp"
+#include "render/picture/container/mesh_reach.hpp"
 
 #include <algorithm>
 #include <cmath>

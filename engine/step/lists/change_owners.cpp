@@ -1,4 +1,4 @@
-#include "engine/step/lists/hand_over.hpp"
+#include "engine/step/lists/change_owners.hpp"
 
 #include <algorithm>
 #include <utility>
