@@ -107,6 +107,22 @@ void add_stream(const Container& container, std::vector<Vec3>& corners) {
         for (const double end : {-1.0, 1.0}) corners.emplace_back(end * x, side * y, -outlet.exit_depth);
 }
 
+// Boxes that grains come from, as far as they are not far above all else.
+void add_sources(const FilmedScene& scene, std::vector<Vec3>& corners) {
+    const bool framed =
+        scene.container.shape == Container::Shape::none || scene.container.shape == Container::Shape::mesh;
+    if (!framed || corners.empty()) return;
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
+                                                 [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    const double most = high->z() + 0.5 * (high->z() - low->z());
+    const auto add = [&](const Vec3& from, const Vec3& to) {
+        if (to.z() > most) return;
+        for (const Vec3& corner : extent_corners({from, to})) corners.push_back(corner);
+    };
+    for (const Feed& feed : scene.feeds) add(feed.low, feed.high);
+    if (scene.start.region) add(scene.start.region->low, scene.start.region->high);
+}
+
 // Down to a box below all meshes, where grains leave, as far as that is not far away.
 void add_fall(const FilmedScene& scene, std::vector<Vec3>& corners) {
     if (scene.exits.empty() || corners.empty()) return;
@@ -151,7 +167,10 @@ std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const
         for (const Vec3& corner : tray_corners(scene)) corners.push_back(corner);
     else if (scene.container.outlet)
         add_stream(scene.container, corners);
-    if (!meshes.empty()) add_fall(scene, corners);
+    if (!meshes.empty()) {
+        add_fall(scene, corners);
+        add_sources(scene, corners);
+    }
     if (!part.cut && part.top > scene.container.height) corners.emplace_back(0, 0, part.top);
     std::vector<Vec3> points;
     const Vec3 stroke = drawn_stroke(scene);

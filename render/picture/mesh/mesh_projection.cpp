@@ -232,9 +232,10 @@ float MeshProjection::towards_eye(const MeshShape& shape, std::int32_t triangle,
     return -normal.dot(vertices_[static_cast<std::size_t>(shape.triangles[t][corner])]);
 }
 
-// Whether a smooth surface turns away from the eye there, and not only single triangles of it.
+// Whether a smooth surface turns away from the eye there, and not only single triangles of it. The outline of
+// a twisted one goes through its triangles and not along their edges: it has no line.
 bool MeshProjection::is_outline(const MeshShape& shape, const MeshShape::Edge& edge) const {
-    if (edge.right < 0) return false;
+    if (edge.right < 0 || edge.rippled) return false;
     if (seen_[static_cast<std::size_t>(edge.left)].front == seen_[static_cast<std::size_t>(edge.right)].front)
         return false;
     return towards_eye(shape, edge.left, edge.left_corner) *

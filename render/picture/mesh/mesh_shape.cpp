@@ -2,51 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/picture/mesh/mesh_sides.hpp"
 
 namespace grainreel {
 namespace {
-
-// The triangles around each vertex, one list after the other.
-struct Fans {
-    std::vector<std::int32_t> first, triangle;
-};
-Fans fans_of(const TriangleMesh& mesh) {
-    Fans fans;
-    fans.first.assign(mesh.vertices.size() + 1, 0);
-    for (const TriangleMesh::Triangle& t : mesh.triangles)
-        for (const std::int32_t v : t) ++fans.first[static_cast<std::size_t>(v) + 1];
-    for (std::size_t v = 0; v + 1 < fans.first.size(); ++v) fans.first[v + 1] += fans.first[v];
-    fans.triangle.resize(3 * mesh.triangles.size());
-    std::vector<std::int32_t> next(fans.first.begin(), fans.first.end() - 1);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (const std::int32_t v : mesh.triangles[t])
-            fans.triangle[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] =
-                static_cast<std::int32_t>(t);
-    return fans;
-}
-
-// The mean of the normals around a corner that turn less than a feature edge does, each by its area.
-void add_corner_normals(const Surface& surface, double edge_angle, MeshShape& shape) {
-    const Fans fans = fans_of(surface.mesh());
-    const double least = std::cos(edge_angle);
-    std::vector<double> area(shape.triangles.size());
-    for (std::int32_t t = 0; t < surface.size(); ++t) area[static_cast<std::size_t>(t)] = surface.area(t);
-    shape.corners.resize(shape.triangles.size());
-    for (std::size_t t = 0; t < shape.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto v = static_cast<std::size_t>(shape.triangles[t][k]);
-            Vec3 sum = Vec3::Zero();
-            for (std::int32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
-                const auto other = static_cast<std::size_t>(fans.triangle[static_cast<std::size_t>(i)]);
-                if (shape.normals[other].dot(shape.normals[t]) >= least)
-                    sum += area[other] * shape.normals[other];
-            }
-            const double length = sum.norm();
-            shape.corners[t][k] = (length > 0 ? Vec3(sum / length) : shape.normals[t]).cast<float>();
-        }
-}
 
 // Which corner of a triangle is neither of these vertices.
 std::uint8_t third_corner(const TriangleMesh::Triangle& triangle, std::int32_t from, std::int32_t to) {
@@ -55,21 +16,119 @@ std::uint8_t third_corner(const TriangleMesh::Triangle& triangle, std::int32_t f
     return 2;
 }
 
-void add_edges(const Surface& surface, double edge_angle, MeshShape& shape) {
+// rad, how much the surface turns across an edge: > 0 where it is convex for who stands on its front.
+double fold_at(const Surface& surface, std::int32_t t, int e) {
+    const Neighbour& beyond = surface.neighbour(t, e);
+    if (beyond.triangle < 0) return 0;
+    double height = 0;  // of the neighbour's third corner over the triangle
+    for (int k = 0; k < 3; ++k) {
+        const double one = surface.normal(t).dot(surface.corner(beyond.triangle, k) - surface.corner(t, e));
+        if (std::abs(one) > std::abs(height)) height = one;
+    }
+    return height > 0 ? -turn_of(surface, t, beyond) : turn_of(surface, t, beyond);
+}
+
+// Twisted surfaces that are cut into triangles fold up and down from one to the next. No such fold is an
+// edge.
+bool is_ripple(const Surface& surface, std::int32_t t, int e) {
+    constexpr double kMostRipple = std::numbers::pi / 3;
+    constexpr double kFlat = std::numbers::pi / 90;
+    const double fold = fold_at(surface, t, e);
+    if (std::abs(fold) > kMostRipple || std::abs(fold) < kFlat) return false;
+    const auto folds_back = [&](std::int32_t triangle) {
+        for (int other = 0; other < 3; ++other)
+            if (fold_at(surface, triangle, other) * fold < -0.25 * fold * fold) return true;
+        return false;
+    };
+    return folds_back(t) && folds_back(surface.neighbour(t, e).triangle);
+}
+
+double angle_at(const Surface& surface, std::int32_t t, int corner) {
+    const Vec3& at = surface.corner(t, corner);
+    const Vec3 one = surface.corner(t, (corner + 1) % 3) - at,
+               other = surface.corner(t, (corner + 2) % 3) - at;
+    return std::atan2(one.cross(other).norm(), one.dot(other));
+}
+
+using EdgeFlags = std::vector<std::array<bool, 3>>;  // of each triangle's edges
+bool flag_at(const EdgeFlags& flags, std::int32_t t, int e) {
+    return flags[static_cast<std::size_t>(t)][static_cast<std::size_t>(e)];
+}
+
+// Adds the normals of the triangles around a corner, each by its angle there, from `start` across edge `e` on
+// until a feature edge or `start` again. Returns whether it came round.
+bool go_round(const Surface& surface, const EdgeFlags& features, std::int32_t start, int corner, int e,
+              Vec3& sum) {
+    constexpr int kMost = 1000;  // more are around a vertex only where a mesh is no surface
+    const TriangleMesh& mesh = surface.mesh();
+    const std::int32_t vertex =
+        mesh.triangles[static_cast<std::size_t>(start)][static_cast<std::size_t>(corner)];
+    std::int32_t t = start;
+    for (int i = 0; i < kMost && !flag_at(features, t, e); ++i) {
+        const std::int32_t from = t;
+        t = surface.neighbour(t, e).triangle;
+        if (t == start) return true;
+        const TriangleMesh::Triangle& corners = mesh.triangles[static_cast<std::size_t>(t)];
+        const auto k = static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+        if (k == 3) return false;
+        sum += angle_at(surface, t, k) * surface.normal(t);
+        e = surface.neighbour(t, k).triangle == from ? (k + 2) % 3 : k;
+    }
+    return false;
+}
+
+// The mean of the normals around a corner, up to the next feature edges.
+void add_corner_normals(const Surface& surface, const EdgeFlags& features, MeshShape& shape) {
+    shape.corners.resize(shape.triangles.size());
+    for (std::int32_t t = 0; t < surface.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            Vec3 sum = angle_at(surface, t, k) * surface.normal(t);
+            if (!go_round(surface, features, t, k, k, sum))
+                go_round(surface, features, t, k, (k + 2) % 3, sum);
+            const double length = sum.norm();
+            shape.corners[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] =
+                (length > 0 ? Vec3(sum / length) : surface.normal(t)).cast<float>();
+        }
+}
+
+// Where normals flip or more than two triangles meet, a smooth surface ends.
+EdgeFlags feature_edges(const Surface& surface, double edge_angle) {
+    EdgeFlags features(static_cast<std::size_t>(surface.size()));
     for (std::int32_t t = 0; t < surface.size(); ++t)
         for (int e = 0; e < 3; ++e) {
             const Neighbour& beyond = surface.neighbour(t, e);
-            const std::int32_t right = beyond.triangle;
+            features[static_cast<std::size_t>(t)][static_cast<std::size_t>(e)] =
+                beyond.triangle < 0 || beyond.flips ||
+                (turn_of(surface, t, beyond) > edge_angle && !is_ripple(surface, t, e));
+        }
+    return features;
+}
+
+// Triangles: whether they stand for parts of a twisted surface.
+std::vector<char> rippled_triangles(const Surface& surface) {
+    std::vector<char> rippled(static_cast<std::size_t>(surface.size()), 0);
+    for (std::int32_t t = 0; t < surface.size(); ++t)
+        for (int e = 0; e < 3; ++e)
+            if (is_ripple(surface, t, e)) rippled[static_cast<std::size_t>(t)] = 1;
+    return rippled;
+}
+
+void add_edges(const Surface& surface, const EdgeFlags& features, MeshShape& shape) {
+    const std::vector<char> ripples = rippled_triangles(surface);
+    for (std::int32_t t = 0; t < surface.size(); ++t)
+        for (int e = 0; e < 3; ++e) {
+            const std::int32_t right = surface.neighbour(t, e).triangle;
             if (right >= 0 && right < t) continue;
             const TriangleMesh::Triangle& corners = shape.triangles[static_cast<std::size_t>(t)];
             const std::int32_t from = corners[static_cast<std::size_t>(e)],
                                to = corners[static_cast<std::size_t>((e + 1) % 3)];
-            const bool feature = right < 0 || turn_of(surface, t, beyond) > edge_angle;
             const std::uint8_t third =
                 right < 0 ? std::uint8_t{0}
                           : third_corner(shape.triangles[static_cast<std::size_t>(right)], from, to);
-            shape.edges.push_back(
-                {from, to, t, right, static_cast<std::uint8_t>((e + 2) % 3), third, feature});
+            const bool rippled = ripples[static_cast<std::size_t>(t)] ||
+                                 (right >= 0 && ripples[static_cast<std::size_t>(right)]);
+            shape.edges.push_back({from, to, t, right, static_cast<std::uint8_t>((e + 2) % 3), third,
+                                   flag_at(features, t, e), rippled});
         }
 }
 
@@ -110,8 +169,9 @@ std::shared_ptr<const MeshShape> mesh_shape(const Surface& surface, double edge_
     shape->triangles = surface.mesh().triangles;
     shape->normals.reserve(shape->triangles.size());
     for (std::int32_t t = 0; t < surface.size(); ++t) shape->normals.push_back(surface.normal(t));
-    add_corner_normals(surface, edge_angle, *shape);
-    add_edges(surface, edge_angle, *shape);
+    const EdgeFlags features = feature_edges(surface, edge_angle);
+    add_corner_normals(surface, features, *shape);
+    add_edges(surface, features, *shape);
     shape->sides = find_sides(surface, edge_angle, look);
     return shape;
 }

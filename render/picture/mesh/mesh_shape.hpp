@@ -22,6 +22,7 @@ struct MeshShape {
         std::int32_t left, right;                // triangles; right is -1 at an open edge
         std::uint8_t left_corner, right_corner;  // of each, the corner that is not on the edge
         bool feature;  // drawn wherever it is in sight, else only as part of an outline
+        bool rippled;  // of a triangle that stands for a twisted surface
     };
     // How a triangle looks from the side that its normal points to, and from the other one. Material that
     // fills a closed surface is on the unseen side.
