@@ -10,7 +10,7 @@ namespace {
 
 // How much of a rise of `over` seconds from `begin` on is there at `time`, and its integral over time (s).
 double share_at(double begin, double over, double time) {
-    if (time <= begin) return 0;  // at its beginning it still stands
+    if (time < begin) return 0;
     return over > 0 ? smooth_step::value(std::min(1.0, (time - begin) / over)) : 1;
 }
 double integral_at(double begin, double over, double time) {
