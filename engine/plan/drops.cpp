@@ -18,8 +18,10 @@ Vec3 up_of(const Scene& scene) {
     return gravity > 0 ? Vec3(-scene.gravity / gravity) : Vec3(0, 0, 1);
 }
 
+// Where grains are listed, the space that is looked at says how far they fall, with planes and with meshes.
 bool is_space_with_meshes(const Scene& scene) {
-    return scene.container.shape == Container::Shape::none && !scene.meshes.empty();
+    return scene.container.shape == Container::Shape::none && !scene.meshes.empty() &&
+           scene.start.grains.empty();
 }
 
 // The container's box; of a vessel the part of its box that is room.
@@ -38,13 +40,6 @@ double top_of_region(const Scene& scene) {
     const FreeSpace room(scene);
     const double share = room.volume() > 0 ? solid_volume(scene) / loose_fraction / room.volume() : 1;
     return room.height_of_share(std::min(1.0, share));
-}
-
-double highest_listed(const Scene& scene) {
-    double highest = -std::numeric_limits<double>::infinity();
-    for (const ListedGrain& grain : scene.start.grains)
-        highest = std::max(highest, up_of(scene).dot(grain.position));
-    return highest;
 }
 
 }  // namespace
@@ -88,7 +83,6 @@ double start_drop(const Scene& scene, double depth) {
     if (scene.start.region && scene.start.packs())
         return std::max(0.0, top_of_region(scene) - lowest_wall(scene));
     if (!is_space_with_meshes(scene)) return c.height - c.base() - depth;
-    if (!scene.start.grains.empty()) return std::max(0.0, highest_listed(scene) - lowest_wall(scene));
     return 0;  // all are fed
 }
 
