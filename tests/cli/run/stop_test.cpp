@@ -340,7 +340,10 @@ TEST_F(StoppedMovie, AComparisonThatIsRenamedKeepsItsPanels) {
     Program program({"compare", scene.string(), scene.string(), "--duration", "3600 s", "--out", "run",
                      "--size", "640x360", "--captions", "a|b"},
                     {here.path(), {}});
-    ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/fifty-2/trajectory.nc"); }));
+    // The folder of checkpoints is the last that a panel makes as it begins.
+    ASSERT_TRUE(wait_until(program, [&] {
+        return fs::exists(here / "run/fifty/checkpoints") && fs::exists(here / "run/fifty-2/checkpoints");
+    }));
     program.send(SIGSTOP);
     fs::rename(here / "run", here / "moved");
     fs::create_directory(here / "run");
