@@ -340,9 +340,9 @@ TEST_F(StoppedMovie, AComparisonThatIsRenamedKeepsItsPanels) {
     Program program({"compare", scene.string(), scene.string(), "--duration", "3600 s", "--out", "run",
                      "--size", "640x360", "--captions", "a|b"},
                     {here.path(), {}});
-    // The folder of checkpoints is the last that a panel makes as it begins.
+    // The film is the last file that is opened, when both panels have begun.
     ASSERT_TRUE(wait_until(program, [&] {
-        return fs::exists(here / "run/fifty/checkpoints") && fs::exists(here / "run/fifty-2/checkpoints");
+        return fs::exists(here / "run/movie.mp4") && fs::exists(here / "run/fifty-2/checkpoints");
     }));
     program.send(SIGSTOP);
     fs::rename(here / "run", here / "moved");
