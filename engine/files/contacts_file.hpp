@@ -4,9 +4,9 @@
 // its face), normal (N), tangential (N, on `second`), point (m) and checksum (XXH32 of the row's other
 // numbers as they stand in memory, in this order). Forces and points are floats.
 //
-// Of a scene with meshes there is also triangle, behind the point: the one of the mesh that is touched,
-// counted from 0 as in trajectory.nc, and -1 of all else. A grain that touches several parts of a mesh has a
-// row for each.
+// In a scene with meshes `triangle` follows the point. It is the number of the mesh's triangle that is
+// touched, counted from 0 as in trajectory.nc, or -1. A grain that touches several parts of a mesh has a row
+// for each.
 #pragma once
 
 #include <filesystem>

@@ -64,7 +64,8 @@ inline constexpr std::array grain_variables{
     TrajectoryVariable{"velocities", NC_FLOAT, "spatial", "m s-1", "velocity of the grain", "in the room"},
     TrajectoryVariable{"spin", NC_FLOAT, "spatial", "rad s-1", "angular velocity of the grain"}};
 
-// Of container and floor, in files of containers that turn; in `frame_checksum` behind the others.
+// Turns of container and floor. Only files of containers that turn have them; `frame_checksum` takes them
+// last.
 inline constexpr std::array turn_variables{
     TrajectoryVariable{"wall_rotation", NC_DOUBLE, "quaternion", "1", "how far the walls have turned",
                        "x, y, z, w of a unit quaternion; about the scene's origin, before `wall_offset`"},
@@ -74,7 +75,7 @@ inline constexpr std::array turn_variables{
                        "likewise, before `floor_offset`"},
     TrajectoryVariable{"floor_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of the floor"}};
 
-// Of every body beyond container and floor, in files that have some; in `frame_checksum` behind these.
+// Poses of all bodies but container and floor. `frame_checksum` takes them behind those above.
 inline constexpr std::array body_variables{
     TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "m",
                        "displacement of a plane of the scene from its place at rest"},

@@ -63,7 +63,7 @@ void check_pose(const Drive& drive, const BodyPose& is, const Pose& by_scene, co
         what, along(is.place), along(is.velocity), along(by_scene.offset), along(by_scene.velocity)));
 }
 
-// Of a body that has a motion of its own.
+// Checks the pose of a body that has a motion of its own.
 void check_own_pose(const BodyPose& is, const BodyPose& by_scene, const std::string& what) {
     const auto near = [](const Vec3& a, const Vec3& b) {
         return (a - b).norm() <= same_place * std::max({1.0, a.norm(), b.norm()});

@@ -64,8 +64,8 @@ struct MeshWear {
 std::string pressure_field(const std::string& name);
 std::string wear_field(const std::string& name);
 
-// Of each mesh of a scene, out of what all observers give on grids. Empty vectors where the instrument `wear`
-// is not among them.
+// Picks the wear of each mesh from what all observers give on grids. The vectors are empty where the
+// instrument `wear` is not among them.
 std::vector<MeshWear> wear_among(const Scene& scene, const std::vector<const FieldSet*>& sets,
                                  const std::vector<FieldValues>& values);
 
