@@ -5,6 +5,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
@@ -38,9 +39,13 @@ class Render final : public Verb {
                           exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
-        parser.add_option("RUN", request_.run, "Folder of a run, with its scene.toml and trajectory.nc")
+        parser
+            .add_option(
+                "RUN", request_.run,
+                "Folder of a run, with its scene.toml and trajectory.nc; or files of another program: a "
+                "file, a quoted pattern or a folder")
             ->required()
-            ->type_name("DIR");
+            ->type_name("PATH");
         add_sets(parser, request_.sets,
                  "Another value for a key of [film] or a species' colour, as in --set film.camera.azimuth=60 "
                  "or --set species.big.colour=orange; may be repeated");
@@ -56,6 +61,7 @@ class Render final : public Verb {
                 ->type_name("N");
         CLI::Option* at = add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file");
         add_no_replay(parser, request_.replay);
+        add_reading(parser, reading_);
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
@@ -68,6 +74,10 @@ class Render final : public Verb {
     int run(Reporter& reporter) override {
         film_.command = command;
         film_.program = program_info();
+        const RunToRead read = run_to_read(request_.run, reading_, reporter);
+        request_.run = read.folder;
+        if (read.imported) request_.beside = read.beside;
+        if (read.imported && !request_.at && !request_.every) request_.every = 1;
         if (request_.at) return draw_one(reporter);
         if (request_.every) check_no_segments(request_.sets);
         RevisitedRun source(request_.run, request_.sets, request_.replay);
@@ -79,13 +89,14 @@ class Render final : public Verb {
   private:
     int draw_one(Reporter& reporter) const {
         RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
-        const auto file = draw_still(film_, *request_.at, reporter, source);
+        const auto file = draw_still(film_, request_, reporter, source);
         if (!file) return signal_base + reporter.stop_signal();
         print_exact(file->string() + "\n");
         return 0;
     }
 
     RenderRequest request_;
+    ReadingOptions reading_;
     FilmRequest film_;
 };
 

@@ -23,9 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Beside the run: "wedge-1.250s.png", and a number when that is taken.
-fs::path free_name(const FilmedScene& scene, const fs::path& run, double time) {
+fs::path free_name(const FilmedScene& scene, const fs::path& beside, double time) {
     const std::string stem = fmt::format("{}-{}s", scene.name, seconds_in_names(time));
-    const fs::path beside = run.parent_path();
     fs::path path = beside / (stem + ".png");
     for (int number = 2; fs::exists(path); ++number) path = beside / fmt::format("{}-{}.png", stem, number);
     return path;
@@ -125,10 +124,10 @@ std::string seconds_in_names(double time) {
     return fmt::format("{:.{}f}", time, digits);
 }
 
-std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunListener& listener,
-                                   RevisitedRun& source) {
+std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what,
+                                   RunListener& listener, RevisitedRun& source) {
     if (request.to_stdout) throw UserError("--out -: with --at, name a file that ends in .png");
-    const Chosen chosen = choose(at, source);
+    const Chosen chosen = choose(what.at.value(), source);
     if (request.out) check_free(*request.out, request.force);
     for (const std::string& line : source.news()) listener.warning(line);
     if (chosen.instead) listener.warning(*chosen.instead);
@@ -145,9 +144,9 @@ std::optional<fs::path> draw_still(const FilmRequest& request, double at, RunLis
     source.start({{chosen.step, place.segment}}, source.segments());
     const std::optional<Taken> picture = source.next(go_on);
     if (!picture) return std::nullopt;
-    const fs::path path = request.out
-                              ? *request.out
-                              : free_name(scene, source.record().frames().folder(), picture->frame->time);
+    const fs::path run = source.record().frames().folder();
+    const fs::path beside = what.beside.empty() ? run.parent_path() : what.beside;
+    const fs::path path = request.out ? *request.out : free_name(scene, beside, picture->frame->time);
     write_png(path, renderer.draw(*picture->frame, "", place.time),
               texts_of(scene.name, scene.film.title, *picture->frame, ""), scene.film.transparent);
     if (const std::string note = renderer.colour_note(); !note.empty()) listener.info(note);

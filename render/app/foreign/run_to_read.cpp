@@ -1,0 +1,45 @@
+#include "render/app/foreign/run_to_read.hpp"
+
+#include <fmt/format.h>
+
+#include "build_info.hpp"
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/foreign/series/file_groups.hpp"
+#include "engine/run/import/import_run.hpp"
+#include "render/app/report/share_watcher.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The folder that a file, a pattern or a folder lies in.
+fs::path folder_around(const fs::path& path) {
+    std::error_code ignored;
+    if (!is_pattern(path) && fs::is_directory(path, ignored)) return fs::absolute(path).lexically_normal().parent_path();
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
+    if (!is_foreign(path)) {
+        if (const std::string option = given_reading(reading); !option.empty())
+            throw UserError(fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
+                                        option, path.string()));
+        return {path, path.parent_path(), false};
+    }
+    ImportRequest request;
+    request.from = path;
+    request.reading = reading;
+    request.program_version = build_info::version;
+    const ShareWatcher watcher(reporter, Progress::Stage::paging);
+    request.watcher = [&](double done) { return watcher("reading " + path.filename().string(), done); };
+    const ImportedRun run = cached_import(request);
+    for (const std::string& line : run.news) reporter.info(line);
+    return {run.folder, folder_around(path), true};
+}
+
+}  // namespace grainreel
