@@ -87,12 +87,13 @@ void ForeignArchive::choose_files() {
         if (options_.one || series.files.size() == 1) {
             grains_ = std::make_unique<RawSeries>(std::vector<fs::path>{path_});
             if (series.files.size() > 1)
-                news_.push_back(fmt::format("{}: is one of {} numbered files; '{}' is all of them", path_.string(),
-                                            series.files.size(), series.pattern));
+                news_.push_back(fmt::format("{}: is one of {} numbered files; '{}' is all of them",
+                                            path_.string(), series.files.size(), series.pattern));
         } else {
             grains_ = std::make_unique<RawSeries>(series.files);
-            news_.push_back(fmt::format("{}: is one of {} numbered files, and all are read; --one reads it alone",
-                                        path_.string(), series.files.size()));
+            news_.push_back(
+                fmt::format("{}: is one of {} numbered files, and all are read; --one reads it alone",
+                            path_.string(), series.files.size()));
         }
         add_companions(path_);
     }
@@ -100,7 +101,8 @@ void ForeignArchive::choose_files() {
         std::vector<fs::path> files;
         for (const std::string& name : options_.contacts)
             for (fs::path& file : files_named(name)) files.push_back(std::move(file));
-        contacts_ = std::make_unique<RawSeries>(grouped(files).size() == 1 ? grouped(files).front().files : files);
+        contacts_ =
+            std::make_unique<RawSeries>(grouped(files).size() == 1 ? grouped(files).front().files : files);
     }
     for (const std::string& name : options_.walls)
         for (FileGroup& group : grouped(files_named(name))) wall_files_.push_back(std::move(group.files));
@@ -129,21 +131,24 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
         if (holds == Holds::walls) walls.push_back(&group);
     }
     if (chosen == nullptr)
-        throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at", path_.string(),
-                                    files.size()));
+        throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at",
+                                    path_.string(), files.size()));
     grains_ = std::make_unique<RawSeries>(chosen->files);
     for (const FileGroup* other : others)
-        news_.push_back(fmt::format("{}: holds grains too and is passed over; name it alone to read it",
-                                    other->pattern));
+        news_.push_back(
+            fmt::format("{}: holds grains too and is passed over; name it alone to read it", other->pattern));
     if (options_.contacts.empty() && !contacts.empty())
         contacts_ = std::make_unique<RawSeries>(contacts.front()->files);
     if (!options_.walls.empty()) return;
-    // Surfaces that come again at each moment are where they are; a lone file beside them is what they were made of.
-    const bool moving = std::any_of(walls.begin(), walls.end(), [](const FileGroup* one) { return one->files.size() > 1; });
+    // Surfaces that come again at each moment are where they are; a lone file beside them is what they were
+    // made of.
+    const bool moving =
+        std::any_of(walls.begin(), walls.end(), [](const FileGroup* one) { return one->files.size() > 1; });
     for (const FileGroup* wall : walls) {
         if (moving && wall->files.size() == 1)
-            news_.push_back(fmt::format("{}: a single surface beside those of each moment is passed over; --walls takes it",
-                                        wall->pattern));
+            news_.push_back(fmt::format(
+                "{}: a single surface beside those of each moment is passed over; --walls takes it",
+                wall->pattern));
         else
             wall_files_.push_back(wall->files);
     }
@@ -161,11 +166,12 @@ void ForeignArchive::add_companions(const fs::path& file) {
         raw_format_of(other) != nullptr)
         contacts_ = std::make_unique<RawSeries>(std::vector<fs::path>{other});
     other.replace_extension(".restart");
-    if (other != file && options_.walls.empty() && what_holds(other) != Holds::nothing) wall_files_.push_back({other});
+    if (other != file && options_.walls.empty() && what_holds(other) != Holds::nothing)
+        wall_files_.push_back({other});
 }
 
-// Steps and times agree in every moment: where the files' own do not, steps are ticks of a millionth of the shortest
-// interval.
+// Steps and times agree in every moment: where the files' own do not, steps are ticks of a millionth of the
+// shortest interval.
 void ForeignArchive::list_moments() {
     const std::vector<RawMoment>& raw = grains_->moments();
     const UnitSystem units = [&] {
@@ -176,15 +182,16 @@ void ForeignArchive::list_moments() {
         return system;
     }();
     const auto all = [&](auto member) {
-        return std::all_of(raw.begin(), raw.end(), [&](const RawMoment& one) { return (one.*member).has_value(); });
+        return std::all_of(raw.begin(), raw.end(),
+                           [&](const RawMoment& one) { return (one.*member).has_value(); });
     };
     const bool timed = all(&RawMoment::time), stepped = all(&RawMoment::step);
     std::vector<double> times;
     for (std::size_t k = 0; k < raw.size(); ++k) {
         const double step = stepped ? static_cast<double>(*raw[k].step) : static_cast<double>(k);
-        times.push_back(timed                       ? *raw[k].time * units.time
-                        : options_.time_step        ? step * *options_.time_step
-                                                    : step);
+        times.push_back(timed                ? *raw[k].time * units.time
+                        : options_.time_step ? step * *options_.time_step
+                                             : step);
         raw_steps_.push_back(stepped ? *raw[k].step : static_cast<std::int64_t>(k));
     }
     world_.time_known = timed || options_.time_step.has_value();
@@ -193,11 +200,13 @@ void ForeignArchive::list_moments() {
     if (!world_.time_known) {
         std::vector<double> sorted = intervals;
         std::sort(sorted.begin(), sorted.end());
-        const double median = sorted.empty() || !(sorted[sorted.size() / 2] > 0) ? 1 : sorted[sorted.size() / 2];
+        const double median =
+            sorted.empty() || !(sorted[sorted.size() / 2] > 0) ? 1 : sorted[sorted.size() / 2];
         for (double& time : times) time /= median * kUntimedRate;
         for (double& interval : intervals) interval /= median * kUntimedRate;
-        news_.push_back(fmt::format("{}: says no times; its frames are taken as {} a second{}", path_.string(),
-                                    kUntimedRate, stepped ? "; --time-step 1e-6 (s) gives them" : ""));
+        news_.push_back(fmt::format("{}: says no times; its frames are taken as {} a second{}",
+                                    path_.string(), kUntimedRate,
+                                    stepped ? "; --time-step 1e-6 (s) gives them" : ""));
     }
     // One length of a step for all?
     double tick = 0;
@@ -205,7 +214,8 @@ void ForeignArchive::list_moments() {
     for (std::size_t k = 0; k < times.size(); ++k)
         if (raw_steps_[k] != 0) tick = times[k] / static_cast<double>(raw_steps_[k]);
     for (std::size_t k = 0; k < times.size(); ++k)
-        even = even && std::abs(times[k] - static_cast<double>(raw_steps_[k]) * tick) <= 1e-9 * std::abs(times[k]);
+        even = even &&
+               std::abs(times[k] - static_cast<double>(raw_steps_[k]) * tick) <= 1e-9 * std::abs(times[k]);
     if (!even || !(tick > 0)) {
         double shortest = std::numeric_limits<double>::infinity();
         for (const double interval : intervals)
@@ -256,7 +266,8 @@ void ForeignArchive::survey() {
     for (const std::string& line : meaning_->guesses()) news_.push_back(line);
     if (!meaning_->has_ids() && frames > 1)
         news_.push_back(fmt::format("{}: has no ids; its grains are counted by their rows", path_.string()));
-    for (std::size_t k = 0; k < frames && !has_contacts_; ++k) has_contacts_ = grains_->moments()[k].has_contacts;
+    for (std::size_t k = 0; k < frames && !has_contacts_; ++k)
+        has_contacts_ = grains_->moments()[k].has_contacts;
     if (!contacts_) return;
     const std::vector<RawMoment>& moments = contacts_->moments();
     for (std::size_t k = 0; k < moments.size(); ++k) {
@@ -264,8 +275,8 @@ void ForeignArchive::survey() {
         if (!step && moments[k].time) {
             // By time, where both have times alone.
             for (std::size_t f = 0; f < frames; ++f)
-                if (grains_->moments()[f].time &&
-                    std::abs(*grains_->moments()[f].time - *moments[k].time) <= 1e-6 * std::abs(*moments[k].time) + 1e-12)
+                if (grains_->moments()[f].time && std::abs(*grains_->moments()[f].time - *moments[k].time) <=
+                                                      1e-6 * std::abs(*moments[k].time) + 1e-12)
                     step = raw_steps_[f];
         }
         if (step) contacts_at_.emplace(*step, k);
@@ -309,7 +320,8 @@ void ForeignArchive::make_world() {
     std::set<std::string> names;
     for (MovingWall& wall : walls_) {
         std::string name = wall.name.empty() ? "wall" : wall.name;
-        for (int k = 2; names.count(name) > 0; ++k) name = fmt::format("{} {}", wall.name.empty() ? "wall" : wall.name, k);
+        for (int k = 2; names.count(name) > 0; ++k)
+            name = fmt::format("{} {}", wall.name.empty() ? "wall" : wall.name, k);
         names.insert(name);
         wall.name = name;
         world_.bodies.push_back({name, {}, wall.shape});
@@ -349,7 +361,8 @@ void ForeignArchive::read_walls() {
     if (in_frames) {
         for (std::size_t k = 0; k < moments_.size(); ++k)
             wall_moments_.push_back({raw_steps_[k], moments_[k].time, raw(k).walls});
-        while (!wall_moments_.empty() && wall_moments_.front().walls.empty()) wall_moments_.erase(wall_moments_.begin());
+        while (!wall_moments_.empty() && wall_moments_.front().walls.empty())
+            wall_moments_.erase(wall_moments_.begin());
         walls_ = follow_walls(wall_moments_, unit, path_.string(), news_);
     }
     if (!in_frames && wall_files_.size() == 1) {
@@ -418,7 +431,8 @@ std::optional<std::vector<Touch>> ForeignArchive::touches(std::size_t index) con
     if (!contacts_) return touches_of(raw(index), options_, meaning_->units(), grains_->place(index));
     const auto found = contacts_at_.find(raw_steps_.at(index));
     if (found == contacts_at_.end()) return std::vector<Touch>();
-    return touches_of(contacts_->read(found->second), options_, meaning_->units(), contacts_->place(found->second));
+    return touches_of(contacts_->read(found->second), options_, meaning_->units(),
+                      contacts_->place(found->second));
 }
 
 FrameSupply ForeignArchive::supply() const {
@@ -455,7 +469,8 @@ std::optional<std::size_t> row_of(const Frame& frame, std::int32_t id) {
 
 // Moments are close enough where nearly all grains move less than their diameter from one to the next.
 void ForeignArchive::decide_velocities() {
-    if (meaning_->has_velocities() || !world_.time_known || !meaning_->has_ids() || moments_.size() < 2) return;
+    if (meaning_->has_velocities() || !world_.time_known || !meaning_->has_ids() || moments_.size() < 2)
+        return;
     const std::size_t middle = (moments_.size() - 1) / 2;
     const Frame before = read(middle), after = read(middle + 1);
     std::size_t near = 0, both = 0;
@@ -466,16 +481,18 @@ void ForeignArchive::decide_velocities() {
         near += way(before.position[i], after.position[*row], world_.cell).norm() < 2 * before.radius[i];
     }
     derived_ = both > 0 && static_cast<double>(near) >= 0.95 * static_cast<double>(both);
-    news_.push_back(derived_ ? fmt::format("{}: says no velocities; they come from the places of neighbouring frames",
-                                           path_.string())
-                             : fmt::format("{}: says no velocities, and its frames are too far apart for them; all are 0",
-                                           path_.string()));
+    news_.push_back(
+        derived_ ? fmt::format("{}: says no velocities; they come from the places of neighbouring frames",
+                               path_.string())
+                 : fmt::format("{}: says no velocities, and its frames are too far apart for them; all are 0",
+                               path_.string()));
 }
 
 // By central differences; at the ends and where a grain has come or goes, by the one neighbour that it has.
 void ForeignArchive::derive_velocities(std::size_t index, Frame& frame) const {
     const bool has_before = index > 0, has_after = index + 1 < moments_.size();
-    const Frame before = has_before ? read(index - 1) : Frame(), after = has_after ? read(index + 1) : Frame();
+    const Frame before = has_before ? read(index - 1) : Frame(),
+                after = has_after ? read(index + 1) : Frame();
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const std::optional<std::size_t> was = row_of(before, frame.id[i]), will = row_of(after, frame.id[i]);
         Vec3 ways(0, 0, 0);

@@ -19,14 +19,14 @@ namespace grainreel {
 // Frames without times come so many to a second; whoever shows them says that it is no time of the run.
 inline constexpr double kUntimedRate = 25;  // 1/s
 
-// Whether some reader of other programs' files takes what has that name: a file, a pattern, or a folder with such
-// files that is no run of ours.
+// Whether some reader of other programs' files takes what has that name: a file, a pattern, or a folder with
+// such files that is no run of ours.
 bool is_foreign(const std::filesystem::path& path);
 
 class ForeignArchive final : public FrameArchive {
   public:
-    // path: a file, a pattern, or a folder. Throws UserError where nothing there can be read, and for what its reader
-    // finds wrong.
+    // path: a file, a pattern, or a folder. Throws UserError where nothing there can be read, and for what
+    // its reader finds wrong.
     ForeignArchive(const std::filesystem::path& path, const ReadingOptions& options);
 
     const std::filesystem::path& path() const override { return path_; }
@@ -63,21 +63,23 @@ class ForeignArchive final : public FrameArchive {
 
     std::filesystem::path path_;
     ReadingOptions options_;
-    std::unique_ptr<RawSeries> grains_, contacts_;  // contacts: null where the grains' files have them, or nobody
+    std::unique_ptr<RawSeries> grains_,
+        contacts_;  // contacts: null where the grains' files have them, or nobody
     std::vector<std::vector<std::filesystem::path>> wall_files_;
     std::vector<std::filesystem::path> all_files_;
     std::optional<GrainMeaning> meaning_;
     TypeList types_;
     World world_;
     std::vector<Frame> moments_;
-    std::vector<std::int64_t> raw_steps_;               // of the moments, as the files have them
-    std::map<std::int64_t, std::size_t> contacts_at_;   // step -> its place in contacts_
+    std::vector<std::int64_t> raw_steps_;              // of the moments, as the files have them
+    std::map<std::int64_t, std::size_t> contacts_at_;  // step -> its place in contacts_
     std::vector<MovingWall> walls_;
     std::vector<WallMoment> wall_moments_;
-    std::vector<std::vector<std::size_t>> wall_at_;     // of each moment and wall: which of its poses
+    std::vector<std::vector<std::size_t>> wall_at_;  // of each moment and wall: which of its poses
     bool has_contacts_ = false, derived_ = false;
     std::vector<std::string> news_;
-    mutable std::optional<std::pair<std::size_t, RawFrame>> last_;  // read last: grains and contacts of one moment
+    mutable std::optional<std::pair<std::size_t, RawFrame>>
+        last_;  // read last: grains and contacts of one moment
     const RawFrame& raw(std::size_t index) const;
 };
 

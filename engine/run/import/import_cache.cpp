@@ -37,7 +37,8 @@ fs::path cache_folder() {
         if (const fs::path home = folder("HOME"); !home.empty()) base = home / ".cache";
     std::error_code error;
     const fs::path imports = base / "grainreel" / "imports";
-    if (!base.empty() && (fs::create_directories(imports, error), !error) && ::access(imports.c_str(), W_OK) == 0)
+    if (!base.empty() && (fs::create_directories(imports, error), !error) &&
+        ::access(imports.c_str(), W_OK) == 0)
         return imports;
     return fs::temp_directory_path() / fmt::format("grainreel-imports-{}", ::getuid());
 }
@@ -70,9 +71,9 @@ std::vector<fs::path> files_behind(const fs::path& from, const ReadingOptions& o
 }
 
 std::string text_of(const ReadingOptions& o) {
-    std::string text = fmt::format("{} {} {} {} {} {} {} {}", o.one, o.units, o.radius.value_or(0), o.time_step.value_or(0),
-                                   o.density.value_or(0), o.walls_scale.value_or(0), o.container.string(),
-                                   o.moves_with_container);
+    std::string text = fmt::format("{} {} {} {} {} {} {} {}", o.one, o.units, o.radius.value_or(0),
+                                   o.time_step.value_or(0), o.density.value_or(0), o.walls_scale.value_or(0),
+                                   o.container.string(), o.moves_with_container);
     for (const auto& [name, value] : o.columns) text += fmt::format("|c {}={}", name, value);
     for (const auto& [name, value] : o.radius_of_type) text += fmt::format("|r {}={}", name, value);
     for (const auto& [name, value] : o.species) text += fmt::format("|s {}={}", name, value);
@@ -143,12 +144,14 @@ ImportedRun found(const fs::path& folder) {
 ImportedRun cached_import(ImportRequest request) {
     const fs::path imports = cache_folder();
     std::string name = request.from.filename().string();
-    if (name.empty() || name == "." || name == "..") name = fs::absolute(request.from).lexically_normal().parent_path().filename().string();
+    if (name.empty() || name == "." || name == "..")
+        name = fs::absolute(request.from).lexically_normal().parent_path().filename().string();
     for (char& c : name)
         if (std::string("*?[]").find(c) != std::string::npos) c = '_';
     const fs::path place = imports / key_of(request);
     std::error_code error;
-    if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kNews, error)) return found(place / name);
+    if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kNews, error))
+        return found(place / name);
     // Each process makes its own, and the first that is done gives it the name.
     const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
     fs::remove_all(part, error);
@@ -158,7 +161,8 @@ ImportedRun cached_import(ImportRequest request) {
         std::ofstream news(request.folder / kNews);
         for (const std::string& line : made.news) news << line << "\n";
         news.close();
-        if (!news) throw RunError(fmt::format("{}: cannot be written; is the disk full?", (part / kNews).string()));
+        if (!news)
+            throw RunError(fmt::format("{}: cannot be written; is the disk full?", (part / kNews).string()));
         fs::remove_all(place, error);
         fs::rename(part, place, error);
         if (error && !fs::exists(place / name / "scene.toml"))

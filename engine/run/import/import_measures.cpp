@@ -23,13 +23,14 @@ namespace grainreel {
 
 namespace {
 
-// Those that work on a state that was put together by hand. Energies are left out: stiffness and mass of another
-// program's contacts are not known.
+// Those that work on a state that was put together by hand. Energies are left out: stiffness and mass of
+// another program's contacts are not known.
 std::vector<ObserverEntry> entries(const FrameSupply& supply) {
-    std::vector<ObserverEntry> all{entry_of<observers::Times>(),         entry_of<observers::CentreOfMass>(),
-                                   entry_of<observers::SpeciesPlaces>(), entry_of<observers::HeightDifference>(),
-                                   entry_of<observers::BigAboveSmall>(), entry_of<observers::BigInQuarters>(),
-                                   entry_of<observers::Mixing>()};
+    std::vector<ObserverEntry> all{
+        entry_of<observers::Times>(),         entry_of<observers::CentreOfMass>(),
+        entry_of<observers::SpeciesPlaces>(), entry_of<observers::HeightDifference>(),
+        entry_of<observers::BigAboveSmall>(), entry_of<observers::BigInQuarters>(),
+        entry_of<observers::Mixing>()};
     if (supply.contacts) {
         all.push_back(entry_of<observers::ContactNumber>());
         all.push_back(entry_of<observers::ContactFabric>());
@@ -43,7 +44,8 @@ Grains grains_of(const Frame& frame, const Scene& scene) {
     grains.reserve(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const auto species = static_cast<std::size_t>(frame.species[i]);
-        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i], scene.species[species].density);
+        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
+                   scene.species[species].density);
         grains.motion[i].velocity = frame.velocity[i];
         grains.motion[i].spin = frame.spin[i];
     }
@@ -56,7 +58,8 @@ std::int32_t row_of(const Frame& frame, std::int32_t id) {
     return static_cast<std::int32_t>(found - frame.id.begin());
 }
 
-void show(const Frame& frame, const std::vector<Touch>& touches, const std::function<void(const ContactView&)>& see) {
+void show(const Frame& frame, const std::vector<Touch>& touches,
+          const std::function<void(const ContactView&)>& see) {
     for (const Touch& touch : touches) {
         ContactView view{};
         view.first = row_of(frame, touch.first);
@@ -114,8 +117,16 @@ Measures ImportMeasures::row(const Frame& frame, const std::vector<Touch>& touch
     const Impl& m = *impl_;
     const Grains grains = grains_of(frame, m.scene);
     const double depth = m.scene.container.periodic_depth ? m.scene.container.depth : 0;
-    const Moment moment{m.scene, m.clock, grains, frame.step, m.scene.gravity, depth,
-                        WallMotion(m.scene.drive, m.clock).at(frame.step), 0, m.traffic, m.faces};
+    const Moment moment{m.scene,
+                        m.clock,
+                        grains,
+                        frame.step,
+                        m.scene.gravity,
+                        depth,
+                        WallMotion(m.scene.drive, m.clock).at(frame.step),
+                        0,
+                        m.traffic,
+                        m.faces};
     return impl_->observers.look(moment, [&](const auto& see) { show(frame, touches, see); });
 }
 

@@ -1,5 +1,5 @@
-// What the observers of a run say of frames that another program wrote: all those that need places, velocities or
-// contacts alone.
+// What the observers of a run say of frames that another program wrote: all those that need places,
+// velocities or contacts alone.
 #pragma once
 
 #include <memory>

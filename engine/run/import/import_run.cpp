@@ -89,7 +89,10 @@ ImportSurvey survey_of(const ForeignArchive& archive, const std::function<void(s
 class AsRun {
   public:
     AsRun(const Scene& scene, const std::vector<Frame>& moments, bool with_container)
-        : scene_(scene), clock_(clock_of(scene, moments)), with_container_(with_container), bodies_(bodies_of(scene)) {}
+        : scene_(scene),
+          clock_(clock_of(scene, moments)),
+          with_container_(with_container),
+          bodies_(bodies_of(scene)) {}
 
     const Clock& clock() const { return clock_; }
     void complete(Frame& frame) const {
@@ -129,7 +132,8 @@ std::vector<ContactRecord> records_of(const std::vector<Touch>& touches, const F
         ContactRecord one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
         if (touch.second >= 0) {
             const std::optional<std::size_t> second = row(touch.second);
-            // What does not touch in the frame (a contact across a periodic side, another moment) is left out.
+            // What does not touch in the frame (a contact across a periodic side, another moment) is left
+            // out.
             if (!second) continue;
             const Vec3 between = frame.position[*second] - frame.position[*first];
             const double reach = frame.radius[*first] + frame.radius[*second];
@@ -149,10 +153,10 @@ ImportedRun import_run(const ImportRequest& request) {
     run.news = archive.news();
     const double frames = static_cast<double>(archive.moments().size());
     const auto tell = [&](double done) {
-        if (request.watcher && !request.watcher(done / (2 * frames))) throw RunError("stopped while frames were read");
+        if (request.watcher && !request.watcher(done / (2 * frames)))
+            throw RunError("stopped while frames were read");
     };
-    if (archive.moments().empty())
-        throw UserError(fmt::format("{}: holds no frame", request.from.string()));
+    if (archive.moments().empty()) throw UserError(fmt::format("{}: holds no frame", request.from.string()));
     NewFolder folder(request.folder);
     const ImportSurvey survey = survey_of(archive, [&](std::size_t k) { tell(static_cast<double>(k)); });
     write_import_scene(folder.path(), archive, survey, request.reading, run.news);
@@ -169,7 +173,8 @@ ImportedRun import_run(const ImportRequest& request) {
     TrajectoryWriter trajectory(folder.path() / "trajectory.nc", trajectory_info(world, supply));
     std::optional<ContactsWriter> contacts;
     if (supply.contacts)
-        contacts.emplace(folder.path() / "contacts.nc", world.title, request.program_version, file_facts(scene));
+        contacts.emplace(folder.path() / "contacts.nc", world.title, request.program_version,
+                         file_facts(scene));
     ImportMeasures measures(scene, as_run.clock(), supply);
     MeasuresWriter table(folder.path() / "measures.csv", measures.names());
     std::int64_t last_step = std::numeric_limits<std::int64_t>::min();

@@ -45,7 +45,8 @@ void write_text(const fs::path& file, const std::string& text) {
     if (!out) throw RunError(fmt::format("{}: cannot be written; is the disk full?", file.string()));
 }
 
-std::string species_text(const ForeignArchive& archive, const ImportSurvey& survey, std::vector<std::string>& news) {
+std::string species_text(const ForeignArchive& archive, const ImportSurvey& survey,
+                         std::vector<std::string>& news) {
     std::string text;
     bool guessed = false;
     for (std::size_t s = 0; s < archive.world().species.size(); ++s) {
@@ -62,8 +63,9 @@ std::string species_text(const ForeignArchive& archive, const ImportSurvey& surv
         text += fmt::format("density = {}\n", number(known ? species.density : kDensity));
     }
     if (guessed)
-        news.push_back(fmt::format("{}: says no density; {} kg/m3 is taken where masses matter, --density says another",
-                                   archive.path().string(), kDensity));
+        news.push_back(
+            fmt::format("{}: says no density; {} kg/m3 is taken where masses matter, --density says another",
+                        archive.path().string(), kDensity));
     return text;
 }
 
@@ -82,8 +84,9 @@ std::string path_text(const ForeignArchive& archive, std::size_t wall) {
     std::string text = "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
     for (const Frame& moment : archive.moments()) {
         const BodyPose pose = moment.body(kFirstPlaneBody + wall);
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", moment.time, pose.place.x(), pose.place.y(), pose.place.z(),
-                            pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", moment.time, pose.place.x(), pose.place.y(),
+                            pose.place.z(), pose.rotation.w(), pose.rotation.x(), pose.rotation.y(),
+                            pose.rotation.z());
     }
     return text;
 }
@@ -114,7 +117,8 @@ std::string walls_and_drive(const std::string& text) {
 std::string film_text(const ForeignArchive& archive) {
     const std::vector<Frame>& moments = archive.moments();
     const double span = moments.back().time - moments.front().time;
-    const double interval = moments.size() > 1 ? span / static_cast<double>(moments.size() - 1) : 1 / kUntimedRate;
+    const double interval =
+        moments.size() > 1 ? span / static_cast<double>(moments.size() - 1) : 1 / kUntimedRate;
     std::string text = fmt::format("\n[film]\nrate = {}\n", kUntimedRate);
     if (!archive.world().time_known)
         text += "show = [\"title\", \"legend\", \"scale\", \"arrows\", \"counts\", \"captions\"]\n";
@@ -127,8 +131,9 @@ std::string film_text(const ForeignArchive& archive) {
 void write_import_scene(const fs::path& folder, const ForeignArchive& archive, const ImportSurvey& survey,
                         const ReadingOptions& options, std::vector<std::string>& news) {
     const std::vector<Frame>& moments = archive.moments();
-    std::string top = fmt::format("# Made of {} ({}): what its files say, and nothing that could be run.\ntitle = {}\n",
-                                  archive.path().string(), archive.format(), quoted(archive.world().title));
+    std::string top =
+        fmt::format("# Made of {} ({}): what its files say, and nothing that could be run.\ntitle = {}\n",
+                    archive.path().string(), archive.format(), quoted(archive.world().title));
     std::string walls;
     if (!options.container.empty()) {
         const Scene scene = read_scene(options.container, {}, measurable_in);
@@ -149,19 +154,21 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
             walls += fmt::format("path = {}\n", quoted(path));
         }
     }
-    const double step = moments.back().step != 0 ? moments.back().time / static_cast<double>(moments.back().step)
-                        : moments.front().step != 0
-                            ? moments.front().time / static_cast<double>(moments.front().step)
-                            : 1e-6;
+    const double step =
+        moments.back().step != 0    ? moments.back().time / static_cast<double>(moments.back().step)
+        : moments.front().step != 0 ? moments.front().time / static_cast<double>(moments.front().step)
+                                    : 1e-6;
     const Vec3 margin = 1e-9 * (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
-    const std::string start = fmt::format("\n[start]\nregion = {{ low = {}, high = {} }}\n\n[run]\nduration = {}\nstep = {}\n",
-                                          triple(survey.low - margin), triple(survey.high + margin),
-                                          number(std::max(moments.back().time, step)), number(step));
-    const std::string begin = options.container.empty() ? start
-                                                        : fmt::format("\n[run]\nduration = {}\nstep = {}\n",
-                                                                      number(std::max(moments.back().time, step)),
-                                                                      number(step));
-    write_text(folder / "scene.toml", top + species_text(archive, survey, news) + walls + begin + film_text(archive));
+    const std::string start =
+        fmt::format("\n[start]\nregion = {{ low = {}, high = {} }}\n\n[run]\nduration = {}\nstep = {}\n",
+                    triple(survey.low - margin), triple(survey.high + margin),
+                    number(std::max(moments.back().time, step)), number(step));
+    const std::string begin = options.container.empty()
+                                  ? start
+                                  : fmt::format("\n[run]\nduration = {}\nstep = {}\n",
+                                                number(std::max(moments.back().time, step)), number(step));
+    write_text(folder / "scene.toml",
+               top + species_text(archive, survey, news) + walls + begin + film_text(archive));
 }
 
 }  // namespace grainreel

@@ -19,9 +19,10 @@ struct ImportSurvey {
     std::int64_t ids = 0;                   // different ids
 };
 
-// Writes scene.toml into the folder, and meshes and paths of walls beside it. Throws RunError where that cannot be
-// written. news: what was taken for granted.
-void write_import_scene(const std::filesystem::path& folder, const ForeignArchive& archive, const ImportSurvey& survey,
-                        const ReadingOptions& options, std::vector<std::string>& news);
+// Writes scene.toml into the folder, and meshes and paths of walls beside it. Throws RunError where that
+// cannot be written. news: what was taken for granted.
+void write_import_scene(const std::filesystem::path& folder, const ForeignArchive& archive,
+                        const ImportSurvey& survey, const ReadingOptions& options,
+                        std::vector<std::string>& news);
 
 }  // namespace grainreel

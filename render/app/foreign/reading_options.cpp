@@ -30,22 +30,24 @@ std::vector<Pair> pairs_of(const std::string& option, const std::string& text, c
         const std::string name = trimmed(one.substr(0, equals));
         const std::string value = equals == std::string::npos ? "" : trimmed(one.substr(equals + 1));
         if (name.empty() || value.empty())
-            throw UserError(fmt::format("{} {}: '{}' is no pair NAME=VALUE; write it as in {} {}", option, text, one, option,
-                                        example));
+            throw UserError(fmt::format("{} {}: '{}' is no pair NAME=VALUE; write it as in {} {}", option,
+                                        text, one, option, example));
         pairs.emplace_back(name, value);
         from = to + 1;
     }
     return pairs;
 }
 
-double positive(const std::string& option, const std::string& text, Dimension dimension, const char* example) {
+double positive(const std::string& option, const std::string& text, Dimension dimension,
+                const char* example) {
     double value = 0;
     try {
         value = parse_quantity(text, dimension, example);
     } catch (const std::exception& problem) {
         throw UserError(fmt::format("{} {}: {}", option, text, problem.what()));
     }
-    if (!(value > 0)) throw UserError(fmt::format("{} {}: must be larger than 0, as in {}", option, text, example));
+    if (!(value > 0))
+        throw UserError(fmt::format("{} {}: must be larger than 0, as in {}", option, text, example));
     return value;
 }
 
@@ -53,8 +55,8 @@ void set_columns(ReadingOptions& reading, const std::string& text) {
     const std::vector<std::string> known = all_meanings();
     for (const auto& [meaning, column] : pairs_of("--columns", text, "radius=c_rad,type=mol")) {
         if (std::find(known.begin(), known.end(), meaning) == known.end())
-            throw UserError(fmt::format("--columns {}={}: there is no such meaning; there are {}", meaning, column,
-                                        fmt::join(known, ", ")));
+            throw UserError(fmt::format("--columns {}={}: there is no such meaning; there are {}", meaning,
+                                        column, fmt::join(known, ", ")));
         reading.columns[meaning] = column;
     }
 }
@@ -96,16 +98,20 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
             ->type_name(type)
             ->group(group);
     };
-    add("--columns", "MEANING=COLUMN,...", "Which column says what, as in radius=c_rad,type=mol [known names]", set_columns);
-    add("--radius", "LENGTH", "Radius of the grains where the file has none: 2mm, or 1=2mm,2=5mm by type", set_radius);
+    add("--columns", "MEANING=COLUMN,...",
+        "Which column says what, as in radius=c_rad,type=mol [known names]", set_columns);
+    add("--radius", "LENGTH", "Radius of the grains where the file has none: 2mm, or 1=2mm,2=5mm by type",
+        set_radius);
     add("--time-step", "TIME", "Length of a step where the file has steps alone, as in 1us or 1e-6",
         [](ReadingOptions& to, const std::string& text) {
             to.time_step = positive("--time-step", text, Dimension::time, "1e-6");
         });
-    add("--units", "NAME", "Units of the file: si, lj, cgs, micro, nano, real, metal [as it says, else si]", set_units);
+    add("--units", "NAME", "Units of the file: si, lj, cgs, micro, nano, real, metal [as it says, else si]",
+        set_units);
     add("--species", "TYPE=NAME,...", "Names of the types, as in 1=small,2=big",
         [](ReadingOptions& to, const std::string& text) {
-            for (const auto& [type, name] : pairs_of("--species", text, "1=small,2=big")) to.species[type] = name;
+            for (const auto& [type, name] : pairs_of("--species", text, "1=small,2=big"))
+                to.species[type] = name;
         });
     add("--density", "DENSITY", "Density of the grains where the file has none [2500 kg/m3]",
         [](ReadingOptions& to, const std::string& text) {
@@ -122,7 +128,8 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
     add("--container", "SCENE", "Scene of ours whose container, walls and drive stand around the grains",
         [](ReadingOptions& to, const std::string& text) { to.container = text; });
     add("--moves-with", "WHOM", "Places of the file are against: lab, or container [lab]", set_moves_with);
-    verb.add_flag("--one", reading.one, "This file alone, although it is one of a numbered series")->group(group);
+    verb.add_flag("--one", reading.one, "This file alone, although it is one of a numbered series")
+        ->group(group);
 }
 
 std::string given_reading(const ReadingOptions& r) {

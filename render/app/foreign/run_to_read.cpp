@@ -18,7 +18,8 @@ namespace {
 // The folder that a file, a pattern or a folder lies in.
 fs::path folder_around(const fs::path& path) {
     std::error_code ignored;
-    if (!is_pattern(path) && fs::is_directory(path, ignored)) return fs::absolute(path).lexically_normal().parent_path();
+    if (!is_pattern(path) && fs::is_directory(path, ignored))
+        return fs::absolute(path).lexically_normal().parent_path();
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
@@ -27,8 +28,9 @@ fs::path folder_around(const fs::path& path) {
 RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
     if (!is_foreign(path)) {
         if (const std::string option = given_reading(reading); !option.empty())
-            throw UserError(fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
-                                        option, path.string()));
+            throw UserError(
+                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
+                            option, path.string()));
         return {path, path.parent_path(), false};
     }
     ImportRequest request;

@@ -12,15 +12,16 @@
 
 namespace grainreel {
 
-// --columns, --radius, --time-step, --units, --species, --density, --contacts, --walls, --walls-scale, --container,
+// --columns, --radius, --time-step, --units, --species, --density, --contacts, --walls, --walls-scale,
+// --container,
 // --moves-with and --one.
 void add_reading(CLI::App& verb, ReadingOptions& reading);
 // The name of an option of these that was given; empty for none.
 std::string given_reading(const ReadingOptions& reading);
 
 struct RunToRead {
-    std::filesystem::path folder;   // of a run, with scene.toml
-    std::filesystem::path beside;   // where what is made of it goes: the folder of the files, or of the run
+    std::filesystem::path folder;  // of a run, with scene.toml
+    std::filesystem::path beside;  // where what is made of it goes: the folder of the files, or of the run
     bool imported = false;
 };
 

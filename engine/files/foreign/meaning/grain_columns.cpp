@@ -32,9 +32,11 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
     if (!name.empty()) {
         const std::optional<UnitSystem> known = unit_system(name);
         if (!known && !options.units.empty())
-            throw UserError(fmt::format("--units {}: no such units; there are {}", name, fmt::join(unit_names(), ", ")));
+            throw UserError(
+                fmt::format("--units {}: no such units; there are {}", name, fmt::join(unit_names(), ", ")));
         if (!known)
-            throw UserError(fmt::format("{}: has units '{}', which are not known; name others by --units", file, name));
+            throw UserError(
+                fmt::format("{}: has units '{}', which are not known; name others by --units", file, name));
         system = *known;
     }
     if (options.units.empty() && facts.length_unit) system.length = *facts.length_unit;
@@ -69,7 +71,8 @@ std::string type_word(const RawColumn& column, double value) {
     return fmt::format("{:g}", value);
 }
 
-GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const ReadingOptions& options, std::string file)
+GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const ReadingOptions& options,
+                           std::string file)
     : file_(std::move(file)), options_(options), facts_(facts), units_(units_for(facts, options, file_)) {
     const RawTable& table = frame.grains;
     const auto find = [&](const std::string& meaning) { return column_for(meaning, table, options_, file_); };
@@ -83,11 +86,13 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
     velocity_ = {find("vx"), find("vy"), find("vz")};
     spin_ = {find("wx"), find("wy"), find("wz")};
     quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
-    if (!units_.real) guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
+    if (!units_.real)
+        guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
 }
 
 void GrainMeaning::find_places(const RawTable& table) {
-    const bool user_says = options_.columns.count("x") + options_.columns.count("y") + options_.columns.count("z") > 0;
+    const bool user_says =
+        options_.columns.count("x") + options_.columns.count("y") + options_.columns.count("z") > 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::string letter(1, kAxes[axis]);
         place_[axis] = column_for(letter, table, options_, file_);
@@ -100,8 +105,9 @@ void GrainMeaning::find_places(const RawTable& table) {
     }
     flat_ = place_[0] && place_[1] && !place_[2];
     if (!place_[0] || !place_[1])
-        throw UserError(fmt::format("{}: has no columns of places; name them by --columns x=...,y=...,z=...; it has {}",
-                                    file_, names_in(table)));
+        throw UserError(
+            fmt::format("{}: has no columns of places; name them by --columns x=...,y=...,z=...; it has {}",
+                        file_, names_in(table)));
     if (const auto unit = unit_in_name(table.columns[*place_[0]].name); unit && options_.units.empty())
         place_unit_ = *unit;
     else
@@ -114,10 +120,11 @@ void GrainMeaning::check_flat(const RawFrame& frame) const {
     const bool thin = frame.box && frame.box->periodic[2] &&
                       frame.box->edges[2].norm() <= 1.0001 * std::max(1.0, 0.1 * frame.box->edges[0].norm());
     if (!thin)
-        throw UserError(fmt::format(
-            "{}: has no column z, and its box is not that of discs in a plane; name the column by --columns z=...; "
-            "it has {}",
-            file_, names_in(frame.grains)));
+        throw UserError(
+            fmt::format("{}: has no column z, and its box is not that of discs in a plane; name the column "
+                        "by --columns z=...; "
+                        "it has {}",
+                        file_, names_in(frame.grains)));
 }
 
 void GrainMeaning::find_radius(const RawTable& table) {
@@ -130,10 +137,11 @@ void GrainMeaning::find_radius(const RawTable& table) {
         is_diameter_ = radius_.has_value();
     }
     if (!radius_)
-        throw UserError(fmt::format(
-            "{}: says no radius of its grains; give one by --radius 2mm (or 1=2mm,2=5mm by type), or name the column by "
-            "--columns radius=NAME; it has {}",
-            file_, names_in(table)));
+        throw UserError(
+            fmt::format("{}: says no radius of its grains; give one by --radius 2mm (or 1=2mm,2=5mm by "
+                        "type), or name the column by "
+                        "--columns radius=NAME; it has {}",
+                        file_, names_in(table)));
     const auto unit = unit_in_name(table.columns[*radius_].name);
     radius_unit_ = unit && options_.units.empty() ? *unit : place_unit_;
 }
@@ -156,7 +164,8 @@ Vec3 GrainMeaning::place_of(const RawFrame& raw, std::size_t row) const {
             const Vec3 along = share[a] * raw.box->edges[axis];
             place[a] += raw.box->origin[a];
             for (std::size_t other = 0; other < 3; ++other)
-                if (scaled_[other]) place[static_cast<Eigen::Index>(other)] += along[static_cast<Eigen::Index>(other)];
+                if (scaled_[other])
+                    place[static_cast<Eigen::Index>(other)] += along[static_cast<Eigen::Index>(other)];
         }
     }
     return place * place_unit_;
@@ -167,7 +176,8 @@ double GrainMeaning::radius_of(const RawFrame& raw, std::size_t row, const std::
         const double number = value(raw.grains, radius_, row) * radius_unit_ * (is_diameter_ ? 0.5 : 1);
         if (number > 0 && std::isfinite(number)) return number;
         throw UserError(fmt::format(
-            "{}: a grain in row {} has {} {}; give the radius by --radius 2mm, or name another column by --columns "
+            "{}: a grain in row {} has {} {}; give the radius by --radius 2mm, or name another column by "
+            "--columns "
             "radius=NAME",
             place, row + 1, is_diameter_ ? "a diameter of" : "a radius of", value(raw.grains, radius_, row)));
     }
@@ -176,8 +186,8 @@ double GrainMeaning::radius_of(const RawFrame& raw, std::size_t row, const std::
         const auto found = options_.radius_of_type.find(word);
         if (found != options_.radius_of_type.end()) return found->second;
         if (!options_.radius)
-            throw UserError(fmt::format("{}: a grain is of type {}, for which --radius says nothing; add {}=2mm", place,
-                                        word, word));
+            throw UserError(fmt::format(
+                "{}: a grain is of type {}, for which --radius says nothing; add {}=2mm", place, word, word));
     }
     return *options_.radius;
 }
@@ -201,9 +211,10 @@ void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
         last = number;
         types.add(type_of(raw, row));
         if (types.words().size() > most)
-            throw UserError(fmt::format("{}: column {} has more than {} values, so it holds no types; name the column by "
-                                        "--columns type=NAME",
-                                        file_, raw.grains.columns[*type_].name, most));
+            throw UserError(
+                fmt::format("{}: column {} has more than {} values, so it holds no types; name the column by "
+                            "--columns type=NAME",
+                            file_, raw.grains.columns[*type_].name, most));
     }
 }
 
@@ -233,8 +244,8 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
     for (std::size_t row = 0; row < table.rows; ++row) {
         const double number = id_ ? value(table, id_, row) : static_cast<double>(row) + facts_.first_row_id;
         if (!(number >= 0 && number <= kMostId && number == std::floor(number)))
-            throw UserError(fmt::format("{}: row {} has the id {}, which is no whole number from 0 to {:.0f}", place,
-                                        row + 1, number, kMostId));
+            throw UserError(fmt::format("{}: row {} has the id {}, which is no whole number from 0 to {:.0f}",
+                                        place, row + 1, number, kMostId));
         ids[row] = static_cast<std::int32_t>(number);
     }
     const std::vector<std::size_t> order = by_rising(ids);
@@ -242,13 +253,15 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
     for (std::size_t i = 0; i < order.size(); ++i) {
         const std::size_t row = order[i];
         if (i > 0 && ids[order[i - 1]] == ids[row])
-            throw UserError(fmt::format("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]));
+            throw UserError(
+                fmt::format("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]));
         const std::string word = type_of(raw, row);
         const std::optional<std::size_t> species = types.place(word);
         if (!species)
-            throw UserError(fmt::format(
-                "{}: grain {} is of type {}, which no frame that was looked at first had; name all types by --species",
-                place, ids[row], word));
+            throw UserError(
+                fmt::format("{}: grain {} is of type {}, which no frame that was looked at first had; name "
+                            "all types by --species",
+                            place, ids[row], word));
         const Vec3 where = place_of(raw, row);
         if (!where.allFinite())
             throw UserError(fmt::format("{}: grain {} has no finite place", place, ids[row]));
@@ -295,10 +308,11 @@ std::vector<double> GrainMeaning::densities(const RawFrame& raw, const TypeList&
     return sums;
 }
 
-std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingOptions& options, const UnitSystem& units,
-                                             const std::string& file) {
+std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingOptions& options,
+                                             const UnitSystem& units, const std::string& file) {
     const RawTable& table = raw.contacts;
-    const auto first = column_for("id1", table, options, file), second = column_for("id2", table, options, file);
+    const auto first = column_for("id1", table, options, file),
+               second = column_for("id2", table, options, file);
     if (!first || !second) return std::nullopt;
     const auto normal = column_for("force", table, options, file);
     const auto fx = column_for("fx", table, options, file), fy = column_for("fy", table, options, file),

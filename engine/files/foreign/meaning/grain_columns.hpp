@@ -1,5 +1,5 @@
-// Which columns of a file say what of its grains, and how they become SI. Found once for a file's names, and used for
-// all its frames.
+// Which columns of a file say what of its grains, and how they become SI. Found once for a file's names, and
+// used for all its frames.
 #pragma once
 
 #include <array>
@@ -34,22 +34,26 @@ std::string type_word(const RawColumn& column, double value);
 
 class GrainMeaning {
   public:
-    // file: for messages. Throws UserError where the file has no places, where no radius is known, and for what the
-    // options say wrongly. `frame`: the first of the file that has rows; its columns are those of all.
-    GrainMeaning(const RawFacts& facts, const RawFrame& frame, const ReadingOptions& options, std::string file);
+    // file: for messages. Throws UserError where the file has no places, where no radius is known, and for
+    // what the options say wrongly. `frame`: the first of the file that has rows; its columns are those of
+    // all.
+    GrainMeaning(const RawFacts& facts, const RawFrame& frame, const ReadingOptions& options,
+                 std::string file);
 
     bool has_ids() const { return id_.has_value(); }
     bool has_types() const { return type_.has_value(); }
     bool has_velocities() const { return velocity_[0] && velocity_[1]; }
-    bool has_orientations() const { return quaternion_[0] && quaternion_[1] && quaternion_[2] && quaternion_[3]; }
+    bool has_orientations() const {
+        return quaternion_[0] && quaternion_[1] && quaternion_[2] && quaternion_[3];
+    }
     const UnitSystem& units() const { return units_; }
     // What was guessed, a line each.
     const std::vector<std::string>& guesses() const { return guesses_; }
 
     // Words of the types in a frame.
     void add_types(const RawFrame& raw, TypeList& types) const;
-    // Grains by rising id, in SI. place: "run.dump: frame 3", for messages. Throws UserError for a radius that is not
-    // positive, an id that comes twice or is no whole number, and a type that is not in the list.
+    // Grains by rising id, in SI. place: "run.dump: frame 3", for messages. Throws UserError for a radius
+    // that is not positive, an id that comes twice or is no whole number, and a type that is not in the list.
     Frame frame(const RawFrame& raw, const TypeList& types, const std::string& place) const;
     // Mean density of each type in kg/m3, from columns of density or mass; NaN where that is not known.
     std::vector<double> densities(const RawFrame& raw, const TypeList& types) const;
@@ -78,7 +82,7 @@ class GrainMeaning {
     double radius_unit_ = 1, place_unit_ = 1;  // m
     std::array<Column, 3> place_{}, velocity_{}, spin_{};
     std::array<bool, 3> scaled_{};
-    bool flat_ = false;  // there is no z
+    bool flat_ = false;                   // there is no z
     std::array<Column, 4> quaternion_{};  // w x y z
     std::vector<std::string> guesses_;
 };

@@ -1,5 +1,5 @@
-// What the columns of other programs are called. One name may mean one thing in one program and another in the
-// next; the list is asked in its order, and case does not count.
+// What the columns of other programs are called. One name may mean one thing in one program and another in
+// the next; the list is asked in its order, and case does not count.
 #pragma once
 
 #include <optional>

@@ -19,12 +19,13 @@ struct UnitSystem {
     double force() const { return mass * length / (time * time); }
 };
 
-// "si", "lj", "cgs", "micro", "nano", "real", "metal" (LAMMPS manual, command `units`). None for another name.
+// "si", "lj", "cgs", "micro", "nano", "real", "metal" (LAMMPS manual, command `units`). None for another
+// name.
 std::optional<UnitSystem> unit_system(const std::string& name);
 std::vector<std::string> unit_names();
 
-// A unit in a column's name, as in "x [mm]" or "radius (um)": m, s or m/s in one of it; none where the name has none
-// that is known.
+// A unit in a column's name, as in "x [mm]" or "radius (um)": m, s or m/s in one of it; none where the name
+// has none that is known.
 std::optional<double> unit_in_name(const std::string& column);
 
 }  // namespace grainreel

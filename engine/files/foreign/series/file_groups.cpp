@@ -20,7 +20,8 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// Where the number stands in a name; empty when there is none. Digits within a suffix like ".mp4" do not count.
+// Where the number stands in a name; empty when there is none. Digits within a suffix like ".mp4" do not
+// count.
 struct NumberAt {
     std::size_t from = 0, size = 0;
 };
@@ -98,8 +99,9 @@ std::vector<fs::path> files_of_pattern(const fs::path& pattern) {
             if (is_plain(found.gl_pathv[i])) files.emplace_back(found.gl_pathv[i]);
     globfree(&found);
     if (files.empty())
-        throw UserError(fmt::format("{}: no file has such a name; quote the pattern so that the shell leaves it alone",
-                                    pattern.string()));
+        throw UserError(
+            fmt::format("{}: no file has such a name; quote the pattern so that the shell leaves it alone",
+                        pattern.string()));
     return files;
 }
 
@@ -107,7 +109,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-        if (entry.path().filename().string().front() != '.' && is_plain(entry.path())) files.push_back(entry.path());
+        if (entry.path().filename().string().front() != '.' && is_plain(entry.path()))
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }

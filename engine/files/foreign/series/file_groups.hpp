@@ -18,8 +18,8 @@ struct FileGroup {
 // The last number in a file's name, before its suffix where that is one of letters: 5000 for "dump.5000.vtk".
 std::optional<std::int64_t> number_in_name(const std::filesystem::path& file);
 
-// The series that a file is part of: all files of its folder whose names differ from its own in that number. The file
-// alone where its name has no number.
+// The series that a file is part of: all files of its folder whose names differ from its own in that number.
+// The file alone where its name has no number.
 FileGroup series_of(const std::filesystem::path& file);
 
 // All groups of these files, each in the order of its numbers; groups in the order of their patterns.
@@ -27,8 +27,8 @@ std::vector<FileGroup> grouped(const std::vector<std::filesystem::path>& files);
 
 // Whether a text is a pattern (* ? [) and no file has that name.
 bool is_pattern(const std::filesystem::path& path);
-// The ordinary files that a pattern names: * ? [...] in the last parts of the path. Throws UserError where there are
-// none.
+// The ordinary files that a pattern names: * ? [...] in the last parts of the path. Throws UserError where
+// there are none.
 std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path& pattern);
 // The ordinary files of a folder, without hidden ones.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);

@@ -25,8 +25,8 @@ void append_rows(RawTable& to, RawTable&& more, const std::string& file) {
     for (RawColumn& column : to.columns) {
         const RawColumn* other = more.find(column.name);
         if (other == nullptr || other->words != column.words)
-            throw UserError(fmt::format("{}: has other columns than the files beside it ({} is missing)", file,
-                                        column.name));
+            throw UserError(fmt::format("{}: has other columns than the files beside it ({} is missing)",
+                                        file, column.name));
         column.values.insert(column.values.end(), other->values.begin(), other->values.end());
     }
     to.rows += more.rows;
@@ -41,7 +41,8 @@ bool share_ids(const RawTable& a, const RawTable& b) {
     const std::set<double> known = ids_of(a);
     const RawColumn* ids = b.find("id");
     if (ids == nullptr || known.empty()) return true;  // rows without ids cannot be told apart
-    return std::any_of(ids->values.begin(), ids->values.end(), [&](double id) { return known.count(id) > 0; });
+    return std::any_of(ids->values.begin(), ids->values.end(),
+                       [&](double id) { return known.count(id) > 0; });
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ bool share_ids(const RawTable& a, const RawTable& b) {
 RawSeries::RawSeries(std::vector<fs::path> files) : files_(std::move(files)) {
     GRAINREEL_CHECK(!files_.empty());
     format_ = raw_format_of(files_.front());
-    if (format_ == nullptr) throw UserError(fmt::format("{}: is in no format that is read", files_.front().string()));
+    if (format_ == nullptr)
+        throw UserError(fmt::format("{}: is in no format that is read", files_.front().string()));
     list_moments();
 }
 
@@ -58,9 +60,9 @@ RawFile& RawSeries::opened(std::size_t file) const {
     const fs::path& path = files_[file];
     const RawFormat* format = raw_format_of(path);
     if (format == nullptr || std::string(format->name) != format_->name)
-        throw UserError(fmt::format("{}: is {}, but {} is {}; files of one run have one format", path.string(),
-                                    format ? format->about : "in no format that is read", files_.front().string(),
-                                    format_->about));
+        throw UserError(fmt::format("{}: is {}, but {} is {}; files of one run have one format",
+                                    path.string(), format ? format->about : "in no format that is read",
+                                    files_.front().string(), format_->about));
     open_.reset();
     open_ = format->open(path);
     open_file_ = file;
@@ -83,7 +85,8 @@ void RawSeries::list_moments() {
         }
     }
     const auto has = [&](auto member) {
-        return std::all_of(all.begin(), all.end(), [&](const auto& one) { return (one.first.*member).has_value(); });
+        return std::all_of(all.begin(), all.end(),
+                           [&](const auto& one) { return (one.first.*member).has_value(); });
     };
     if (has(&RawMoment::step))
         std::stable_sort(all.begin(), all.end(),

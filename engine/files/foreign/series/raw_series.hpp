@@ -1,5 +1,5 @@
-// The frames of one or many files as one list by rising step or time. Files that several processes wrote of one step
-// are one frame; of a step that a file or its successor has twice the later one counts.
+// The frames of one or many files as one list by rising step or time. Files that several processes wrote of
+// one step are one frame; of a step that a file or its successor has twice the later one counts.
 #pragma once
 
 #include <cstddef>

@@ -13,8 +13,8 @@ namespace grainreel {
 
 namespace {
 
-// Which part each triangle belongs to. Vertices join where they lie on one place to six digits, as text files have
-// them.
+// Which part each triangle belongs to. Vertices join where they lie on one place to six digits, as text files
+// have them.
 std::vector<std::size_t> parts_of(const TriangleMesh& mesh) {
     Vec3 low = Vec3::Constant(1e300), high = -low;
     for (const Vec3& vertex : mesh.vertices) low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);
@@ -35,16 +35,19 @@ std::vector<std::size_t> parts_of(const TriangleMesh& mesh) {
     }
     for (const TriangleMesh::Triangle& triangle : mesh.triangles)
         for (const std::size_t corner : {1U, 2U})
-            parent[root(static_cast<std::size_t>(triangle[corner]))] = root(static_cast<std::size_t>(triangle[0]));
+            parent[root(static_cast<std::size_t>(triangle[corner]))] =
+                root(static_cast<std::size_t>(triangle[0]));
     std::map<std::size_t, std::size_t> number;
     std::vector<std::size_t> parts;
     for (const TriangleMesh::Triangle& triangle : mesh.triangles)
-        parts.push_back(number.emplace(root(static_cast<std::size_t>(triangle[0])), number.size()).first->second);
+        parts.push_back(
+            number.emplace(root(static_cast<std::size_t>(triangle[0])), number.size()).first->second);
     return parts;
 }
 
 // Corners of some triangles, three each.
-std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::size_t>& triangles, double unit) {
+std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::size_t>& triangles,
+                             double unit) {
     std::vector<Vec3> corners;
     for (const std::size_t t : triangles)
         for (const std::int32_t vertex : mesh.triangles[t])
@@ -72,8 +75,8 @@ RawTable rows_of(const RawTable& table, const std::vector<std::size_t>& rows) {
 }
 
 // One part of one surface through all moments.
-MovingWall follow(const std::vector<WallMoment>& moments, std::size_t wall, const std::vector<std::size_t>& triangles,
-                  double unit, bool& changes) {
+MovingWall follow(const std::vector<WallMoment>& moments, std::size_t wall,
+                  const std::vector<std::size_t>& triangles, double unit, bool& changes) {
     const RawWall& first = moments.front().walls[wall];
     const std::vector<Vec3> rest = corners_of(first.mesh, triangles, unit);
     MovingWall moving;
@@ -89,7 +92,8 @@ MovingWall follow(const std::vector<WallMoment>& moments, std::size_t wall, cons
         if (there) {
             const std::vector<Vec3> now = corners_of(moment.walls[wall].mesh, triangles, unit);
             double farthest = 0;
-            for (std::size_t i = 0; i < now.size(); ++i) farthest = std::max(farthest, (now[i] - rest[i]).norm());
+            for (std::size_t i = 0; i < now.size(); ++i)
+                farthest = std::max(farthest, (now[i] - rest[i]).norm());
             if (farthest <= still) {
                 pose = BodyPose();
             } else {
@@ -131,8 +135,8 @@ RigidMotion rigid_motion(const std::vector<Vec3>& from, const std::vector<Vec3>&
     return motion;
 }
 
-std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, double unit, const std::string& name,
-                                     std::vector<std::string>& news) {
+std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, double unit,
+                                     const std::string& name, std::vector<std::string>& news) {
     std::vector<MovingWall> all;
     if (moments.empty()) return all;
     bool changes = false;
@@ -153,7 +157,8 @@ std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, dou
         for (const std::vector<std::size_t>& triangles : parts)
             moving.push_back(follow(moments, wall, triangles, unit, changes));
         // What stands still together is one wall again.
-        const bool any = std::any_of(moving.begin(), moving.end(), [](const MovingWall& one) { return one.moves; });
+        const bool any =
+            std::any_of(moving.begin(), moving.end(), [](const MovingWall& one) { return one.moves; });
         constexpr std::size_t most_parts = 100;
         if (!any || parts.size() > most_parts) {
             std::vector<std::size_t> whole(first.mesh.triangles.size());

@@ -1,5 +1,5 @@
-// Walls of other programs: surfaces that come once, or again at each moment where they are then. A surface that moves
-// is one rigid body, whose shape is kept once and whose pose each moment has.
+// Walls of other programs: surfaces that come once, or again at each moment where they are then. A surface
+// that moves is one rigid body, whose shape is kept once and whose pose each moment has.
 #pragma once
 
 #include <optional>
@@ -26,14 +26,14 @@ struct MovingWall {
     std::vector<RawTable> cells;  // of each moment, a row a triangle; empty where there are none
 };
 
-// Connected parts of each surface, which may move on their own (LIGGGHTS writes all its meshes into one solid), each
-// followed through all moments. unit: m. Where a surface changes its shape or its number of triangles, it stays as it
-// was at first, with a line of news. name: of the files, for news.
-std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, double unit, const std::string& name,
-                                     std::vector<std::string>& news);
+// Connected parts of each surface, which may move on their own (LIGGGHTS writes all its meshes into one
+// solid), each followed through all moments. unit: m. Where a surface changes its shape or its number of
+// triangles, it stays as it was at first, with a line of news. name: of the files, for news.
+std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, double unit,
+                                     const std::string& name, std::vector<std::string>& news);
 
-// The rotation and shift that bring points to where they are now, by least squares (Kabsch 1976, Acta Cryst. A 32, 922);
-// residual: m, the largest distance that is left.
+// The rotation and shift that bring points to where they are now, by least squares (Kabsch 1976, Acta Cryst.
+// A 32, 922); residual: m, the largest distance that is left.
 struct RigidMotion {
     BodyPose pose;
     double residual = 0;

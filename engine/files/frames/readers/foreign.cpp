@@ -18,8 +18,8 @@ std::unique_ptr<FrameArchive> open(const std::filesystem::path& path, const Fram
 
 FrameReader foreign_reader() {
     return {"foreign",
-            "files of other programs: LAMMPS, LIGGGHTS, MercuryDPM, YADE, Lethe, VTK, XYZ, GSD, AMBER, CSV", takes,
-            open};
+            "files of other programs: LAMMPS, LIGGGHTS, MercuryDPM, YADE, Lethe, VTK, XYZ, GSD, AMBER, CSV",
+            takes, open};
 }
 
 }  // namespace grainreel
