@@ -28,8 +28,8 @@ std::vector<std::size_t> chosen(const FrameArchive& frames, const ExportChoice& 
         if (count++ % choice.every == 0) all.push_back(k);
     }
     if (all.empty())
-        throw UserError(fmt::format("{}: no frame lies there; they go from {:.6g} to {:.6g} s", frames.path().string(),
-                                    moments.front().time, moments.back().time));
+        throw UserError(fmt::format("{}: no frame lies there; they go from {:.6g} to {:.6g} s",
+                                    frames.path().string(), moments.front().time, moments.back().time));
     return all;
 }
 
@@ -46,8 +46,8 @@ std::uintmax_t bytes_of(const fs::path& path) {
 class PartName {
   public:
     explicit PartName(const fs::path& path)
-        : path_(path.parent_path() / fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(),
-                                                 path.extension().string())) {}
+        : path_(path.parent_path() /
+                fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string())) {}
     ~PartName() {
         std::error_code ignored;
         fs::remove_all(path_, ignored);
@@ -67,7 +67,8 @@ Exported export_frames(const FrameArchive& frames, const std::string& format, co
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error))
-        throw UserError(fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
+        throw UserError(
+            fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
     if (fs::exists(path, error) && !replace)
         throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
                                     path.string()));
@@ -77,7 +78,8 @@ Exported export_frames(const FrameArchive& frames, const std::string& format, co
     writer->begin(frames.world(), frames.supply());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         Frame frame = frames.grains(wanted[k]);
-        if (std::optional<std::vector<Touch>> touches = frames.touches(wanted[k])) frame.touches = std::move(*touches);
+        if (std::optional<std::vector<Touch>> touches = frames.touches(wanted[k]))
+            frame.touches = std::move(*touches);
         writer->frame(frame);
         if (!watcher(static_cast<double>(k + 1) / static_cast<double>(wanted.size())))
             throw RunError("stopped while frames were written; nothing is left of them");

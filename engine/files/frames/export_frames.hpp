@@ -22,10 +22,11 @@ struct Exported {
     std::uintmax_t bytes = 0;
 };
 
-// format: a name of frame_formats(). The result gets its name only when it is whole. Throws UserError where no frame is
-// chosen, where `path` is there already (unless `replace`) or cannot be made, RunError where the disk is full. watcher:
-// called with the share that is done; false stops, and nothing is left.
-Exported export_frames(const FrameArchive& frames, const std::string& format, const std::filesystem::path& path,
-                       const ExportChoice& choice, bool replace, const std::function<bool(double)>& watcher);
+// format: a name of frame_formats(). The result gets its name only when it is whole. Throws UserError where
+// no frame is chosen, where `path` is there already (unless `replace`) or cannot be made, RunError where the
+// disk is full. watcher: called with the share that is done; false stops, and nothing is left.
+Exported export_frames(const FrameArchive& frames, const std::string& format,
+                       const std::filesystem::path& path, const ExportChoice& choice, bool replace,
+                       const std::function<bool(double)>& watcher);
 
 }  // namespace grainreel

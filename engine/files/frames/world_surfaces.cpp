@@ -96,7 +96,8 @@ std::vector<HalfSpace> sides_for(const World& world, const Face& face, const std
     const double margin = 1e-9 * (world.high - world.low).norm();
     std::vector<HalfSpace> sides;
     for (const Face* other : all) {
-        if (other == &face || other->kind != Face::Kind::plane || other->ends || other->body.number >= kFirstPlaneBody)
+        if (other == &face || other->kind != Face::Kind::plane || other->ends ||
+            other->body.number >= kFirstPlaneBody)
             continue;
         sides.push_back({other->normal, other->normal.dot(other->point) - margin});
     }
@@ -113,7 +114,8 @@ std::vector<HalfSpace> inside_cylinder(const Face& cylinder) {
     for (int k = 0; k < kFacets; ++k) {
         const double angle = 2 * std::numbers::pi * (k + 0.5) / kFacets;
         const Vec3 in(-std::cos(angle), -std::sin(angle), 0);
-        sides.push_back({in, in.dot(cylinder.point) - cylinder.radius * std::cos(std::numbers::pi / kFacets)});
+        sides.push_back(
+            {in, in.dot(cylinder.point) - cylinder.radius * std::cos(std::numbers::pi / kFacets)});
     }
     return sides;
 }

@@ -1,5 +1,5 @@
-// The walls of a world as triangles, for formats that know nothing else: planes are cut where they meet each other and
-// at the world's corners, cylinders have facets.
+// The walls of a world as triangles, for formats that know nothing else: planes are cut where they meet each
+// other and at the world's corners, cylinders have facets.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@
 namespace grainreel {
 
 struct WorldSurface {
-    std::string name;        // of the face or the mesh
-    std::size_t body = 0;    // whose pose moves it
-    TriangleMesh shape;      // m, at rest
+    std::string name;      // of the face or the mesh
+    std::size_t body = 0;  // whose pose moves it
+    TriangleMesh shape;    // m, at rest
 };
 
 // All surfaces, at rest, those without triangles left out.

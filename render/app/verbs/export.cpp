@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 std::string about_formats() {
     std::string text = "Formats:\n";
-    for (const FrameFormat& format : frame_formats()) text += fmt::format("  {:<14}{}\n", format.name, format.about);
+    for (const FrameFormat& format : frame_formats())
+        text += fmt::format("  {:<14}{}\n", format.name, format.about);
     return text;
 }
 
@@ -33,12 +34,15 @@ class Export final : public Verb {
   public:
     Export()
         : Verb("export", "Write a run's frames for another program",
-               "RUN is a run of ours, or files of another program, so this is a converter too. The file or folder that "
+               "RUN is a run of ours, or files of another program, so this is a converter too. The file or "
+               "folder that "
                "was made goes to stdout.\n\n" +
                    about_formats() + exit_statuses) {}
 
     void add_options(CLI::App& parser) override {
-        parser.add_option("RUN", run_, "Folder of a run, or files of another program: a file, a quoted pattern, a folder")
+        parser
+            .add_option("RUN", run_,
+                        "Folder of a run, or files of another program: a file, a quoted pattern, a folder")
             ->required()
             ->type_name("PATH");
         std::vector<std::string> names;
@@ -47,7 +51,9 @@ class Export final : public Verb {
             ->required()
             ->type_name("FORMAT")
             ->check(CLI::IsMember(names));
-        parser.add_option("--out", out_, "File or folder that is made [beside RUN, its name with the format's ending]")
+        parser
+            .add_option("--out", out_,
+                        "File or folder that is made [beside RUN, its name with the format's ending]")
             ->type_name("PATH")
             ->check(not_empty());
         parser.add_flag("--force", force_, "Replace what has that name");
@@ -64,15 +70,17 @@ class Export final : public Verb {
 
     int run(Reporter& reporter) override {
         if (const std::string option = given_reading(reading_); !option.empty() && !is_foreign(run_))
-            throw UserError(fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
-                                        option, run_.string()));
+            throw UserError(
+                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
+                            option, run_.string()));
         FrameRequest request;
         request.reading = reading_;
         const std::unique_ptr<FrameArchive> frames = open_frames(run_, request);
         for (const std::string& line : frames->news()) reporter.info(line);
         const ShareWatcher watcher(reporter, Progress::Stage::paging);
-        const Exported made = export_frames(*frames, format_, out_.empty() ? usual_name() : out_, choice_, force_,
-                                            [&](double done) { return watcher("writing frames", done); });
+        const Exported made =
+            export_frames(*frames, format_, out_.empty() ? usual_name() : out_, choice_, force_,
+                          [&](double done) { return watcher("writing frames", done); });
         reporter.info(fmt::format("wrote {}: {} frames, {}", made.path.string(), made.frames,
                                   data_size_text(static_cast<double>(made.bytes))));
         print_exact(made.path.string() + "\n");
@@ -91,7 +99,8 @@ class Export final : public Verb {
         if (!base.has_filename()) base = base.parent_path();
         std::string stem = base.stem().string();
         std::erase_if(stem, [](char c) { return c == '*' || c == '?' || c == '[' || c == ']'; });
-        const fs::path beside = run_.has_parent_path() && run_.has_filename() ? run_.parent_path() : base.parent_path();
+        const fs::path beside =
+            run_.has_parent_path() && run_.has_filename() ? run_.parent_path() : base.parent_path();
         fs::path name = beside / (stem + ending);
         std::error_code ignored;
         for (int number = 2; fs::exists(name, ignored) && !force_; ++number)

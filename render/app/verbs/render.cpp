@@ -1,11 +1,14 @@
 // The verb `render`: a finished run is drawn again, as a film or as one picture. What it did not keep is
 // brought back from its checkpoints; the run itself stays as it is.
+#include <tuple>
+
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
 #include "render/app/foreign/run_to_read.hpp"
+#include "render/app/options/camera_file.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
@@ -60,6 +63,14 @@ class Render final : public Verb {
                 ->check(CLI::Range(1, 1000000000))
                 ->type_name("N");
         CLI::Option* at = add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file");
+        for (const auto& [flag, into, about, type] :
+             {std::tuple("--dpi", &request_.dpi,
+                         "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]",
+                         "N"),
+              {"--width-mm", &request_.width_mm,
+               "With --at: width on paper; the picture gets the pixels that this needs", "MM"}})
+            parser.add_option(flag, *into, about)->needs(at)->check(CLI::Range(1.0, 1e5))->type_name(type);
+        add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
         add_film(
@@ -73,6 +84,7 @@ class Render final : public Verb {
 
     int run(Reporter& reporter) override {
         film_.command = command;
+        use_camera_file(camera_, request_.sets);
         film_.program = program_info();
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
@@ -82,6 +94,7 @@ class Render final : public Verb {
         if (request_.every) check_no_segments(request_.sets);
         RevisitedRun source(request_.run, request_.sets, request_.replay);
         source.leave_out_damaged();
+        keep_camera_file(camera_, source.scene().film.camera);
         RedrawRun redraw(film_, request_, reporter, source);
         return tell_folder(redraw.run(), film_);
     }
@@ -89,6 +102,7 @@ class Render final : public Verb {
   private:
     int draw_one(Reporter& reporter) const {
         RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
+        keep_camera_file(camera_, source.scene().film.camera);
         const auto file = draw_still(film_, request_, reporter, source);
         if (!file) return signal_base + reporter.stop_signal();
         print_exact(file->string() + "\n");
@@ -97,6 +111,7 @@ class Render final : public Verb {
 
     RenderRequest request_;
     ReadingOptions reading_;
+    CameraFiles camera_;
     FilmRequest film_;
 };
 

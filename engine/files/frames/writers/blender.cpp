@@ -1,4 +1,5 @@
-// A folder for Blender (3.4 or newer): bed.bin with every frame, and bed.py, which builds the moving bed from it:
+// A folder for Blender (3.4 or newer): bed.bin with every frame, and bed.py, which builds the moving bed from
+// it:
 //     blender --python bed.py            (or blender -b --python bed.py -- --render 10 picture.png)
 #include <cstdint>
 #include <cstring>
@@ -37,7 +38,9 @@ class Blender final : public FrameWriter {
         for (const WorldSpecies& species : world.species) head_["species"].push_back(species.name);
         head_["walls"] = nlohmann::json::array();
         for (const WorldSurface& surface : surfaces_) {
-            nlohmann::json one = {{"name", surface.name}, {"vertices", nlohmann::json::array()}, {"triangles", surface.shape.triangles}};
+            nlohmann::json one = {{"name", surface.name},
+                                  {"vertices", nlohmann::json::array()},
+                                  {"triangles", surface.shape.triangles}};
             for (const Vec3& v : surface.shape.vertices) one["vertices"].push_back({v.x(), v.y(), v.z()});
             head_["walls"].push_back(one);
         }
@@ -48,27 +51,34 @@ class Blender final : public FrameWriter {
         nlohmann::json poses = nlohmann::json::array();
         for (const WorldSurface& surface : surfaces_) {
             const BodyPose pose = frame.body(surface.body);
-            poses.push_back({pose.place.x(), pose.place.y(), pose.place.z(), pose.rotation.w(), pose.rotation.x(),
-                             pose.rotation.y(), pose.rotation.z()});
+            poses.push_back({pose.place.x(), pose.place.y(), pose.place.z(), pose.rotation.w(),
+                             pose.rotation.x(), pose.rotation.y(), pose.rotation.z()});
         }
-        head_["frames"].push_back({{"time", frame.time}, {"grains", frame.size()}, {"offset", place_}, {"walls", poses}});
+        head_["frames"].push_back(
+            {{"time", frame.time}, {"grains", frame.size()}, {"offset", place_}, {"walls", poses}});
         std::string bytes;
-        const auto add = [&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); };
+        const auto add = [&](const void* data, std::size_t size) {
+            bytes.append(static_cast<const char*>(data), size);
+        };
         add(frame.species.data(), frame.size() * sizeof(std::int32_t));
         add(frame.id.data(), frame.size() * sizeof(std::int32_t));
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3& x = frame.position[i];
-            const float row[4] = {static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z()),
-                                  static_cast<float>(frame.radius[i])};
+            const float row[4] = {static_cast<float>(x.x()), static_cast<float>(x.y()),
+                                  static_cast<float>(x.z()), static_cast<float>(frame.radius[i])};
             add(row, sizeof(row));
         }
         out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         place_ += bytes.size();
-        if (!out_) throw RunError(fmt::format("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string()));
+        if (!out_)
+            throw RunError(
+                fmt::format("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string()));
     }
     void end() override {
         out_.close();
-        if (!out_) throw RunError(fmt::format("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string()));
+        if (!out_)
+            throw RunError(
+                fmt::format("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string()));
         TextFile(folder_ / "bed.json").write(head_.dump());
         TextFile(folder_ / "bed.py").write(blender_script());
     }
@@ -88,7 +98,8 @@ std::unique_ptr<FrameWriter> make(const fs::path& path) {
 }  // namespace
 
 FrameFormat blender_format() {
-    return {"blender", "folder for Blender: all frames, and a script that builds the moving bed", "-blender", make};
+    return {"blender", "folder for Blender: all frames, and a script that builds the moving bed", "-blender",
+            make};
 }
 
 }  // namespace grainreel

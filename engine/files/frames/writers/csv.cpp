@@ -26,9 +26,10 @@ class Csv final : public FrameWriter {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
             const auto s = static_cast<std::size_t>(frame.species[i]);
             text += fmt::format("{},{},{},{},{},{},{},{},{}", frame.time, frame.step, frame.id[i], s + 1,
-                                s < world_.species.size() ? one_word(world_.species[s].name) : "", x.x(), x.y(), x.z(),
-                                frame.radius[i]);
-            if (supply_.velocities) text += fmt::format(",{},{},{},{},{},{}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+                                s < world_.species.size() ? one_word(world_.species[s].name) : "", x.x(),
+                                x.y(), x.z(), frame.radius[i]);
+            if (supply_.velocities)
+                text += fmt::format(",{},{},{},{},{},{}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
             if (supply_.contact_numbers)
                 text += fmt::format(",{}", i < frame.contact_number.size() ? frame.contact_number[i] : 0);
             text += '\n';

@@ -1,5 +1,6 @@
-// GSD, file layer 2.0, schema hoomd 1.4 (Anderson et al.; gsd.readthedocs.io, "File layer" and "HOOMD Schema"). Numbers
-// are floats, the box is centred at 0, and grains are known by their rows; their ids stand in log/particles/id.
+// GSD, file layer 2.0, schema hoomd 1.4 (Anderson et al.; gsd.readthedocs.io, "File layer" and "HOOMD
+// Schema"). Numbers are floats, the box is centred at 0, and grains are known by their rows; their ids stand
+// in log/particles/id.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -37,7 +38,8 @@ void append(std::string& to, const T& value) {
 
 class Gsd final : public FrameWriter {
   public:
-    explicit Gsd(const std::filesystem::path& path) : path_(path), out_(path, std::ios::binary | std::ios::trunc) {
+    explicit Gsd(const std::filesystem::path& path)
+        : path_(path), out_(path, std::ios::binary | std::ios::trunc) {
         put(std::string(256, '\0'));
     }
 
@@ -66,7 +68,8 @@ class Gsd final : public FrameWriter {
         lengths[4] = lz != 0 ? static_cast<float>(box.edges[2].x() / lz) : 0;
         lengths[5] = lz != 0 ? static_cast<float>(box.edges[2].y() / lz) : 0;
 
-        chunk<std::uint64_t>("configuration/step", kUint64, 1, {static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.step))});
+        chunk<std::uint64_t>("configuration/step", kUint64, 1,
+                             {static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.step))});
         chunk<float>("configuration/box", kFloat, 1, std::vector<float>(lengths, lengths + 6));
         chunk<std::uint32_t>("particles/N", kUint32, 1, {static_cast<std::uint32_t>(n)});
         write_types();
@@ -113,7 +116,8 @@ class Gsd final : public FrameWriter {
         names.resize(parts * 64, '\0');
         put(names);
         std::string head;
-        for (const std::uint64_t one : {std::uint64_t{0x65DF65DF65DF65DF}, index, room, list, parts}) append(head, one);
+        for (const std::uint64_t one : {std::uint64_t{0x65DF65DF65DF65DF}, index, room, list, parts})
+            append(head, one);
         append(head, std::uint32_t{1 << 16 | 4});
         append(head, std::uint32_t{2 << 16});
         for (const char* text : {"grainreel", "hoomd"}) {
@@ -130,7 +134,9 @@ class Gsd final : public FrameWriter {
 
   private:
     double density_of(std::uint32_t species) const {
-        return species < world_.species.size() && world_.species[species].density > 0 ? world_.species[species].density : 1;
+        return species < world_.species.size() && world_.species[species].density > 0
+                   ? world_.species[species].density
+                   : 1;
     }
     void check() const {
         if (!out_) throw RunError(fmt::format("{}: cannot be written; is the disk full?", path_.string()));

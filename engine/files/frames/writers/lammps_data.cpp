@@ -25,12 +25,16 @@ class LammpsData final : public FrameWriter {
         TextPieces out(path_);
         std::string& text = out.text();
         const WorldCell box = box_of(world_, frame);
-        text += fmt::format("LAMMPS data file by grainreel: {} at {} s; units si, atom_style sphere\n\n{} atoms\n{} atom types\n\n",
-                            one_word(world_.title), frame.time, frame.size(), std::max<std::size_t>(1, world_.species.size()));
+        text += fmt::format(
+            "LAMMPS data file by grainreel: {} at {} s; units si, atom_style sphere\n\n{} atoms\n{} atom "
+            "types\n\n",
+            one_word(world_.title), frame.time, frame.size(),
+            std::max<std::size_t>(1, world_.species.size()));
         const char* names[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
         for (int axis = 0; axis < 3; ++axis)
-            text += fmt::format("{} {} {}\n", box.origin[axis],
-                                box.origin[axis] + box.edges[static_cast<std::size_t>(axis)][axis], names[axis]);
+            text +=
+                fmt::format("{} {} {}\n", box.origin[axis],
+                            box.origin[axis] + box.edges[static_cast<std::size_t>(axis)][axis], names[axis]);
         const double xy = box.edges[1].x(), xz = box.edges[2].x(), yz = box.edges[2].y();
         if (xy != 0 || xz != 0 || yz != 0) text += fmt::format("{} {} {} xy xz yz\n", xy, xz, yz);
         // Ids of LAMMPS begin at 1.
@@ -38,14 +42,15 @@ class LammpsData final : public FrameWriter {
         text += "\nAtoms # sphere\n\n";
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3& x = frame.position[i];
-            text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, frame.species[i] + 1, 2 * frame.radius[i],
-                                density(frame.species[i]), x.x(), x.y(), x.z());
+            text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, frame.species[i] + 1,
+                                2 * frame.radius[i], density(frame.species[i]), x.x(), x.y(), x.z());
             out.pass();
         }
         text += "\nVelocities\n\n";
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 &v = frame.velocity[i], &w = frame.spin[i];
-            text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, v.x(), v.y(), v.z(), w.x(),
+                                w.y(), w.z());
             out.pass();
         }
         out.flush();
@@ -54,7 +59,8 @@ class LammpsData final : public FrameWriter {
   private:
     double density(std::int32_t species) const {
         const auto s = static_cast<std::size_t>(species);
-        return s < world_.species.size() && world_.species[s].density > 0 ? world_.species[s].density : kDensity;
+        return s < world_.species.size() && world_.species[s].density > 0 ? world_.species[s].density
+                                                                          : kDensity;
     }
 
     std::filesystem::path path_;
@@ -69,7 +75,8 @@ std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
 }  // namespace
 
 FrameFormat lammps_data_format() {
-    return {"lammps-data", "data file of LAMMPS (read_data, atom_style sphere), of the last frame", ".data", make};
+    return {"lammps-data", "data file of LAMMPS (read_data, atom_style sphere), of the last frame", ".data",
+            make};
 }
 
 }  // namespace grainreel

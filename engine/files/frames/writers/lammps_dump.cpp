@@ -1,4 +1,5 @@
-// A text dump as LAMMPS writes it (manual, command dump custom): `read_dump` of LAMMPS and LIGGGHTS takes it, and OVITO.
+// A text dump as LAMMPS writes it (manual, command dump custom): `read_dump` of LAMMPS and LIGGGHTS takes it,
+// and OVITO.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -31,8 +32,10 @@ class LammpsDump final : public FrameWriter {
         text += '\n';
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
-            text += fmt::format("{} {} {} {} {} {}", frame.id[i], frame.species[i] + 1, x.x(), x.y(), x.z(), frame.radius[i]);
-            if (supply_.velocities) text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            text += fmt::format("{} {} {} {} {} {}", frame.id[i], frame.species[i] + 1, x.x(), x.y(), x.z(),
+                                frame.radius[i]);
+            if (supply_.velocities)
+                text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
             if (!frame.orientation.empty()) {
                 const Quaternion& q = frame.orientation[i];
                 text += fmt::format(" {} {} {} {}", q.x(), q.y(), q.z(), q.w());
@@ -52,15 +55,15 @@ class LammpsDump final : public FrameWriter {
         const double lx = box.edges[0].x(), ly = box.edges[1].y(), lz = box.edges[2].z();
         const Vec3& low = box.origin;
         if (xy == 0 && xz == 0 && yz == 0) {
-            text += fmt::format("ITEM: BOX BOUNDS {}\n{} {}\n{} {}\n{} {}\n", flags, low.x(), low.x() + lx, low.y(),
-                                low.y() + ly, low.z(), low.z() + lz);
+            text += fmt::format("ITEM: BOX BOUNDS {}\n{} {}\n{} {}\n{} {}\n", flags, low.x(), low.x() + lx,
+                                low.y(), low.y() + ly, low.z(), low.z() + lz);
             return;
         }
         const double less_x = std::min({0.0, xy, xz, xy + xz}), more_x = std::max({0.0, xy, xz, xy + xz});
         const double less_y = std::min(0.0, yz), more_y = std::max(0.0, yz);
-        text += fmt::format("ITEM: BOX BOUNDS xy xz yz {}\n{} {} {}\n{} {} {}\n{} {} {}\n", flags, low.x() + less_x,
-                            low.x() + lx + more_x, xy, low.y() + less_y, low.y() + ly + more_y, xz, low.z(),
-                            low.z() + lz, yz);
+        text += fmt::format("ITEM: BOX BOUNDS xy xz yz {}\n{} {} {}\n{} {} {}\n{} {} {}\n", flags,
+                            low.x() + less_x, low.x() + lx + more_x, xy, low.y() + less_y,
+                            low.y() + ly + more_y, xz, low.z(), low.z() + lz, yz);
     }
 
     TextPieces out_;

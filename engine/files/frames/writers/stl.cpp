@@ -18,7 +18,8 @@ class Stl final : public FrameWriter {
 
     void begin(const World& world, const FrameSupply&) override {
         surfaces_ = surfaces_of(world);
-        if (surfaces_.empty()) throw UserError(path_.string() + ": the run has no walls, and STL has nothing but walls");
+        if (surfaces_.empty())
+            throw UserError(path_.string() + ": the run has no walls, and STL has nothing but walls");
     }
     void frame(const Frame& frame) override { last_ = frame; }
     void end() override {
@@ -31,7 +32,9 @@ class Stl final : public FrameWriter {
         for (const WorldSurface& surface : surfaces_) {
             const TriangleMesh mesh = moved(surface, *last_);
             for (const TriangleMesh::Triangle& t : mesh.triangles) {
-                const auto corner = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+                const auto corner = [&](std::size_t k) {
+                    return mesh.vertices[static_cast<std::size_t>(t[k])];
+                };
                 const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
                 for (const Vec3& v : {normal, corner(0), corner(1), corner(2)})
                     for (int axis = 0; axis < 3; ++axis) add(rows, static_cast<float>(v[axis]));

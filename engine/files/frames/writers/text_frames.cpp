@@ -12,7 +12,8 @@ WorldCell box_of(const World& world, const Frame& frame) {
     if (frame.size() == 0) high = Vec3::Ones();
     WorldCell box;
     box.origin = low;
-    for (int axis = 0; axis < 3; ++axis) box.edges[static_cast<std::size_t>(axis)] = (high - low)[axis] * Vec3::Unit(axis);
+    for (int axis = 0; axis < 3; ++axis)
+        box.edges[static_cast<std::size_t>(axis)] = (high - low)[axis] * Vec3::Unit(axis);
     if (!world.cell) return box;
     for (std::size_t edge = 0; edge < 3; ++edge) {
         if (!world.cell->periodic[edge]) continue;

@@ -1,5 +1,5 @@
-// A folder for ParaView and VTK: grains.pvd, walls.pvd and contacts.pvd with a .vtp file for each moment, and run.pvd
-// with all of them as parts.
+// A folder for ParaView and VTK: grains.pvd, walls.pvd and contacts.pvd with a .vtp file for each moment, and
+// run.pvd with all of them as parts.
 #include <filesystem>
 #include <system_error>
 
@@ -55,7 +55,8 @@ VtkPolyData contacts_of(const Frame& frame) {
     std::vector<std::int64_t> first, second;
     const auto row = [&](std::int32_t id) {
         const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        return found == frame.id.end() || *found != id ? frame.size() : static_cast<std::size_t>(found - frame.id.begin());
+        return found == frame.id.end() || *found != id ? frame.size()
+                                                       : static_cast<std::size_t>(found - frame.id.begin());
     };
     for (const Touch& touch : frame.touches) {
         const std::size_t a = row(touch.first), b = touch.second < 0 ? frame.size() : row(touch.second);

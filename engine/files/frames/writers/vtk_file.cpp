@@ -17,7 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
 
 constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes of an array that are packed at once
-constexpr int kLevel = 1;                             // of zlib: level 6 makes files 4 % smaller in five times the time
+constexpr int kLevel = 1;  // of zlib: level 6 makes files 4 % smaller in five times the time
 
 template <class T>
 std::string bytes_of(const std::vector<T>& values) {
@@ -29,7 +29,8 @@ std::string bytes_of(const std::vector<T>& values) {
 std::string packed(const char* bytes, std::size_t size) {
     uLongf room = compressBound(size);
     std::string out(room, '\0');
-    const int failed = compress2(reinterpret_cast<Bytef*>(out.data()), &room, reinterpret_cast<const Bytef*>(bytes), size, kLevel);
+    const int failed = compress2(reinterpret_cast<Bytef*>(out.data()), &room,
+                                 reinterpret_cast<const Bytef*>(bytes), size, kLevel);
     GRAINREEL_CHECK(failed == Z_OK);
     out.resize(room);
     return out;
@@ -55,8 +56,10 @@ std::string with_header(const VtkArray& array, const std::vector<Block>& blocks)
 }
 
 std::string one_array(const VtkArray& array, std::uint64_t offset) {
-    return fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                       array.type, array.name, array.components, offset);
+    return fmt::format(
+        "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
+        "offset=\"{}\"/>\n",
+        array.type, array.name, array.components, offset);
 }
 
 }  // namespace
@@ -66,7 +69,8 @@ VtkArray VtkArray::doubles(std::string name, const std::vector<double>& values, 
 }
 
 VtkArray VtkArray::floats(std::string name, const std::vector<double>& values, int components) {
-    return {std::move(name), "Float32", components, bytes_of(std::vector<float>(values.begin(), values.end()))};
+    return {std::move(name), "Float32", components,
+            bytes_of(std::vector<float>(values.begin(), values.end()))};
 }
 
 VtkArray VtkArray::integers(std::string name, const std::vector<std::int64_t>& values) {
@@ -76,7 +80,8 @@ VtkArray VtkArray::integers(std::string name, const std::vector<std::int64_t>& v
 std::string vtk_bytes(const VtkPolyData& data) {
     const std::size_t cells = data.connectivity.size() / static_cast<std::size_t>(data.points_a_cell);
     std::vector<std::int64_t> offsets(cells);
-    for (std::size_t c = 0; c < cells; ++c) offsets[c] = static_cast<std::int64_t>(c + 1) * data.points_a_cell;
+    for (std::size_t c = 0; c < cells; ++c)
+        offsets[c] = static_cast<std::int64_t>(c + 1) * data.points_a_cell;
     std::vector<VtkArray> arrays{VtkArray::doubles("Points", data.points, 3)};
     arrays.insert(arrays.end(), data.point_data.begin(), data.point_data.end());
     arrays.insert(arrays.end(), data.cell_data.begin(), data.cell_data.end());
@@ -89,7 +94,8 @@ std::string vtk_bytes(const VtkPolyData& data) {
             blocks.push_back({&array, from, std::min(kBlock, array.bytes.size() - from), {}});
     Team team(std::max(1, std::min<int>(usable_processors(), static_cast<int>(blocks.size()))));
     team.run([&](int member) {
-        for (std::size_t b = static_cast<std::size_t>(member); b < blocks.size(); b += static_cast<std::size_t>(team.size()))
+        for (std::size_t b = static_cast<std::size_t>(member); b < blocks.size();
+             b += static_cast<std::size_t>(team.size()))
             blocks[b].out = packed(blocks[b].array->bytes.data() + blocks[b].from, blocks[b].size);
     });
     std::vector<std::uint64_t> place;
@@ -101,15 +107,20 @@ std::string vtk_bytes(const VtkPolyData& data) {
 
     const std::size_t points = data.points.size() / 3;
     const auto count = [&](VtkPolyData::Cells kind) { return data.cells == kind ? cells : 0; };
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
-                       "compressor=\"vtkZLibDataCompressor\">\n  <PolyData>\n";
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\" "
+        "compressor=\"vtkZLibDataCompressor\">\n  <PolyData>\n";
     if (data.time)
-        text += fmt::format("    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-                            "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",
-                            *data.time);
-    text += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
-                        points, count(VtkPolyData::Cells::vertices), count(VtkPolyData::Cells::lines),
-                        count(VtkPolyData::Cells::triangles));
+        text += fmt::format(
+            "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+            "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",
+            *data.time);
+    text += fmt::format(
+        "    <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
+        "NumberOfPolys=\"{}\">\n",
+        points, count(VtkPolyData::Cells::vertices), count(VtkPolyData::Cells::lines),
+        count(VtkPolyData::Cells::triangles));
     std::size_t next = 1;
     const auto listed = [&](const char* section, std::size_t size) {
         text += fmt::format("      <{}>\n", section);
@@ -128,9 +139,12 @@ std::string vtk_bytes(const VtkPolyData& data) {
 }
 
 std::string pvd_text(const std::vector<VtkEntry>& entries) {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n  <Collection>\n";
     for (const VtkEntry& entry : entries)
-        text += fmt::format("    <DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", entry.time, entry.part, entry.file);
+        text += fmt::format("    <DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", entry.time,
+                            entry.part, entry.file);
     return text + "  </Collection>\n</VTKFile>\n";
 }
 

@@ -11,9 +11,9 @@ namespace grainreel {
 
 struct VtkArray {
     std::string name;
-    std::string type;    // "Float64", "Float32", "Int64", "Int32", "UInt8"
+    std::string type;  // "Float64", "Float32", "Int64", "Int32", "UInt8"
     int components = 1;
-    std::string bytes;   // the numbers as they lie in memory, little endian
+    std::string bytes;  // the numbers as they lie in memory, little endian
 
     static VtkArray doubles(std::string name, const std::vector<double>& values, int components = 1);
     static VtkArray floats(std::string name, const std::vector<double>& values, int components = 1);

@@ -1,5 +1,5 @@
-// Extended XYZ, by the rules of ASE and OVITO: columns species, pos, radius, velo, id; Lattice and pbc where there is a
-// periodic box.
+// Extended XYZ, by the rules of ASE and OVITO: columns species, pos, radius, velo, id; Lattice and pbc where
+// there is a periodic box.
 #include <fmt/format.h>
 
 #include "engine/files/frames/frame_writer.hpp"
@@ -23,14 +23,17 @@ class Xyz final : public FrameWriter {
         const auto edge = [](const Vec3& e) { return fmt::format("{} {} {}", e.x(), e.y(), e.z()); };
         const auto flag = [&](std::size_t axis) { return box.periodic[axis] ? 'T' : 'F'; };
         text += fmt::format(
-            "{}\nLattice=\"{} {} {}\" Origin=\"{}\" pbc=\"{} {} {}\" Properties=species:S:1:pos:R:3:radius:R:1{}:id:I:1 Step={}{}\n",
-            frame.size(), edge(box.edges[0]), edge(box.edges[1]), edge(box.edges[2]), edge(box.origin), flag(0), flag(1),
-            flag(2), supply_.velocities ? ":velo:R:3:omega:R:3" : "", frame.step,
+            "{}\nLattice=\"{} {} {}\" Origin=\"{}\" pbc=\"{} {} {}\" "
+            "Properties=species:S:1:pos:R:3:radius:R:1{}:id:I:1 Step={}{}\n",
+            frame.size(), edge(box.edges[0]), edge(box.edges[1]), edge(box.edges[2]), edge(box.origin),
+            flag(0), flag(1), flag(2), supply_.velocities ? ":velo:R:3:omega:R:3" : "", frame.step,
             world_.time_known ? fmt::format(" Time={}", frame.time) : "");
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
-            text += fmt::format("{} {} {} {} {}", name(frame.species[i]), x.x(), x.y(), x.z(), frame.radius[i]);
-            if (supply_.velocities) text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            text +=
+                fmt::format("{} {} {} {} {}", name(frame.species[i]), x.x(), x.y(), x.z(), frame.radius[i]);
+            if (supply_.velocities)
+                text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
             text += fmt::format(" {}\n", frame.id[i]);
             out_.pass();
         }
@@ -40,7 +43,8 @@ class Xyz final : public FrameWriter {
   private:
     std::string name(std::int32_t species) const {
         const auto s = static_cast<std::size_t>(species);
-        return s < world_.species.size() ? one_word(world_.species[s].name) : fmt::format("type_{}", species + 1);
+        return s < world_.species.size() ? one_word(world_.species[s].name)
+                                         : fmt::format("type_{}", species + 1);
     }
 
     TextPieces out_;
