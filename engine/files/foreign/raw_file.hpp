@@ -29,7 +29,7 @@ struct RawFacts {
     std::string units;    // "si", "lj", "cgs", "micro", "real", ... as the file says; empty where it does not
     // Where the format fixes them: m in one unit of length, s in one unit of time.
     std::optional<double> length_unit{}, time_unit{};
-    int dimensions = 3;   // 2 where the file says so
+    int dimensions = 3;  // 2 where the file says so
 };
 
 class RawFile {
@@ -37,8 +37,8 @@ class RawFile {
     virtual ~RawFile() = default;
 
     virtual const RawFacts& facts() const = 0;
-    // All that are whole, in the order of the file. A frame that is cut at the end is left out, with a line of
-    // news(). Where no frame is whole, opening throws UserError.
+    // All that are whole, in the order of the file. A frame that is cut at the end is left out, with a line
+    // of news(). Where no frame is whole, opening throws UserError.
     virtual const std::vector<RawMoment>& moments() const = 0;
     // Throws UserError "FILE:LINE: what is wrong; what to do" (byte in place of line in binary files). Counts
     // are bounded by the file's size before memory is asked for.
