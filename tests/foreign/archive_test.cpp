@@ -1,4 +1,5 @@
-// Frames of other programs as a record: what columns mean, series, boxes, velocities from places, walls that move.
+// Frames of other programs as a record: what columns mean, series, boxes, velocities from places, walls that
+// move.
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <cmath>
@@ -29,8 +30,9 @@ void write(const fs::path& file, const std::string& text) {
 // One frame of a dump in a box from 0 to 2 m.
 std::string dump(int step, const std::string& columns, const std::vector<std::string>& rows,
                  const std::string& bounds = "0 2\n0 2\n0 2\n", const std::string& flags = "ff ff ff") {
-    std::string text = fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}\n{}ITEM: ATOMS {}\n",
-                                   step, rows.size(), flags, bounds, columns);
+    std::string text =
+        fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}\n{}ITEM: ATOMS {}\n",
+                    step, rows.size(), flags, bounds, columns);
     for (const std::string& row : rows) text += row + "\n";
     return text;
 }
@@ -63,8 +65,8 @@ TEST_F(Foreign, RowsComeByTheirIdsWhateverTheirOrder) {
 }
 
 TEST_F(Foreign, SharesOfATiltedBoxBecomePlaces) {
-    // Edges (2 0 0), (0.5 2 0), (0.25 0.1 2) from the origin: x = sx a + sy b + sz c. The bounds are those of the box
-    // around it: x from 0 to 2 + 0.75, y from 0 to 2.1.
+    // Edges (2 0 0), (0.5 2 0), (0.25 0.1 2) from the origin: x = sx a + sy b + sz c. The bounds are those of
+    // the box around it: x from 0 to 2 + 0.75, y from 0 to 2.1.
     write(file("t.dump"), dump(0, "id type xs ys zs radius", {"1 1 0.5 0.25 0.5 0.1"},
                                "0 2.75 0.5\n0 2.1 0.25\n0 2 0.1\n", "xy xz yz pp pp pp"));
     const ForeignArchive archive(file("t.dump"), {});
@@ -101,7 +103,8 @@ TEST_F(Foreign, UnitsBecomeSi) {
 
 TEST_F(Foreign, ANumberedSeriesIsReadByItsNumbers) {
     for (const int step : {0, 500, 10000})
-        write(file(fmt::format("s.{}.dump", step)), dump(step, "id type x y z radius", {fmt::format("1 1 1 1 {} 0.1", 1 + step * 1e-5)}));
+        write(file(fmt::format("s.{}.dump", step)),
+              dump(step, "id type x y z radius", {fmt::format("1 1 1 1 {} 0.1", 1 + step * 1e-5)}));
     const ForeignArchive series(file("s.500.dump"), {});
     ASSERT_EQ(series.moments().size(), 3u);
     EXPECT_NEAR(series.grains(2).position[0].z(), 1.1, 1e-12);
@@ -140,7 +143,8 @@ TEST_F(Foreign, VelocitiesComeFromPlacesWhereMomentsAreNear) {
     EXPECT_TRUE(archive.derived_velocities());
     EXPECT_NEAR(archive.grains(2).velocity[0].z(), -9.81 * 2e-3, 1e-9);
     // Frames that are a second apart say nothing of velocities.
-    write(file("far.dump"), dump(0, "id type x y z radius", {"1 1 1 1 0.2 0.1"}) + dump(1000, "id type x y z radius", {"1 1 1 1 1.9 0.1"}));
+    write(file("far.dump"), dump(0, "id type x y z radius", {"1 1 1 1 0.2 0.1"}) +
+                                dump(1000, "id type x y z radius", {"1 1 1 1 1.9 0.1"}));
     const ForeignArchive far(file("far.dump"), options);
     EXPECT_FALSE(far.derived_velocities());
     EXPECT_FALSE(far.supply().velocities);
@@ -188,7 +192,8 @@ TEST(WallMotion, PartsOfOneSolidMoveEachOnItsOwn) {
         return wall;
     };
     std::vector<std::string> news;
-    const std::vector<MovingWall> walls = follow_walls({{0, {}, {both(0)}}, {1, {}, {both(2)}}}, 0.5, "w.stl", news);
+    const std::vector<MovingWall> walls =
+        follow_walls({{0, {}, {both(0)}}, {1, {}, {both(2)}}}, 0.5, "w.stl", news);
     ASSERT_EQ(walls.size(), 2u);
     EXPECT_FALSE(walls[0].moves);
     EXPECT_TRUE(walls[1].moves);
@@ -196,14 +201,17 @@ TEST(WallMotion, PartsOfOneSolidMoveEachOnItsOwn) {
     EXPECT_TRUE(news.empty());
 }
 
-// What an exporter writes comes back: places exactly where the format has doubles, to a float's last place else.
+// What an exporter writes comes back: places exactly where the format has doubles, to a float's last place
+// else.
 class RoundTrip : public Foreign,
                   public testing::WithParamInterface<std::tuple<const char*, const char*, double>> {};
 
 TEST_P(RoundTrip, IdsTypesAndPlacesComeBack) {
     const auto [format, name, precision] = GetParam();
-    write(file("o.dump"), dump(0, "id type x y z radius vx vy vz", {"9 2 0.1 0.2 0.3 0.05 1 2 3", "4 1 1.123456789 0.3 1.7 0.07 0 0 -1"}) +
-                              dump(100, "id type x y z radius vx vy vz", {"9 2 0.15 0.2 0.3 0.05 1 2 3", "4 1 1.1 0.3 1.6 0.07 0 0 -1"}));
+    write(file("o.dump"), dump(0, "id type x y z radius vx vy vz",
+                               {"9 2 0.1 0.2 0.3 0.05 1 2 3", "4 1 1.123456789 0.3 1.7 0.07 0 0 -1"}) +
+                              dump(100, "id type x y z radius vx vy vz",
+                                   {"9 2 0.15 0.2 0.3 0.05 1 2 3", "4 1 1.1 0.3 1.6 0.07 0 0 -1"}));
     ReadingOptions options;
     options.time_step = 1e-4;
     const ForeignArchive first(file("o.dump"), options);
@@ -222,9 +230,9 @@ TEST_P(RoundTrip, IdsTypesAndPlacesComeBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
-                         testing::Values(std::tuple("lammps-dump", "a.dump", 1e-15), std::tuple("xyz", "a.xyz", 1e-15),
-                                         std::tuple("csv", "a.csv", 1e-15), std::tuple("vtk", "a-vtk", 1e-15),
-                                         std::tuple("gsd", "a.gsd", 2e-7)),
+                         testing::Values(std::tuple("lammps-dump", "a.dump", 1e-15),
+                                         std::tuple("xyz", "a.xyz", 1e-15), std::tuple("csv", "a.csv", 1e-15),
+                                         std::tuple("vtk", "a-vtk", 1e-15), std::tuple("gsd", "a.gsd", 2e-7)),
                          [](const auto& of) {
                              std::string text = std::get<0>(of.param);
                              std::erase(text, '-');

@@ -29,13 +29,9 @@ struct RawFacts {
     std::string units;    // "si", "lj", "cgs", "micro", "real", ... as the file says; empty where it does not
     // Where the format fixes them: m in one unit of length, s in one unit of time.
     std::optional<double> length_unit{}, time_unit{};
-<<<<<<< HEAD
     int dimensions = 3;    // 2 where the file says so
     int first_row_id = 1;  // id of a frame's first row where the file has no ids; contacts count from there
     bool scaled_places = false;  // columns x, y, z are shares of the box (old dumps without names)
-=======
-    int dimensions = 3;  // 2 where the file says so
->>>>>>> f5038abb33368f3a4d14eed16b13678728f635f0
 };
 
 class RawFile {

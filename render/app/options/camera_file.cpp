@@ -46,13 +46,16 @@ void add_camera_file(CLI::App& verb, CameraFiles& files) {
 void use_camera_file(const CameraFiles& files, Assignments& sets) {
     if (!files.use) return;
     std::ifstream in = read_plain(*files.use);
-    if (!in) throw UserError(fmt::format("--camera {}: cannot be opened; is there such a file?", files.use->string()));
+    if (!in)
+        throw UserError(
+            fmt::format("--camera {}: cannot be opened; is there such a file?", files.use->string()));
     constexpr int most_lines = 100;
     Assignments all;
     int number = 0;
     for (std::string line; std::getline(in, line);) {
         const std::string place = fmt::format("{}:{}", files.use->string(), ++number);
-        if (number > most_lines) throw UserError(fmt::format("{}: is no file of a camera, which has few lines", place));
+        if (number > most_lines)
+            throw UserError(fmt::format("{}: is no file of a camera, which has few lines", place));
         line = trimmed(line.substr(0, line.find('#')));
         if (line.empty() || line == "[film.camera]") continue;
         const std::size_t equals = line.find('=');
@@ -60,7 +63,8 @@ void use_camera_file(const CameraFiles& files, Assignments& sets) {
         const bool plain = equals != std::string::npos && !key.empty() &&
                            key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos;
         if (!plain)
-            throw UserError(fmt::format("{}: '{}' is no key of a camera; a line is like: azimuth = 20", place, excerpt(line)));
+            throw UserError(fmt::format("{}: '{}' is no key of a camera; a line is like: azimuth = 20", place,
+                                        excerpt(line)));
         all.push_back({fmt::format("film.camera.{}={}", key, trimmed(line.substr(equals + 1))), place});
     }
     if (all.empty()) throw UserError(fmt::format("--camera {}: has no key of a camera", files.use->string()));
@@ -72,21 +76,24 @@ void keep_camera_file(const CameraFiles& files, const Camera& camera) {
     if (!files.keep) return;
     std::error_code ignored;
     if (fs::exists(*files.keep, ignored))
-        throw UserError(fmt::format("--keep-camera {}: exists already; choose another name", files.keep->string()));
+        throw UserError(
+            fmt::format("--keep-camera {}: exists already; choose another name", files.keep->string()));
     if (!camera.keys.empty())
-        throw UserError("--keep-camera: the camera moves by [[film.camera.key]], which no file of one camera holds");
+        throw UserError(
+            "--keep-camera: the camera moves by [[film.camera.key]], which no file of one camera holds");
     std::string text = "# A camera by grainreel: render RUN --camera THIS_FILE\n[film.camera]\n";
     if (camera.position) {
         text += fmt::format("position = {}\n", triple(*camera.position));
     } else {
         const char* frames[] = {"container", "bed", "reach"};
-        text += fmt::format("azimuth = {}\nelevation = {}\nframe = \"{}\"\n", camera.azimuth, camera.elevation,
-                            frames[static_cast<int>(camera.frame)]);
-        if (camera.frame == CameraFrame::reach && camera.reach) text += fmt::format("reach = {}\n", *camera.reach);
+        text += fmt::format("azimuth = {}\nelevation = {}\nframe = \"{}\"\n", camera.azimuth,
+                            camera.elevation, frames[static_cast<int>(camera.frame)]);
+        if (camera.frame == CameraFrame::reach && camera.reach)
+            text += fmt::format("reach = {}\n", *camera.reach);
     }
     if (camera.target) text += fmt::format("target = {}\n", triple(*camera.target));
-    text += fmt::format("field_of_view = {}\nzoom = {}\nup = {}\nfollow = {}\n", camera.field_of_view, camera.zoom,
-                        triple(camera.up), camera.follow);
+    text += fmt::format("field_of_view = {}\nzoom = {}\nup = {}\nfollow = {}\n", camera.field_of_view,
+                        camera.zoom, triple(camera.up), camera.follow);
     TextFile(*files.keep).write(text);
 }
 
