@@ -1,4 +1,7 @@
 // Options for files of other programs.
+#include <algorithm>
+#include <charconv>
+
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
@@ -41,8 +44,10 @@ std::vector<Pair> pairs_of(const std::string& option, const std::string& text, c
 double positive(const std::string& option, const std::string& text, Dimension dimension,
                 const char* example) {
     double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool plain = error == std::errc() && end == text.data() + text.size();  // in SI
     try {
-        value = parse_quantity(text, dimension, example);
+        if (!plain) value = parse_quantity(text, dimension, example);
     } catch (const std::exception& problem) {
         throw UserError(fmt::format("{} {}: {}", option, text, problem.what()));
     }

@@ -18,10 +18,9 @@ void open_checkpoint(FilmedRecord& one, const fs::path& file, const Assignments&
     one.film = scene_of_checkpoint_to_draw(file, sets);
 }
 
-// Whatever no reader takes must be a table, and is told what a table has.
 void open_table(FilmedRecord& one, const fs::path& file, const Assignments& sets,
                 const ReadingOptions& reading) {
-    FrameRequest request{.format = reader_of(file) == nullptr ? "grain-table" : ""};
+    FrameRequest request;
     request.reading = reading;
     request.scene_of_run = [&](const fs::path& folder) {
         return one.film.emplace(scene_of_run(folder, sets));
