@@ -5,7 +5,7 @@
 
 // All formats, a line each, in the order in which they are asked: RawFormat NAME_format() in the folders
 // beside this file.
-#define GRAINREEL_RAW_FORMATS(one) one(lammps_text)
+#define GRAINREEL_RAW_FORMATS(one) one(lammps_text) one(vtk_xml) one(vtk_legacy)
 
 namespace grainreel {
 

@@ -116,7 +116,7 @@ void add_sources(const FilmedScene& scene, std::vector<Vec3>& corners) {
                                                  [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
     const double most = high->z() + 0.5 * (high->z() - low->z());
     const auto add = [&](const Vec3& from, const Vec3& to) {
-        if (to.z() > most) return;
+        if (to.z() > most && from.z() > high->z()) return;
         for (const Vec3& corner : extent_corners({from, to})) corners.push_back(corner);
     };
     for (const Feed& feed : scene.feeds) add(feed.low, feed.high);
