@@ -51,10 +51,14 @@ constexpr UnreadPacking unread[] = {
     {"7z\xBC\xAF\x27\x1C"sv, "7-Zip", "7z x"},
 };
 
-// Whether the digits and the pi of bzip2 follow, and whether lzma's head has a dictionary and a size that can be.
+// Whether the digits and the pi of bzip2 follow, and whether lzma's head has a dictionary and a size that can
+// be.
 bool really(const UnreadPacking& packing, std::string_view head) {
-    const auto byte = [head](std::size_t k) { return k < head.size() ? static_cast<unsigned char>(head[k]) : 0u; };
-    if (packing.magic == "BZh"sv) return byte(3) >= '1' && byte(3) <= '9' && head.substr(4).starts_with("1AY&SY");
+    const auto byte = [head](std::size_t k) {
+        return k < head.size() ? static_cast<unsigned char>(head[k]) : 0u;
+    };
+    if (packing.magic == "BZh"sv)
+        return byte(3) >= '1' && byte(3) <= '9' && head.substr(4).starts_with("1AY&SY");
     if (packing.magic != "]\0\0"sv) return true;
     const bool unknown_size = head.substr(5).starts_with("\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF");
     const bool sane_size = byte(10) == 0 && byte(11) == 0 && byte(12) == 0;
@@ -109,15 +113,17 @@ std::string all_bytes(const fs::path& file, std::uint64_t most) {
     const std::unique_ptr<ByteSource> source = open_bytes(file);
     const std::uint64_t on_disk = FileBytes(file).state().size;
     std::string all;
-    std::size_t piece = static_cast<std::size_t>(std::min<std::uint64_t>(on_disk + 1, std::uint64_t{1} << 26));
+    std::size_t piece =
+        static_cast<std::size_t>(std::min<std::uint64_t>(on_disk + 1, std::uint64_t{1} << 26));
     while (true) {
         const std::size_t had = all.size();
         all.resize(had + piece);
         const std::size_t got = source->read(all.data() + had, piece);
         all.resize(had + got);
         if (all.size() > most)
-            throw UserError(fmt::format("{}: holds more than {} MB, which is the most that is read of such a file",
-                                        shown(file), most >> 20));
+            throw UserError(
+                fmt::format("{}: holds more than {} MB, which is the most that is read of such a file",
+                            shown(file), most >> 20));
         if (got < piece) return all;
         piece = std::max(piece, std::min(all.size(), std::size_t{1} << 26));
     }

@@ -37,7 +37,8 @@ void PackedBytes::seek(std::uint64_t place) {
     std::unique_ptr<char[]> passed_over;
     while (place_ < place) {
         if (!passed_over) passed_over = std::make_unique<char[]>(piece_size);
-        const std::size_t size = static_cast<std::size_t>(std::min<std::uint64_t>(place - place_, piece_size));
+        const std::size_t size =
+            static_cast<std::size_t>(std::min<std::uint64_t>(place - place_, piece_size));
         if (read(passed_over.get(), size) == 0) break;
     }
 }
@@ -51,9 +52,10 @@ bool PackedBytes::fill() {
 }
 
 void PackedBytes::damaged(const std::string& why) const {
-    throw UserError(fmt::format("{}: byte {}: the packed content is damaged ({}); copy the file again, or unpack what "
-                                "is sound by hand",
-                                shown(file_->path()), read_ - left(), why));
+    throw UserError(
+        fmt::format("{}: byte {}: the packed content is damaged ({}); copy the file again, or unpack what "
+                    "is sound by hand",
+                    shown(file_->path()), read_ - left(), why));
 }
 
 }  // namespace grainreel

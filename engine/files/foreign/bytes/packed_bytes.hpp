@@ -1,11 +1,11 @@
-// Sources of bytes behind a packing. Each reads its file from the beginning; a place behind the present one is
-// reached by beginning again.
+// Sources of bytes behind a packing. Each reads its file from the beginning; a place behind the present one
+// is reached by beginning again.
 #pragma once
 
 #include <memory>
 
-#include "engine/files/foreign/bytes/file_bytes.hpp"
 #include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/file_bytes.hpp"
 
 namespace grainreel {
 

@@ -44,7 +44,8 @@ class ZstdBytes : public PackedBytes {
 
     [[noreturn]] void refuse(std::size_t result) const {
         if (ZSTD_getErrorCode(result) == ZSTD_error_frameParameter_windowTooLarge)
-            damaged("packed by zstd --long with a window above 128 MB, which is not read; unpack it by zstd -d");
+            damaged(
+                "packed by zstd --long with a window above 128 MB, which is not read; unpack it by zstd -d");
         damaged(ZSTD_getErrorName(result));
     }
 

@@ -49,8 +49,7 @@ std::string BoxReader::take(std::string_view line) {
     }
     // Some programs write tilts and do not name them.
     if (lines_ == 1 && count == 3) tilted_ = !general_;
-    if (count != wanted())
-        return fmt::format("the box has {} numbers in this line, of {}", count, wanted());
+    if (count != wanted()) return fmt::format("the box has {} numbers in this line, of {}", count, wanted());
     return "";
 }
 
@@ -71,8 +70,8 @@ std::string BoxReader::finish(bool empty) {
         bounds.high[k] = rows_[k][1];
         if (bounds.high[k] < bounds.low[k]) {
             if (empty) return "";
-            return fmt::format("the box ends before it begins along {}: from {:g} to {:g}", "xyz"[k], bounds.low[k],
-                               bounds.high[k]);
+            return fmt::format("the box ends before it begins along {}: from {:g} to {:g}", "xyz"[k],
+                               bounds.low[k], bounds.high[k]);
         }
     }
     if (tilted_) {

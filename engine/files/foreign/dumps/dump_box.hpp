@@ -10,8 +10,8 @@
 
 namespace grainreel {
 
-// lo and hi along x, y, z, and the tilts xy, xz, yz. Bounds of a tilted box are those of the box around it, from
-// which the tilts are taken off (LAMMPS, Howto_triclinic).
+// lo and hi along x, y, z, and the tilts xy, xz, yz. Bounds of a tilted box are those of the box around it,
+// from which the tilts are taken off (LAMMPS, Howto_triclinic).
 struct BoxBounds {
     std::array<double, 3> low{}, high{};
     double xy = 0, xz = 0, yz = 0;

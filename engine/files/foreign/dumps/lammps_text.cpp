@@ -38,8 +38,9 @@ class LammpsText : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const DumpFrame& frame = index_.frames.at(index);
-        // A packed file is read on from the frame before: it has no other way to a place than through all bytes
-        // before it. Behind the last frame it is closed, so that a series of many files does not keep them open.
+        // A packed file is read on from the frame before: it has no other way to a place than through all
+        // bytes before it. Behind the last frame it is closed, so that a series of many files does not keep
+        // them open.
         const std::lock_guard lock(reading_);
         std::unique_ptr<LineReader> lines = std::move(kept_);
         if (!lines) lines = std::make_unique<LineReader>(file_);
@@ -74,14 +75,17 @@ class LammpsText : public RawFile {
 void LammpsText::refuse_yaml() const {
     const FileHead head = unpacked_head(file_);
     if (head.bytes.starts_with("---"))
-        throw UserError(fmt::format("{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
-                                    "write it anew by rerun",
-                                    shown(file_)));
+        throw UserError(
+            fmt::format("{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
+                        "write it anew by rerun",
+                        shown(file_)));
 }
 
 void LammpsText::refuse_without_frame() const {
     if (!index_.cut) throw UserError(fmt::format("{}: holds no frame", shown(file_)));
-    refuse_line(file_, index_.cut->line, fmt::format("no frame of this file is whole, neither is the one that begins here: {}", cut_words()));
+    refuse_line(
+        file_, index_.cut->line,
+        fmt::format("no frame of this file is whole, neither is the one that begins here: {}", cut_words()));
 }
 
 // Why the frame at the end is not whole.
@@ -94,7 +98,8 @@ std::string LammpsText::cut_words() const {
 }
 
 void LammpsText::name_columns() {
-    const auto first = std::find_if(index_.frames.begin(), index_.frames.end(), [](const DumpFrame& f) { return f.rows > 0; });
+    const auto first = std::find_if(index_.frames.begin(), index_.frames.end(),
+                                    [](const DumpFrame& f) { return f.rows > 0; });
     if (first == index_.frames.end()) return;
     LineReader lines(file_);
     old_ = old_columns(lines, file_, *first);
@@ -118,8 +123,10 @@ RawFrame LammpsText::read_frame(LineReader& lines, const DumpFrame& frame) const
     lines.seek(frame.place, frame.line);
     DumpHead head;
     if (read_head(lines, file_, head) != HeadEnd::whole || head.step != frame.step || head.rows != frame.rows)
-        refuse_line(file_, frame.line,
-                    fmt::format("the frame of step {} is no longer here; did another program change the file?", frame.step));
+        refuse_line(
+            file_, frame.line,
+            fmt::format("the frame of step {} is no longer here; did another program change the file?",
+                        frame.step));
     RowsToRead wanted;
     wanted.names = index_.names.empty() ? old_.names : index_.names;
     wanted.rows = frame.rows;
@@ -137,7 +144,9 @@ RawFrame LammpsText::read_frame(LineReader& lines, const DumpFrame& frame) const
 std::vector<std::string> LammpsText::news() const {
     std::vector<std::string> news;
     const std::string name = shown(file_.filename());
-    if (stream_cut_) news.push_back(fmt::format("{}: the packed content is cut; what stands before the cut is read", name));
+    if (stream_cut_)
+        news.push_back(
+            fmt::format("{}: the packed content is cut; what stands before the cut is read", name));
     if (index_.cut) {
         const std::size_t whole = index_.frames.size();
         const std::string which = index_.cut->step ? fmt::format(" (step {})", *index_.cut->step) : "";
@@ -155,8 +164,9 @@ bool LammpsText::grow() {
     if (!now.same_file(state_))
         throw UserError(fmt::format("{}: another file has this name now; begin again with it", shown(file_)));
     if (now.size < state_.size)
-        throw UserError(fmt::format("{}: became shorter, from {} to {} bytes, while it was followed; begin again with it",
-                                    shown(file_), state_.size, now.size));
+        throw UserError(
+            fmt::format("{}: became shorter, from {} to {} bytes, while it was followed; begin again with it",
+                        shown(file_), state_.size, now.size));
     if (now == state_) return false;
     const std::size_t had = index_.frames.size();
     state_ = now;
@@ -169,12 +179,14 @@ bool LammpsText::grow() {
     return index_.frames.size() > had;
 }
 
-// The first words of a dump, or those of one whose first line is missing. A dump in YAML is refused by name when
-// it is opened.
+// The first words of a dump, or those of one whose first line is missing. A dump in YAML is refused by name
+// when it is opened.
 bool takes_text_dump(const FileHead& head) {
     const std::string_view text = head.bytes;
     constexpr std::size_t first_items = 2000;  // bytes
-    if (text.starts_with("---") && text.substr(0, first_items).find("creator: LAMMPS") != std::string_view::npos) return true;
+    if (text.starts_with("---") &&
+        text.substr(0, first_items).find("creator: LAMMPS") != std::string_view::npos)
+        return true;
     const std::size_t item = text.substr(0, first_items).find("ITEM: ");
     return item != std::string_view::npos && (item == 0 || text[item - 1] == '\n') &&
            text.substr(0, item).find('\0') == std::string_view::npos;

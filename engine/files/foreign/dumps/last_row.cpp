@@ -45,7 +45,8 @@ Row row_of(std::string_view text) {
     row.blank_behind = !text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r');
     Words words(text);
     std::string_view last;
-    for (std::string_view word = words.next_in_line(); !word.empty(); word = words.next_in_line(), ++row.fields)
+    for (std::string_view word = words.next_in_line(); !word.empty();
+         word = words.next_in_line(), ++row.fields)
         last = word;
     row.last = std::string(last);
     return row;

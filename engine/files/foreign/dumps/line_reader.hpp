@@ -13,10 +13,10 @@
 namespace grainreel {
 
 struct TextLine {
-    std::string_view text;     // without its end; valid until the next call
-    std::uint64_t place = 0;   // of its first byte in the unpacked content
-    std::int64_t number = 0;   // from 1
-    bool ended = false;        // whether a line feed stands behind it
+    std::string_view text;    // without its end; valid until the next call
+    std::uint64_t place = 0;  // of its first byte in the unpacked content
+    std::int64_t number = 0;  // from 1
+    bool ended = false;       // whether a line feed stands behind it
 };
 
 class LineReader {
@@ -30,8 +30,8 @@ class LineReader {
     // The line that next() gave will be given once more.
     void back(const TextLine& line);
 
-    // Lines as one piece of text, at least one, the last of them with its line feed (which is put there where the
-    // content ends without one). Behind it are 64 bytes more. Empty at the end of the content.
+    // Lines as one piece of text, at least one, the last of them with its line feed (which is put there where
+    // the content ends without one). Behind it are 64 bytes more. Empty at the end of the content.
     std::string_view lines();
     // Whether what lines() gave last is a line that ends with the content, without a line feed.
     bool unended() const { return unended_; }

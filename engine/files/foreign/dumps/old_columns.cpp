@@ -50,13 +50,14 @@ OldColumns old_columns(LineReader& lines, const std::filesystem::path& file, con
     if (width != 5 && width != 8) return columns;
 
     lines.seek(head.rows_place, head.rows_line);
-    const RawTable table = read_rows(lines, file, {columns.names, frame.rows, frame.end - head.rows_place, false});
+    const RawTable table =
+        read_rows(lines, file, {columns.names, frame.rows, frame.end - head.rows_place, false});
     columns.names = {"id", "type", "x", "y", "z"};
     if (scaled(table, head.box))
         for (std::size_t k = 2; k < 5; ++k) columns.names[k] += 's';
     if (width == 8) columns.names.insert(columns.names.end(), {"ix", "iy", "iz"});
-    columns.words =
-        fmt::format("does not name its columns; taken as {}, as old dumps have them", fmt::join(columns.names, " "));
+    columns.words = fmt::format("does not name its columns; taken as {}, as old dumps have them",
+                                fmt::join(columns.names, " "));
     return columns;
 }
 

@@ -16,8 +16,8 @@ struct OldColumns {
     std::string words{};  // how they were found, for the user
 };
 
-// By the first frame that has rows. Places are scaled ones, "xs", where they all lie within 0 and 1 (and a bit)
-// and would not fit the box as they are. Rows of another width than five and eight get "c1", "c2", ...
+// By the first frame that has rows. Places are scaled ones, "xs", where they all lie within 0 and 1 (and a
+// bit) and would not fit the box as they are. Rows of another width than five and eight get "c1", "c2", ...
 OldColumns old_columns(LineReader& lines, const std::filesystem::path& file, const DumpFrame& frame);
 
 }  // namespace grainreel

@@ -55,8 +55,9 @@ class HeadReader {
                                  : !head_.box  ? "BOX BOUNDS"
                                  : head_.pairs ? "ENTRIES"
                                                : "ATOMS";
-        refuse(fmt::format("\"{}\" stands where an \"ITEM: {}\" is expected; is a line missing or too much before it?",
-                           excerpt(line_.text), next));
+        refuse(fmt::format(
+            "\"{}\" stands where an \"ITEM: {}\" is expected; is a line missing or too much before it?",
+            excerpt(line_.text), next));
     }
 
     Found item(Words words) {
@@ -85,16 +86,18 @@ class HeadReader {
 
     Found step() {
         if (head_.step)
-            refuse(fmt::format("a new frame begins, but the frame of step {} has no rows; is the file damaged?",
-                               *head_.step));
+            refuse(
+                fmt::format("a new frame begins, but the frame of step {} has no rows; is the file damaged?",
+                            *head_.step));
         if (!value()) return Found::cut;
         Words words(line_.text);
         const std::string_view word = words.next_in_line();
         const std::optional<std::int64_t> step = whole_in(word);
         if (!step || !words.next_in_line().empty())
-            return wrong(fmt::format("\"{}\" is no number of a step; a whole number is expected below \"ITEM: "
-                                     "TIMESTEP\"",
-                                     excerpt(line_.text)));
+            return wrong(
+                fmt::format("\"{}\" is no number of a step; a whole number is expected below \"ITEM: "
+                            "TIMESTEP\"",
+                            excerpt(line_.text)));
         head_.step = step;
         return Found::item;
     }
@@ -138,13 +141,16 @@ class HeadReader {
             const std::string complaint = reader.take(line_.text);
             if (!complaint.empty()) return wrong(complaint);
         }
-        if (const std::string complaint = reader.finish(head_.rows == 0); !complaint.empty()) refuse(complaint);
+        if (const std::string complaint = reader.finish(head_.rows == 0); !complaint.empty())
+            refuse(complaint);
         head_.box = reader.box();
         return Found::item;
     }
 
     Found names(std::string_view item, Words words) {
-        if (!head_.step) refuse(fmt::format("rows without a step: \"ITEM: TIMESTEP\" is missing above line {}", line_.number));
+        if (!head_.step)
+            refuse(fmt::format("rows without a step: \"ITEM: TIMESTEP\" is missing above line {}",
+                               line_.number));
         if (!counted_)
             refuse(fmt::format("rows without their number: \"ITEM: NUMBER OF {}\" is missing above line {}",
                                excerpt(item), line_.number));

@@ -1,5 +1,5 @@
-// What stands above the rows of one frame of a text dump: "ITEM: TIMESTEP", "ITEM: NUMBER OF ATOMS", ... up to
-// "ITEM: ATOMS id type x y z" or, in a dump of pairs, "ITEM: ENTRIES c_1[1] c_1[2]".
+// What stands above the rows of one frame of a text dump: "ITEM: TIMESTEP", "ITEM: NUMBER OF ATOMS", ... up
+// to "ITEM: ATOMS id type x y z" or, in a dump of pairs, "ITEM: ENTRIES c_1[1] c_1[2]".
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 namespace grainreel {
 
 struct DumpHead {
-    std::uint64_t place = 0;       // of the first item
+    std::uint64_t place = 0;  // of the first item
     std::int64_t line = 0;
     std::optional<std::int64_t> step{};
     std::optional<double> time{};
-    std::string units{};           // empty where the frame does not say
+    std::string units{};  // empty where the frame does not say
     std::optional<WorldCell> box{};
     std::int64_t rows = 0;
-    bool pairs = false;            // a dump local: rows are no grains
+    bool pairs = false;                // a dump local: rows are no grains
     std::vector<std::string> names{};  // of the columns; none in dumps of before 2010
     std::int64_t names_line = 0;
     bool names_ended = true;       // whether a line feed stands behind them
@@ -30,9 +30,9 @@ struct DumpHead {
 };
 
 enum class HeadEnd {
-    whole,   // the rows come next
-    nothing, // the content ended before
-    cut      // the content ended within the head
+    whole,    // the rows come next
+    nothing,  // the content ended before
+    cut       // the content ended within the head
 };
 
 // Throws UserError with the line where something stands that is no head. Where the result is cut, `head` has

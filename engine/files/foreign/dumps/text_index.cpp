@@ -45,7 +45,8 @@ class RowCounter {
         const char* const end = p + text.size();
         std::int64_t count = 0;
         while (p < end && passed_.rows < head_.rows) {
-            const auto* const feed = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+            const auto* const feed =
+                static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
             if (*p == 'I' && std::string_view(p, static_cast<std::size_t>(feed - p)).starts_with(mark))
                 refuse_count(lines_.number() + count);
             if (*p > ' ' || has_words(p, feed)) ++passed_.rows;
@@ -61,10 +62,11 @@ class RowCounter {
     }
 
     [[noreturn]] void refuse_count(std::int64_t line) const {
-        refuse_line(file_, line,
-                    fmt::format("the frame of step {} ends here after {} rows, and line {} says {}; did a run stop "
-                                "within a frame and go on later? Cut this frame out of the file",
-                                head_.step.value_or(0), passed_.rows, head_.line, head_.rows));
+        refuse_line(
+            file_, line,
+            fmt::format("the frame of step {} ends here after {} rows, and line {} says {}; did a run stop "
+                        "within a frame and go on later? Cut this frame out of the file",
+                        head_.step.value_or(0), passed_.rows, head_.line, head_.rows));
     }
 
     LineReader& lines_;
@@ -96,9 +98,10 @@ bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {
     if (found == HeadEnd::cut) {
         // Behind the last rows a time or units alone belong to a frame to come only where frames have them.
         if (!frames.empty() && !head.step && (head.time || !head.units.empty()) && !timed)
-            refuse_line(file, head.line,
-                        "items stand behind the rows of the last frame, and no frame begins with them; items stand "
-                        "before the rows");
+            refuse_line(
+                file, head.line,
+                "items stand behind the rows of the last frame, and no frame begins with them; items stand "
+                "before the rows");
         cut_at(head, {.in_head = true});
         return false;
     }
@@ -118,8 +121,8 @@ bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {
     const bool more = lines.next_with_words(next);
     if (more && !next.text.starts_with(mark) && !(!next.ended && mark.starts_with(next.text)))
         refuse_line(file, next.number,
-                    fmt::format("one row more than the {} that line {} says for step {}, or damage", head.rows,
-                                head.line, head.step.value_or(0)));
+                    fmt::format("one row more than the {} that line {} says for step {}, or damage",
+                                head.rows, head.line, head.step.value_or(0)));
     if (more) lines.back(next);
     const bool open_end = passed.unended || !head.names_ended;
     if (passed.unended && !last_row_is_whole(lines, file, head, frames)) {
@@ -142,10 +145,11 @@ bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {
 void TextIndex::check(const DumpHead& head, const fs::path& file) const {
     if (frames.empty()) return;
     if (head.names != names || head.pairs != pairs)
-        refuse_line(file, head.names_line,
-                    fmt::format("the columns change here: \"{}\", and \"{}\" before; make a file of each part",
-                                excerpt(fmt::format("{}", fmt::join(head.names, " "))),
-                                excerpt(fmt::format("{}", fmt::join(names, " ")))));
+        refuse_line(
+            file, head.names_line,
+            fmt::format("the columns change here: \"{}\", and \"{}\" before; make a file of each part",
+                        excerpt(fmt::format("{}", fmt::join(head.names, " "))),
+                        excerpt(fmt::format("{}", fmt::join(names, " ")))));
     if (!head.units.empty() && !units.empty() && head.units != units)
         refuse_line(file, head.line,
                     fmt::format("the units change from {} to {}; make a file of each part", excerpt(units),

@@ -1,4 +1,5 @@
-// Where the frames of a text dump lie. One pass over the file finds them; it reads the heads and counts the rows.
+// Where the frames of a text dump lie. One pass over the file finds them; it reads the heads and counts the
+// rows.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,7 @@ struct CutFrame {
     std::optional<std::int64_t> step{};
     bool in_head = false;
     std::int64_t rows = 0, of = 0;  // how many there are
-    bool in_row = false;     // the last row is not whole
+    bool in_row = false;            // the last row is not whole
     bool in_number = false;  // the last row has all its fields, but what the last one is cannot be known
 };
 

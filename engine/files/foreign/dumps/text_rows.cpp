@@ -25,7 +25,7 @@ enum class Kind {
 };
 
 Kind kind_of(const std::string& name) {
-    constexpr std::array finite{"id", "x",  "y",  "z",   "xs",  "ys",  "zs",     "xu",
+    constexpr std::array finite{"id", "x",  "y",   "z",   "xs",  "ys",     "zs",      "xu",
                                 "yu", "zu", "xsu", "ysu", "zsu", "radius", "diameter"};
     if (std::any_of(finite.begin(), finite.end(), [&](const char* one) { return same_word(name, one); }))
         return Kind::finite;
@@ -36,11 +36,12 @@ class RowReader {
   public:
     RowReader(LineReader& lines, const fs::path& file, const RowsToRead& wanted)
         : lines_(lines), file_(file), wanted_(wanted) {
-        // A number takes two bytes of the file at least. Where more rows are claimed than there is room for, one
-        // of those that fit has too few fields.
+        // A number takes two bytes of the file at least. Where more rows are claimed than there is room for,
+        // one of those that fit has too few fields.
         const std::uint64_t width = 2 * std::max<std::uint64_t>(wanted.names.size(), 1);
         const std::uint64_t room = wanted.bytes / width + 1;
-        table_.rows = static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(wanted.rows), room));
+        table_.rows =
+            static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(wanted.rows), room));
         for (const std::string& name : wanted.names) {
             table_.columns.push_back({name, std::vector<double>(table_.rows), {}});
             kinds_.push_back(wanted.pairs ? Kind::number : kind_of(name));
@@ -56,10 +57,11 @@ class RowReader {
             row = read_block(text, row);
         }
         if (row < static_cast<std::size_t>(wanted_.rows))
-            refuse_line(file_, lines_.number(),
-                        fmt::format("the frame has {} rows here and had {} before; did another program change the "
-                                    "file?",
-                                    row, wanted_.rows));
+            refuse_line(
+                file_, lines_.number(),
+                fmt::format("the frame has {} rows here and had {} before; did another program change the "
+                            "file?",
+                            row, wanted_.rows));
         return std::move(table_);
     }
 
@@ -117,9 +119,12 @@ class RowReader {
         if (kinds_[c] == Kind::word) {
             value = index_of(word, c);
         } else if (!any_number(word, value)) {
-            refuse_line(file_, line_, fmt::format("\"{}\" is no number; one is expected in the column {}", excerpt(word), name_of(c)));
+            refuse_line(file_, line_,
+                        fmt::format("\"{}\" is no number; one is expected in the column {}", excerpt(word),
+                                    name_of(c)));
         } else if (kinds_[c] == Kind::finite && !std::isfinite(value)) {
-            refuse_line(file_, line_, fmt::format("{} is \"{}\", which is no finite number; the run went wrong before it "
+            refuse_line(file_, line_,
+                        fmt::format("{} is \"{}\", which is no finite number; the run went wrong before it "
                                     "wrote this, use the frames before it",
                                     name_of(c), excerpt(word)));
         }
@@ -136,9 +141,10 @@ class RowReader {
     std::string name_of(std::size_t c) const { return excerpt(table_.columns[c].name); }
 
     [[noreturn]] void refuse_fields(std::size_t count) const {
-        refuse_line(file_, line_,
-                    fmt::format("this row has {} field{} and {} columns have names; is the file damaged here?", count,
-                                count == 1 ? "" : "s", values_.size()));
+        refuse_line(
+            file_, line_,
+            fmt::format("this row has {} field{} and {} columns have names; is the file damaged here?", count,
+                        count == 1 ? "" : "s", values_.size()));
     }
 
     LineReader& lines_;
@@ -152,9 +158,10 @@ class RowReader {
 };
 
 [[noreturn]] void refuse_doubled(const fs::path& file, std::int64_t line, double id, std::size_t row) {
-    refuse_line(file, line + static_cast<std::int64_t>(row),
-                fmt::format("the id {:.0f} stands in this frame for the second time; each grain needs an id of its own",
-                            id));
+    refuse_line(
+        file, line + static_cast<std::int64_t>(row),
+        fmt::format(
+            "the id {:.0f} stands in this frame for the second time; each grain needs an id of its own", id));
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ struct RowsToRead {
     bool pairs = false;       // no grains: nothing is known of what the columns mean
 };
 
-// From where `lines` stands. Throws UserError with the line of a row that has too few or too many fields, that
-// has a word where a number must be, a place or a radius that is no finite number, or an id that another grain
-// of the frame has.
+// From where `lines` stands. Throws UserError with the line of a row that has too few or too many fields,
+// that has a word where a number must be, a place or a radius that is no finite number, or an id that another
+// grain of the frame has.
 RawTable read_rows(LineReader& lines, const std::filesystem::path& file, const RowsToRead& wanted);
 
 // Throws UserError where two rows have one id. line: of the first row.

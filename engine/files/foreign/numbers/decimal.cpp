@@ -68,8 +68,8 @@ bool not_finite(std::string_view word, double& value) {
     const bool negative = word.starts_with('-');
     if (negative) word.remove_prefix(1);
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    if (word.starts_with("nan(") || same(word, "nan") || word.starts_with("1.#QNAN") || word.starts_with("1.#SNAN") ||
-        word.starts_with("1.#IND"))
+    if (word.starts_with("nan(") || same(word, "nan") || word.starts_with("1.#QNAN") ||
+        word.starts_with("1.#SNAN") || word.starts_with("1.#IND"))
         value = std::numeric_limits<double>::quiet_NaN();
     else if (same(word, "inf") || same(word, "infinity") || word.starts_with("1.#INF"))
         value = negative ? -infinite : infinite;
@@ -98,19 +98,22 @@ double beyond_range(std::string_view word) {
 double scale_exactly(std::uint64_t w, int e) {
     if (e >= 0) {
         const Wide product = Wide{w} * fives[static_cast<std::size_t>(e)];
-        const auto high = static_cast<std::uint64_t>(product >> 64), low = static_cast<std::uint64_t>(product);
+        const auto high = static_cast<std::uint64_t>(product >> 64),
+                   low = static_cast<std::uint64_t>(product);
         if (high == 0) {
             const int up = std::countl_zero(low);
             return rounded(low << up, false, e - up);
         }
         const int up = std::countl_zero(high);
         const Wide level = product << up;
-        return rounded(static_cast<std::uint64_t>(level >> 64), static_cast<std::uint64_t>(level) != 0, e + 64 - up);
+        return rounded(static_cast<std::uint64_t>(level >> 64), static_cast<std::uint64_t>(level) != 0,
+                       e + 64 - up);
     }
-    // The inverse is short of 2^127/b by less than 1, so a/2^64 times it is short of t = 2^63 a/b by less than 1,
-    // and its whole part m by less than 2: m <= t < m + 2. Where m is one bit shorter than 64, all is doubled
-    // with one more bit of the product: m <= t < m + 3. That decides on which side of the half t lies unless the
-    // half is m, m + 1 or m + 2. Where m + 3 goes beyond the next kept number, that number is the nearest too.
+    // The inverse is short of 2^127/b by less than 1, so a/2^64 times it is short of t = 2^63 a/b by less
+    // than 1, and its whole part m by less than 2: m <= t < m + 2. Where m is one bit shorter than 64, all is
+    // doubled with one more bit of the product: m <= t < m + 3. That decides on which side of the half t lies
+    // unless the half is m, m + 1 or m + 2. Where m + 3 goes beyond the next kept number, that number is the
+    // nearest too.
     const auto k = static_cast<std::size_t>(-e);
     const int shift = std::countl_zero(w);
     const int by_shift = std::countl_zero(fives[k]);

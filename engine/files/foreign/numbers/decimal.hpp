@@ -1,5 +1,5 @@
-// Decimal numbers of text files, fast, each the double that is nearest to what stands there (ties to even), as
-// strtod gives it.
+// Decimal numbers of text files, fast, each the double that is nearest to what stands there (ties to even),
+// as strtod gives it.
 //
 // A plain decimal of at most 19 digits is w 10^e with a whole w < 2^64. Where w < 2^53 and |e| <= 22, w and
 // 10^|e| are doubles without error, so that one multiplication or division of doubles rounds once, correctly
@@ -17,8 +17,8 @@ namespace grainreel {
 // w 10^e, rounded once. w > 0, |e| <= 27.
 double scale_exactly(std::uint64_t w, int e);
 
-// The number that all of `word` is. "+1.5", 1e-400 (0), 1e400 (infinity), "nan", "-inf" and "1.#QNAN" of Windows
-// are numbers here; whoever needs finite ones looks. Returns false where it is none.
+// The number that all of `word` is. "+1.5", 1e-400 (0), 1e400 (infinity), "nan", "-inf" and "1.#QNAN" of
+// Windows are numbers here; whoever needs finite ones looks. Returns false where it is none.
 bool any_number(std::string_view word, double& value);
 
 namespace decimal_detail {
@@ -46,11 +46,13 @@ inline std::uint64_t eight_at(const char* p) {
 // sets the highest bit of its byte, and no byte carries into the next.
 inline int digits_of(std::uint64_t v) {
     const std::uint64_t x = v ^ 0x3030303030303030u;
-    const std::uint64_t others = (((x & 0x7F7F7F7F7F7F7F7Fu) + 0x7676767676767676u) | x) & 0x8080808080808080u;
+    const std::uint64_t others =
+        (((x & 0x7F7F7F7F7F7F7F7Fu) + 0x7676767676767676u) | x) & 0x8080808080808080u;
     return std::countr_zero(others) / 8;
 }
 
-// The number that eight digits make; bytes of 0 count as digits 0. Pairs of digits, then of pairs, then of fours.
+// The number that eight digits make; bytes of 0 count as digits 0. Pairs of digits, then of pairs, then of
+// fours.
 inline std::uint64_t number_of(std::uint64_t v) {
     v = (v & 0x0F0F0F0F0F0F0F0Fu) * (10 * 256 + 1) >> 8;
     v = (v & 0x00FF00FF00FF00FFu) * (100 * 65536 + 1) >> 16;
@@ -72,7 +74,8 @@ inline const char* take_digits(const char* p, std::uint64_t& w) {
     while (true) {
         const std::uint64_t v = eight_at(p);
         const int count = digits_of(v);
-        // The digits go up to the end of the eight, zeros before them; two shifts, for one of 64 bits is none.
+        // The digits go up to the end of the eight, zeros before them; two shifts, for one of 64 bits is
+        // none.
         w = w * whole_powers[count] + number_of(v << (56 - 7 * count) << (8 - count));
         p += count;
         if (count < 8) return p;
