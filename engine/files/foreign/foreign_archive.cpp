@@ -202,7 +202,8 @@ void ForeignArchive::list_moments() {
         std::sort(sorted.begin(), sorted.end());
         const double median =
             sorted.empty() || !(sorted[sorted.size() / 2] > 0) ? 1 : sorted[sorted.size() / 2];
-        for (double& time : times) time /= median * kUntimedRate;
+        // Of a single frame nothing can be told.
+        for (double& time : times) time = times.size() == 1 ? 0 : time / (median * kUntimedRate);
         for (double& interval : intervals) interval /= median * kUntimedRate;
         news_.push_back(fmt::format("{}: says no times; its frames are taken as {} a second{}",
                                     path_.string(), kUntimedRate,
@@ -216,6 +217,11 @@ void ForeignArchive::list_moments() {
     for (std::size_t k = 0; k < times.size(); ++k)
         even = even &&
                std::abs(times[k] - static_cast<double>(raw_steps_[k]) * tick) <= 1e-9 * std::abs(times[k]);
+    if (times.size() == 1 && !world_.time_known) {
+        Frame& moment = moments_.emplace_back();
+        moment.step = raw_steps_.front();
+        return;
+    }
     if (!even || !(tick > 0)) {
         double shortest = std::numeric_limits<double>::infinity();
         for (const double interval : intervals)

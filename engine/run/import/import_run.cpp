@@ -181,6 +181,7 @@ ImportedRun import_run(const ImportRequest& request) {
     for (std::size_t k = 0; k < archive.moments().size(); ++k) {
         Frame frame = archive.grains(k);
         if (frame.step <= last_step && k > 0) continue;  // two frames of one moment
+        if (!archive.world().time_known && archive.moments().size() == 1) frame.step = 0;
         last_step = frame.step;
         as_run.complete(frame);
         run.most_grains = std::max(run.most_grains, static_cast<std::int64_t>(frame.size()));

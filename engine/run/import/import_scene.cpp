@@ -154,10 +154,8 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
             walls += fmt::format("path = {}\n", quoted(path));
         }
     }
-    const double step =
-        moments.back().step != 0    ? moments.back().time / static_cast<double>(moments.back().step)
-        : moments.front().step != 0 ? moments.front().time / static_cast<double>(moments.front().step)
-                                    : 1e-6;
+    const Frame& one = moments.back().step != 0 ? moments.back() : moments.front();
+    const double step = one.step != 0 && one.time != 0 ? one.time / static_cast<double>(one.step) : 1e-6;
     const Vec3 margin = 1e-9 * (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
     const std::string start =
         fmt::format("\n[start]\nregion = {{ low = {}, high = {} }}\n\n[run]\nduration = {}\nstep = {}\n",

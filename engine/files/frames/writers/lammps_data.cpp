@@ -1,4 +1,5 @@
 // A data file of LAMMPS with atom_style sphere (manual, command read_data): the last of the frames.
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ class LammpsData final : public FrameWriter {
         const int shift = frame.size() > 0 && frame.id.front() == 0 ? 1 : 0;
         text += "\nAtoms # sphere\n\n";
         for (std::size_t i = 0; i < frame.size(); ++i) {
-            const Vec3& x = frame.position[i];
+            const Vec3 x = inside(frame.position[i], box);
             text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, frame.species[i] + 1,
                                 2 * frame.radius[i], density(frame.species[i]), x.x(), x.y(), x.z());
             out.pass();
@@ -57,6 +58,16 @@ class LammpsData final : public FrameWriter {
     }
 
   private:
+    // read_data refuses atoms outside a box.
+    static Vec3 inside(Vec3 place, const WorldCell& box) {
+        for (std::size_t edge = 3; edge-- > 0;) {
+            const auto axis = static_cast<Eigen::Index>(edge);
+            const double length = box.edges[edge][axis];
+            if (!box.periodic[edge] || !(length > 0)) continue;
+            place -= std::floor((place[axis] - box.origin[axis]) / length) * box.edges[edge];
+        }
+        return place;
+    }
     double density(std::int32_t species) const {
         const auto s = static_cast<std::size_t>(species);
         return s < world_.species.size() && world_.species[s].density > 0 ? world_.species[s].density
