@@ -183,6 +183,9 @@ RawFrame frame_of(VtkContents&& contents) {
     frame.time = contents.time;
     for (VtkPiece& piece : contents.pieces) {
         std::vector<RawWall> walls = walls_of(piece);
+        // Pieces of one surface, written by several processes.
+        if (walls.size() == 1 && frame.walls.size() == 1 && join_walls(frame.walls[0], walls[0]))
+            walls.clear();
         std::move(walls.begin(), walls.end(), std::back_inserter(frame.walls));
         add_contacts(piece, frame.contacts);
         add_grains(piece, frame.grains);

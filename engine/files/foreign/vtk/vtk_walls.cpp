@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -11,6 +12,8 @@
 
 namespace grainreel {
 namespace {
+
+constexpr auto most_vertices = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
 
 // Triangles of some cells, with the points that they use and no others.
 RawWall wall_of(const VtkPiece& piece, const std::vector<VtkTriangle>& triangles,
@@ -64,7 +67,7 @@ std::vector<std::size_t> mesh_parts(const std::vector<double>& meshid) {
 }
 
 std::vector<RawWall> walls_of(const VtkPiece& piece) {
-    if (piece.points >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    if (piece.points >= most_vertices)
         throw UserError(
             fmt::format("{}: a surface of {} points; at most 2^31 are read", piece.where, piece.points));
     std::vector<std::size_t> surfaces;
@@ -89,6 +92,25 @@ std::vector<RawWall> walls_of(const VtkPiece& piece) {
         cells.clear();
     }
     return walls;
+}
+
+bool join_walls(RawWall& wall, const RawWall& more) {
+    const bool same = std::equal(wall.cells.columns.begin(), wall.cells.columns.end(),
+                                 more.cells.columns.begin(), more.cells.columns.end(),
+                                 [](const RawColumn& a, const RawColumn& b) { return a.name == b.name; });
+    const std::size_t vertices = wall.mesh.vertices.size();
+    if (!same || vertices + more.mesh.vertices.size() >= most_vertices) return false;
+    wall.mesh.vertices.insert(wall.mesh.vertices.end(), more.mesh.vertices.begin(), more.mesh.vertices.end());
+    for (TriangleMesh::Triangle triangle : more.mesh.triangles) {
+        for (std::int32_t& corner : triangle) corner += static_cast<std::int32_t>(vertices);
+        wall.mesh.triangles.push_back(triangle);
+    }
+    for (std::size_t i = 0; i < more.cells.columns.size(); ++i)
+        wall.cells.columns[i].values.insert(wall.cells.columns[i].values.end(),
+                                            more.cells.columns[i].values.begin(),
+                                            more.cells.columns[i].values.end());
+    wall.cells.rows += more.cells.rows;
+    return true;
 }
 
 }  // namespace grainreel

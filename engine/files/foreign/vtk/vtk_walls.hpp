@@ -17,4 +17,7 @@ std::vector<RawWall> walls_of(const VtkPiece& piece);
 // triangles of a mesh one number. All 0 where it is neither.
 std::vector<std::size_t> mesh_parts(const std::vector<double>& meshid);
 
+// Adds the second to the first, and returns true, where both have the same columns.
+bool join_walls(RawWall& wall, const RawWall& more);
+
 }  // namespace grainreel
