@@ -25,8 +25,12 @@ void add_grain_list(Answer& answer, const Snapshot& s, const std::vector<std::si
         const std::size_t i = found[k];
         const Vec3& at = s.frame.position[i];
         auto& row = table.rows.emplace_back();
-        row = {static_cast<std::int64_t>(s.frame.id[i]), name_of_body(s, s.frame.id[i]), at.x(), at.y(),
-               at.z(), s.frame.radius[i]};
+        row = {static_cast<std::int64_t>(s.frame.id[i]),
+               name_of_body(s, s.frame.id[i]),
+               at.x(),
+               at.y(),
+               at.z(),
+               s.frame.radius[i]};
         for (const ListedColumn& one : more) row.push_back(one.of(i));
     }
     answer.tables.push_back(std::move(table));

@@ -25,6 +25,9 @@ struct RunToRead {
     bool imported = false;
 };
 
+// The folder that a file, a pattern or a folder lies in.
+std::filesystem::path folder_around(const std::filesystem::path& path);
+
 // Tells what was guessed and derived. Throws UserError for options of reading with a run of ours.
 RunToRead run_to_read(const std::filesystem::path& path, const ReadingOptions& reading, Reporter& reporter);
 

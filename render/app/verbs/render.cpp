@@ -14,6 +14,7 @@
 #include "render/app/report/record.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
+#include "render/film/run/follow_run.hpp"
 #include "render/film/run/redraw_run.hpp"
 #include "render/film/run/still.hpp"
 #include "render/film/sources/revisited_run.hpp"
@@ -73,6 +74,16 @@ class Render final : public Verb {
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
+        CLI::Option* follow = parser.add_flag(
+            "--follow", follow_,
+            "Film files of another program while they grow, until nothing new comes or Ctrl-C");
+        parser
+            .add_option("--idle", idle_,
+                        "With --follow: s without a new frame, after which the film ends [60]")
+            ->needs(follow)
+            ->check(CLI::Range(0.5, 1e6))
+            ->type_name("SECONDS");
+        for (CLI::Option* other : {at, from, to, every}) follow->excludes(other);
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
@@ -86,6 +97,7 @@ class Render final : public Verb {
         film_.command = command;
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
+        if (follow_) return follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
         if (read.imported) request_.beside = read.beside;
@@ -100,6 +112,16 @@ class Render final : public Verb {
     }
 
   private:
+    int follow(Reporter& reporter) const {
+        std::error_code ignored;
+        if (std::filesystem::exists(request_.run / "scene.toml", ignored))
+            throw UserError(
+                "--follow: is for files of other programs; a run of ours is shown by grainreel watch");
+        FollowRun film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle_},
+                       reporter);
+        return tell_folder(film.run(), film_);
+    }
+
     int draw_one(Reporter& reporter) const {
         RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
         keep_camera_file(camera_, source.scene().film.camera);
@@ -112,6 +134,8 @@ class Render final : public Verb {
     RenderRequest request_;
     ReadingOptions reading_;
     CameraFiles camera_;
+    bool follow_ = false;
+    double idle_ = 60;
     FilmRequest film_;
 };
 

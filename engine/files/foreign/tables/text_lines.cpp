@@ -57,8 +57,8 @@ bool TextLines::next() {
         }
         ended_ = found != nullptr;
         from = buffer_.data() + at_;
-        const std::size_t length = ended_ ? static_cast<std::size_t>(static_cast<const char*>(found) - from)
-                                          : filled_ - at_;
+        const std::size_t length =
+            ended_ ? static_cast<std::size_t>(static_cast<const char*>(found) - from) : filled_ - at_;
         begin_ = place_ + at_;
         at_ += length + (ended_ ? 1 : 0);
         end_ = place_ + at_;
