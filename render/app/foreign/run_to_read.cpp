@@ -13,17 +13,14 @@ namespace grainreel {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// The folder that a file, a pattern or a folder lies in.
 fs::path folder_around(const fs::path& path) {
     std::error_code ignored;
-    if (!is_pattern(path) && fs::is_directory(path, ignored))
-        return fs::absolute(path).lexically_normal().parent_path();
+    if (!is_pattern(path) && fs::is_directory(path, ignored)) {
+        const fs::path whole = fs::absolute(path).lexically_normal();
+        return whole.has_filename() ? whole.parent_path() : whole.parent_path().parent_path();
+    }
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
-
-}  // namespace
 
 RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
     if (!is_foreign(path)) {
