@@ -166,7 +166,8 @@ void ForeignArchive::add_companions(const fs::path& file) {
         raw_format_of(other) != nullptr)
         contacts_ = std::make_unique<RawSeries>(std::vector<fs::path>{other});
     other.replace_extension(".restart");
-    if (other != file && options_.walls.empty() && what_holds(other) != Holds::nothing)
+    if (other != file && options_.walls.empty() && fs::is_regular_file(other, ignored) &&
+        what_holds(other) != Holds::nothing)
         wall_files_.push_back({other});
 }
 

@@ -90,9 +90,20 @@ bool FollowRun::draw_new() {
         if (needs_touches(scene_.film.shows))
             frame.touches = frames_->touches(drawn_).value_or(std::vector<Touch>());
         film_.maker().take(std::make_shared<const Frame>(std::move(frame)), "");
-        film_.show_progress();
+        show_progress();
     }
     return true;
+}
+
+// Of those that are known so far.
+void FollowRun::show_progress() {
+    Progress progress;
+    progress.stage = Progress::Stage::drawing;
+    progress.frames = film_.frames_done();
+    progress.frames_planned = static_cast<std::int64_t>(frames_->moments().size());
+    progress.done = static_cast<double>(progress.frames) / static_cast<double>(progress.frames_planned);
+    progress.elapsed = desk_.watch.seconds();
+    desk_.listener.progress(progress);
 }
 
 void FollowRun::look_again() {

@@ -34,6 +34,7 @@ class FollowRun final : public FilmRun {
     void report_written() override;
     // Draws all frames that have come. False when told to stop.
     bool draw_new();
+    void show_progress();
     // Looks for more; throws RunError where files were truncated or replaced.
     void look_again();
 
