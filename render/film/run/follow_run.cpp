@@ -68,7 +68,8 @@ std::vector<std::string> species_of(const ForeignArchive& frames) {
 
 void check_options(const FollowRequest& what, const FilmRequest& request) {
     if (!what.reading.container.empty())
-        throw UserError("--container: its walls move with the drive, which --follow does not do; leave one out");
+        throw UserError(
+            "--container: its walls move with the drive, which --follow does not do; leave one out");
     if (!request.film && !request.frames)
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
 }
@@ -76,7 +77,10 @@ void check_options(const FollowRequest& what, const FilmRequest& request) {
 }  // namespace
 
 FollowRun::FollowRun(const FilmRequest& request, const FollowRequest& what, RunListener& listener)
-    : FilmRun(request, listener), what_(what), frames_((check_options(what, request), first_frames(what, listener))), scene_(scene_of(what, request)) {
+    : FilmRun(request, listener),
+      what_(what),
+      frames_((check_options(what, request), first_frames(what, listener))),
+      scene_(scene_of(what, request)) {
     film_.check(scene_, static_cast<std::int64_t>(frames_->moments().size()));
     film_.use_threads(drawing_threads(scene_.run.threads));
     make_folder({scene_.name + "-render", what.beside, request.out, request.force});
@@ -118,8 +122,9 @@ void FollowRun::look_again() {
         throw RunError(fmt::format("{}: has {} frames, but {} were drawn; it was truncated or replaced",
                                    what_.from.string(), now->moments().size(), drawn_));
     if (species_of(*now) != species_of(*frames_))
-        throw RunError(fmt::format("{}: has a type that the frames before lacked; name all types by --species",
-                                   what_.from.string()));
+        throw RunError(
+            fmt::format("{}: has a type that the frames before lacked; name all types by --species",
+                        what_.from.string()));
     frames_ = std::move(now);
 }
 
@@ -127,8 +132,9 @@ bool FollowRun::work() {
     mark_begun();
     desk_.record.scene_file = what_.from.string();
     begin_record(frames_->news());
-    desk_.listener.info(fmt::format("{}: {} frames so far; the film ends {:.3g} s after the last one, or with Ctrl-C",
-                                    what_.from.string(), frames_->moments().size(), what_.idle));
+    desk_.listener.info(
+        fmt::format("{}: {} frames so far; the film ends {:.3g} s after the last one, or with Ctrl-C",
+                    what_.from.string(), frames_->moments().size(), what_.idle));
     film_.open(scene_, static_cast<std::int64_t>(frames_->moments().size()),
                std::make_shared<const Frame>(frames_->first_whole()));
     Steady::time_point last = Steady::now();
@@ -143,8 +149,8 @@ bool FollowRun::work() {
         nap(std::clamp(5 * seconds_since(begin), 0.5, 0.25 * what_.idle + 0.5), desk_.listener);
         if (desk_.listener.stop_signal() != 0) return false;
     }
-    desk_.record.drawn = {{what_.from.string(), static_cast<std::int64_t>(drawn_), frames_->moments().front().time,
-                           frames_->moments().back().time}};
+    desk_.record.drawn = {{what_.from.string(), static_cast<std::int64_t>(drawn_),
+                           frames_->moments().front().time, frames_->moments().back().time}};
     return true;
 }
 

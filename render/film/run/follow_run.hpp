@@ -1,5 +1,5 @@
-// A film of files that another program is still writing: each frame is drawn once it is whole. The film ends when
-// nothing new has come for a while, or with Ctrl-C.
+// A film of files that another program is still writing: each frame is drawn once it is whole. The film ends
+// when nothing new has come for a while, or with Ctrl-C.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 namespace grainreel {
 
 struct FollowRequest {
-    std::filesystem::path from;    // a file, a pattern, a folder
+    std::filesystem::path from;  // a file, a pattern, a folder
     ReadingOptions reading{};
     Assignments sets{};            // other values for keys of the film
     std::filesystem::path beside;  // where the film goes without --out
@@ -24,8 +24,8 @@ struct FollowRequest {
 
 class FollowRun final : public FilmRun {
   public:
-    // Waits for the first frame, as long as `idle` allows. Throws UserError where none comes, and for what is wrong with
-    // files and options; nothing is on disk then.
+    // Waits for the first frame, as long as `idle` allows. Throws UserError where none comes, and for what is
+    // wrong with files and options; nothing is on disk then.
     FollowRun(const FilmRequest& request, const FollowRequest& what, RunListener& listener);
 
   private:
