@@ -9,6 +9,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/files/foreign/bytes/file_bytes.hpp"
+#include "engine/files/foreign/dumps/grain_checks.hpp"
+#include "engine/files/foreign/dumps/growth.hpp"
 #include "engine/files/foreign/dumps/old_columns.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
 #include "engine/files/foreign/dumps/text_rows.hpp"
@@ -22,9 +24,8 @@ namespace fs = std::filesystem;
 
 class LammpsText : public RawFile {
   public:
-    explicit LammpsText(const fs::path& file) : file_(file), packing_(packing_of(file)) {
+    explicit LammpsText(const fs::path& file) : file_(file), packing_(packing_of(file)), growth_(file) {
         refuse_yaml();
-        state_ = FileBytes(file_).state();
         LineReader lines(file_);
         index_.go_on(lines, file_);
         stream_cut_ = lines.cut_off();
@@ -62,7 +63,7 @@ class LammpsText : public RawFile {
 
     fs::path file_;
     Packing packing_;
-    FileState state_;
+    Growth growth_;
     TextIndex index_;
     OldColumns old_;  // in files without names
     bool stream_cut_ = false;
@@ -137,7 +138,8 @@ RawFrame LammpsText::read_frame(LineReader& lines, const DumpFrame& frame) const
     read.time = frame.time;
     read.box = head.box;
     (index_.pairs ? read.contacts : read.grains) = read_rows(lines, file_, wanted);
-    refuse_doubled_ids(read.grains, file_, head.rows_line);
+    if (const std::optional<BadId> bad = bad_id(read.grains))
+        refuse_line(file_, head.rows_line + static_cast<std::int64_t>(bad->row), bad->words());
     return read;
 }
 
@@ -160,16 +162,8 @@ std::vector<std::string> LammpsText::news() const {
 }
 
 bool LammpsText::grow() {
-    const FileState now = FileBytes(file_).state();
-    if (!now.same_file(state_))
-        throw UserError(fmt::format("{}: another file has this name now; begin again with it", shown(file_)));
-    if (now.size < state_.size)
-        throw UserError(
-            fmt::format("{}: became shorter, from {} to {} bytes, while it was followed; begin again with it",
-                        shown(file_), state_.size, now.size));
-    if (now == state_) return false;
+    if (!growth_.look()) return false;
     const std::size_t had = index_.frames.size();
-    state_ = now;
     LineReader lines(file_);
     index_.go_on(lines, file_);
     stream_cut_ = lines.cut_off();

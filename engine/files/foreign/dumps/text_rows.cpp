@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string_view>
 
 #include "engine/base/utf8.hpp"
+#include "engine/files/foreign/dumps/grain_checks.hpp"
 #include "engine/files/foreign/numbers/decimal.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/words.hpp"
@@ -25,10 +25,7 @@ enum class Kind {
 };
 
 Kind kind_of(const std::string& name) {
-    constexpr std::array finite{"id", "x",  "y",   "z",   "xs",  "ys",     "zs",      "xu",
-                                "yu", "zu", "xsu", "ysu", "zsu", "radius", "diameter"};
-    if (std::any_of(finite.begin(), finite.end(), [&](const char* one) { return same_word(name, one); }))
-        return Kind::finite;
+    if (must_be_finite(name)) return Kind::finite;
     return same_word(name, "element") || same_word(name, "typelabel") ? Kind::word : Kind::number;
 }
 
@@ -157,44 +154,10 @@ class RowReader {
     std::int64_t line_ = 0;
 };
 
-[[noreturn]] void refuse_doubled(const fs::path& file, std::int64_t line, double id, std::size_t row) {
-    refuse_line(
-        file, line + static_cast<std::int64_t>(row),
-        fmt::format(
-            "the id {:.0f} stands in this frame for the second time; each grain needs an id of its own", id));
-}
-
 }  // namespace
 
 RawTable read_rows(LineReader& lines, const fs::path& file, const RowsToRead& wanted) {
     return RowReader(lines, file, wanted).read();
-}
-
-void refuse_doubled_ids(const RawTable& grains, const fs::path& file, std::int64_t line) {
-    const RawColumn* const ids = grains.find("id");
-    if (ids == nullptr || grains.rows < 2) return;
-    const std::vector<double>& values = ids->values;
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    const double span = *most - *least;
-    for (std::size_t row = 0; row < values.size(); ++row)
-        if (values[row] != std::floor(values[row]))
-            refuse_line(file, line + static_cast<std::int64_t>(row),
-                        fmt::format("the id {:g} is no whole number", values[row]));
-    if (span < 32.0 * static_cast<double>(values.size())) {  // a bit for each id that can be
-        std::vector<bool> seen(static_cast<std::size_t>(span) + 1);
-        for (std::size_t row = 0; row < values.size(); ++row) {
-            const auto k = static_cast<std::size_t>(values[row] - *least);
-            if (seen[k]) refuse_doubled(file, line, values[row], row);
-            seen[k] = true;
-        }
-        return;
-    }
-    std::vector<std::pair<double, std::size_t>> sorted(values.size());
-    for (std::size_t row = 0; row < values.size(); ++row) sorted[row] = {values[row], row};
-    std::sort(sorted.begin(), sorted.end());
-    const auto doubled = std::adjacent_find(sorted.begin(), sorted.end(),
-                                            [](const auto& a, const auto& b) { return a.first == b.first; });
-    if (doubled != sorted.end()) refuse_doubled(file, line, doubled->first, std::next(doubled)->second);
 }
 
 }  // namespace grainreel

@@ -19,11 +19,7 @@ struct RowsToRead {
 };
 
 // From where `lines` stands. Throws UserError with the line of a row that has too few or too many fields,
-// that has a word where a number must be, a place or a radius that is no finite number, or an id that another
-// grain of the frame has.
+// that has a word where a number must be, or an id, a place or a radius that is no finite number.
 RawTable read_rows(LineReader& lines, const std::filesystem::path& file, const RowsToRead& wanted);
-
-// Throws UserError where two rows have one id. line: of the first row.
-void refuse_doubled_ids(const RawTable& grains, const std::filesystem::path& file, std::int64_t line);
 
 }  // namespace grainreel
