@@ -74,6 +74,7 @@ ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& optio
     read_walls();
     make_world();
     match_walls();
+    for (std::size_t w = 0; w < walls_.size(); ++w) world_.bodies[kFirstPlaneBody + w].mesh = walls_[w].shape;
     decide_velocities();
 }
 
@@ -395,6 +396,16 @@ void ForeignArchive::read_walls() {
     }
 }
 
+// A wall rests where it is at the first moment of the grains.
+void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
+    const BodyPose rest = wall.poses[first];
+    for (Vec3& vertex : wall.shape.vertices) vertex = rest.moved(vertex);
+    for (BodyPose& pose : wall.poses) {
+        pose.rotation = pose.rotation * rest.rotation.conjugate();
+        pose.place -= pose.rotation * rest.place;
+    }
+}
+
 // The pose of each wall at each moment: the last one that is not later, by step or by time.
 void ForeignArchive::match_walls() {
     for (std::size_t k = 0; k < moments_.size(); ++k) {
@@ -410,6 +421,8 @@ void ForeignArchive::match_walls() {
             }
             at.push_back(pose);
         }
+        if (k == 0)
+            for (std::size_t w = 0; w < walls_.size(); ++w) rest_at_first(walls_[w], at[w]);
         wall_at_.push_back(std::move(at));
         Frame& moment = moments_[k];
         moment.bodies.resize(kFirstPlaneBody + walls_.size());

@@ -57,6 +57,7 @@ class ForeignArchive final : public FrameArchive {
     void read_walls();
     void add_box();
     void match_walls();
+    static void rest_at_first(MovingWall& wall, std::size_t first);
     void decide_velocities();
     Frame read(std::size_t index) const;
     void derive_velocities(std::size_t index, Frame& frame) const;

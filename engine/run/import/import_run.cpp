@@ -99,12 +99,8 @@ class AsRun {
         frame.cycles = clock_.cycles(frame.step);
         frame.phase = clock_.phase(frame.step);
         const Pose drive = WallMotion(scene_.drive, clock_).at(frame.step);
-        std::vector<BodyPose> poses = poses_of(bodies_, drive);
-        // Walls of files are where these say; they come behind the scene's own.
-        const std::size_t own = poses.size() - std::min(poses.size(), frame.bodies.size() - kFirstPlaneBody);
-        for (std::size_t w = kFirstPlaneBody; w < frame.bodies.size(); ++w)
-            poses[own + w - kFirstPlaneBody] = frame.bodies[w];
-        frame.bodies = std::move(poses);
+        // The motions of the files' walls are part of the scene, and go through each moment.
+        frame.bodies = poses_of(bodies_, drive);
         if (!with_container_ || scene_.drive.moves != Drive::Moves::container) return;
         for (std::size_t i = 0; i < frame.size(); ++i) {
             frame.position[i] += drive.offset;
@@ -159,7 +155,8 @@ ImportedRun import_run(const ImportRequest& request) {
     if (archive.moments().empty()) throw UserError(fmt::format("{}: holds no frame", request.from.string()));
     NewFolder folder(request.folder);
     const ImportSurvey survey = survey_of(archive, [&](std::size_t k) { tell(static_cast<double>(k)); });
-    write_import_scene(folder.path(), archive, survey, request.reading, run.news);
+    const std::vector<bool> moving =
+        write_import_scene(folder.path(), archive, survey, request.reading, run.news);
     const Scene scene = read_scene(folder.path() / "scene.toml", {}, measurable_in);
     const AsRun as_run(scene, archive.moments(), request.reading.moves_with_container);
 

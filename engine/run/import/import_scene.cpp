@@ -10,6 +10,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/file/writer.hpp"
+#include "engine/scene/motion/path.hpp"
 
 namespace grainreel {
 
@@ -80,15 +81,48 @@ void write_ply(const fs::path& file, const TriangleMesh& mesh) {
     write_text(file, text);
 }
 
+void add_row(std::string& text, double time, const BodyPose& pose) {
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", time, pose.place.x(), pose.place.y(), pose.place.z(),
+                        pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
+}
+
+// Rows of a motion's file: the pose of each moment, and between moments so many that no turn from row to row
+// is larger than a radian. Before the first moment the wall stands.
 std::string path_text(const ForeignArchive& archive, std::size_t wall) {
+    constexpr double largest = 1;  // rad
+    const std::vector<Frame>& moments = archive.moments();
     std::string text = "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
-    for (const Frame& moment : archive.moments()) {
-        const BodyPose pose = moment.body(kFirstPlaneBody + wall);
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", moment.time, pose.place.x(), pose.place.y(),
-                            pose.place.z(), pose.rotation.w(), pose.rotation.x(), pose.rotation.y(),
-                            pose.rotation.z());
+    const BodyPose first = moments.front().body(kFirstPlaneBody + wall);
+    if (moments.front().time > 0) add_row(text, 0, first);
+    add_row(text, moments.front().time, first);
+    for (std::size_t k = 1; k < moments.size(); ++k) {
+        const BodyPose from = moments[k - 1].body(kFirstPlaneBody + wall),
+                       to = moments[k].body(kFirstPlaneBody + wall);
+        const double begin = moments[k - 1].time, end = moments[k].time;
+        if (!(end > begin)) continue;
+        const auto parts = static_cast<int>(1 + from.rotation.angularDistance(to.rotation) / largest);
+        for (int part = 1; part < parts; ++part) {
+            const double share = static_cast<double>(part) / parts;
+            BodyPose between;
+            between.rotation = from.rotation.slerp(share, to.rotation);
+            between.place = from.place + share * (to.place - from.place);
+            add_row(text, begin + share * (end - begin), between);
+        }
+        add_row(text, end, to);
     }
     return text;
+}
+
+// Whether the motion's file can be read back; news: why not.
+bool is_smooth(const fs::path& file, const std::string& wall, std::vector<std::string>& news) {
+    try {
+        MotionPath::read(file);
+        return true;
+    } catch (const UserError& why) {
+        news.push_back(fmt::format(
+            "{}: its motion cannot be followed, and it stands where it was at first ({})", wall, why.what()));
+        return false;
+    }
 }
 
 // Tables of a scene's text that say what its walls are and how they move.
@@ -149,10 +183,12 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
         const std::string file = fmt::format("wall_{}.ply", w), path = fmt::format("wall_{}_path.csv", w);
         write_ply(folder / file, wall.shape);
         walls += fmt::format("\n[[mesh]]\nname = {}\nfile = {}\n", quoted(wall.name), quoted(file));
-        if (wall.moves && moments.size() >= 4) {
+        bool moves = wall.moves && moments.size() > 1;
+        if (moves) {
             write_text(folder / path, path_text(archive, w));
-            walls += fmt::format("path = {}\n", quoted(path));
+            moves = is_smooth(folder / path, wall.name, news);
         }
+        if (moves) walls += fmt::format("path = {}\n", quoted(path));
     }
     const Frame& one = moments.back().step != 0 ? moments.back() : moments.front();
     const double step = one.step != 0 && one.time != 0 ? one.time / static_cast<double>(one.step) : 1e-6;

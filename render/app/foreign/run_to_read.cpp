@@ -33,7 +33,7 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     ImportRequest request;
     request.from = path;
     request.reading = reading;
-    request.program_version = build_info::version;
+    request.program_version = fmt::format("{} ({})", build_info::version, build_info::commit);
     const ShareWatcher watcher(reporter, Progress::Stage::paging);
     request.watcher = [&](double done) { return watcher("reading " + path.filename().string(), done); };
     const ImportedRun run = cached_import(request);
