@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "engine/files/foreign/meaning/grain_columns.hpp"
-#include "engine/files/foreign/reading_options.hpp"
 #include "engine/files/foreign/series/raw_series.hpp"
 #include "engine/files/foreign/series/wall_motion.hpp"
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/reading_options.hpp"
 
 namespace grainreel {
 

@@ -155,8 +155,8 @@ ImportedRun import_run(const ImportRequest& request) {
     if (archive.moments().empty()) throw UserError(fmt::format("{}: holds no frame", request.from.string()));
     NewFolder folder(request.folder);
     const ImportSurvey survey = survey_of(archive, [&](std::size_t k) { tell(static_cast<double>(k)); });
-    const std::vector<bool> moving =
-        write_import_scene(folder.path(), archive, survey, request.reading, run.news);
+
+    write_import_scene(folder.path(), archive, survey, request.reading, run.news);
     const Scene scene = read_scene(folder.path() / "scene.toml", {}, measurable_in);
     const AsRun as_run(scene, archive.moments(), request.reading.moves_with_container);
 

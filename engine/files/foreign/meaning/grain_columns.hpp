@@ -11,7 +11,7 @@
 
 #include "engine/files/foreign/meaning/units.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/foreign/reading_options.hpp"
+#include "engine/files/frames/reading_options.hpp"
 #include "engine/frame.hpp"
 
 namespace grainreel {

@@ -85,11 +85,6 @@ FileGroup series_of(const fs::path& file) {
     return groups.front();
 }
 
-bool is_pattern(const fs::path& path) {
-    std::error_code ignored;
-    return path.string().find_first_of("*?[") != std::string::npos && !fs::exists(path, ignored);
-}
-
 std::vector<fs::path> files_of_pattern(const fs::path& pattern) {
     glob_t found{};
     const int failed = glob(pattern.c_str(), 0, nullptr, &found);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/frames/path_pattern.hpp"
+
 namespace grainreel {
 
 // Files whose names differ in one number alone, by rising number ("dump.2" before "dump.10"); or one file.
@@ -25,8 +27,6 @@ FileGroup series_of(const std::filesystem::path& file);
 // All groups of these files, each in the order of its numbers; groups in the order of their patterns.
 std::vector<FileGroup> grouped(const std::vector<std::filesystem::path>& files);
 
-// Whether a text is a pattern (* ? [) and no file has that name.
-bool is_pattern(const std::filesystem::path& path);
 // The ordinary files that a pattern names: * ? [...] in the last parts of the path. Throws UserError where
 // there are none.
 std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path& pattern);
