@@ -30,7 +30,7 @@ class HeadReader {
                                      : counts() && box() && columns() && chunks();
         if (all) return BinaryEnd::whole;
         if (!complaint_.empty()) return BinaryEnd::damaged;
-        return any_ ? BinaryEnd::cut : BinaryEnd::nothing;
+        return in_.place() > head_.place ? BinaryEnd::cut : BinaryEnd::nothing;
     }
 
     const std::string& complaint() const { return complaint_; }
@@ -43,9 +43,7 @@ class HeadReader {
 
     template <class Number>
     bool number(Number& to) {
-        const bool read = in_.read(to);
-        any_ = any_ || read;
-        return read;
+        return in_.read(to);
     }
 
     bool magic() {
@@ -182,7 +180,6 @@ class HeadReader {
     const BinaryForm& form_;
     BinaryHead& head_;
     std::string complaint_;
-    bool any_ = false;
     std::int32_t revision_ = 0;
 };
 

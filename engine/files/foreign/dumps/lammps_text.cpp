@@ -11,6 +11,7 @@
 #include "engine/files/foreign/bytes/file_bytes.hpp"
 #include "engine/files/foreign/dumps/grain_checks.hpp"
 #include "engine/files/foreign/dumps/growth.hpp"
+#include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/dumps/old_columns.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
 #include "engine/files/foreign/dumps/text_rows.hpp"
@@ -26,9 +27,7 @@ class LammpsText : public RawFile {
   public:
     explicit LammpsText(const fs::path& file) : file_(file), packing_(packing_of(file)), growth_(file) {
         refuse_yaml();
-        LineReader lines(file_);
-        index_.go_on(lines, file_);
-        stream_cut_ = lines.cut_off();
+        find_frames();
         if (index_.frames.empty()) refuse_without_frame();
         if (index_.names.empty()) name_columns();
         update();
@@ -56,6 +55,7 @@ class LammpsText : public RawFile {
   private:
     void refuse_yaml() const;
     [[noreturn]] void refuse_without_frame() const;
+    void find_frames();
     void name_columns();
     void update();
     RawFrame read_frame(LineReader& lines, const DumpFrame& frame) const;
@@ -66,7 +66,6 @@ class LammpsText : public RawFile {
     Growth growth_;
     TextIndex index_;
     OldColumns old_;  // in files without names
-    bool stream_cut_ = false;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
     mutable std::mutex reading_;
@@ -80,6 +79,17 @@ void LammpsText::refuse_yaml() const {
             fmt::format("{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
                         "write it anew by rerun",
                         shown(file_)));
+}
+
+void LammpsText::find_frames() {
+    if (std::optional<KeptIndex> kept = kept_index(file_, growth_.state())) {
+        index_ = std::move(kept->index);
+        if (kept->of_now) return;
+    }
+    const std::uint64_t known = index_.end;
+    LineReader lines(file_);
+    index_.go_on(lines, file_);
+    if (index_.end - known >= long_pass) keep_index(file_, growth_.state(), index_);
 }
 
 void LammpsText::refuse_without_frame() const {
@@ -146,7 +156,7 @@ RawFrame LammpsText::read_frame(LineReader& lines, const DumpFrame& frame) const
 std::vector<std::string> LammpsText::news() const {
     std::vector<std::string> news;
     const std::string name = shown(file_.filename());
-    if (stream_cut_)
+    if (index_.stream_cut)
         news.push_back(
             fmt::format("{}: the packed content is cut; what stands before the cut is read", name));
     if (index_.cut) {
@@ -166,7 +176,6 @@ bool LammpsText::grow() {
     const std::size_t had = index_.frames.size();
     LineReader lines(file_);
     index_.go_on(lines, file_);
-    stream_cut_ = lines.cut_off();
     if (index_.names.empty() && old_.names.empty()) name_columns();
     update();
     kept_.reset();

@@ -89,6 +89,7 @@ void TextIndex::go_on(LineReader& lines, const fs::path& file) {
     lines.seek(end, end_line);
     while (take_frame(lines, file)) {
     }
+    stream_cut = lines.cut_off();
 }
 
 bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {

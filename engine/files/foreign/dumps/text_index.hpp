@@ -42,6 +42,7 @@ struct TextIndex {
     std::int64_t end_line = 1;
     bool unended = false;  // the last frame's last row has no line feed behind it
     std::optional<CutFrame> cut{};
+    bool stream_cut = false;  // the packed stream ends before its end
 
     // Frames behind those that are known. Throws UserError with the line where the content is none of a dump.
     void go_on(LineReader& lines, const std::filesystem::path& file);

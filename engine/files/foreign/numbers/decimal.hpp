@@ -99,8 +99,9 @@ inline const char* take_exponent(const char* p, int& e) {
 
 }  // namespace decimal_detail
 
-// A plain decimal that begins at p. Returns the place behind it, or null where any_number() must look. Behind
-// the number must stand a character that belongs to none, such as the end of a line, and 8 more bytes.
+// A plain decimal that begins at p. Returns the place behind it, or null where any_number() must look; it
+// must look too where a character stands at that place that cannot follow a number ("1.#IND", "1.5d0").
+// Behind the number must stand a character that belongs to none, such as the end of a line, and 8 more bytes.
 inline const char* plain_decimal(const char* p, double& value) {
     using namespace decimal_detail;
     const std::uint64_t negative = *p == '-' ? 1 : 0;
