@@ -30,6 +30,7 @@ struct RawFacts {
     // Where the format fixes them: m in one unit of length, s in one unit of time.
     std::optional<double> length_unit{}, time_unit{};
     int dimensions = 3;   // 2 where the file says so
+    std::optional<Vec3> gravity{};  // in the file's units, where it says that
 };
 
 class RawFile {

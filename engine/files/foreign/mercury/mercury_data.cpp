@@ -15,8 +15,8 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-constexpr std::array<const char*, 14> names_3d{"x",     "y",     "z",     "vx", "vy", "vz", "radius",
-                                               "alpha", "beta",  "gamma", "wx", "wy", "wz", "info"};
+constexpr std::array<const char*, 14> names_3d{"x",     "y",    "z",     "vx", "vy", "vz", "radius",
+                                               "alpha", "beta", "gamma", "wx", "wy", "wz", "info"};
 constexpr std::array<const char*, 8> names_2d{"x", "y", "vx", "vy", "radius", "gamma", "wz", "info"};
 
 // The line before a frame: N, t, lower corner, upper corner.
@@ -75,22 +75,24 @@ TextFrames::Passed MercuryData::pass_over(TextLines& lines, RawMoment& moment) {
     if (!lines.ended()) return Passed::cut;
     const std::uint64_t first = lines.number();
     if (!header)
-        lines.fault("the line of a frame must stand here: count, time and the box's corners; is the count of the "
-                    "frame before right?");
+        lines.fault(
+            "the line of a frame must stand here: count, time and the box's corners; is the count of the "
+            "frame before right?");
     if (dimensions_ == 0) dimensions_ = header->dimensions;
     if (dimensions_ != header->dimensions)
-        lines.fault(fmt::format("this frame has {} dimensions, those before {}", header->dimensions,
-                                dimensions_));
+        lines.fault(
+            fmt::format("this frame has {} dimensions, those before {}", header->dimensions, dimensions_));
     facts_.dimensions = static_cast<int>(dimensions_);
     for (std::int64_t i = 0; i < header->grains; ++i) {
         if (!lines.next()) return Passed::cut;
         const std::size_t words = count_words(lines.text(), columns() + 1);
         if (words < columns() && !lines.ended()) return Passed::cut;
         if (words != columns())
-            lines.fault(fmt::format("row {} of {} has {} numbers in place of {}; line {} says {} grains: is that "
-                                    "right?",
-                                    i + 1, header->grains, words > columns() ? "more" : std::to_string(words),
-                                    columns(), first, header->grains));
+            lines.fault(
+                fmt::format("row {} of {} has {} numbers in place of {}; line {} says {} grains: is that "
+                            "right?",
+                            i + 1, header->grains, words > columns() ? "more" : std::to_string(words),
+                            columns(), first, header->grains));
     }
     moment.grains = header->grains;
     moment.time = header->time;
@@ -103,7 +105,8 @@ void MercuryData::add_row(const TextLines& lines, RawTable& grains) const {
         const std::string_view word = take_word(rest);
         const std::optional<double> number = number_of(word);
         if (!number)
-            lines.fault(fmt::format("column {} ({}) has {}, which is no number", i + 1, name(i), shown(word)));
+            lines.fault(
+                fmt::format("column {} ({}) has {}, which is no number", i + 1, name(i), shown(word)));
         if (i < dimensions_ && !std::isfinite(*number))
             lines.fault(fmt::format("the grain has no place: its {} is {}", name(i), shown(word)));
         grains.columns[i].values.push_back(*number);
@@ -139,7 +142,8 @@ bool takes_mercury_data(const FileHead& head) {
 }  // namespace
 
 RawFormat mercury_data_format() {
-    return {"mercury-data", "grains of MercuryDPM (.data)", takes_mercury_data, open_text_frames<MercuryData>};
+    return {"mercury-data", "grains of MercuryDPM (.data)", takes_mercury_data,
+            open_text_frames<MercuryData>};
 }
 
 }  // namespace grainreel

@@ -49,8 +49,9 @@ RawColumn ColumnFiller::finish() {
     if (kind_ == WordKind::logical) column_.words = {"F", "T"};
     if (kind_ != WordKind::word && kind_ != WordKind::word_or_number) return std::move(column_);
     const bool whole = kind_ == WordKind::word_or_number &&
-                       std::all_of(numbers_.begin(), numbers_.end(),
-                                   [](const auto& entry) { return whole_number_of(entry.first).has_value(); });
+                       std::all_of(numbers_.begin(), numbers_.end(), [](const auto& entry) {
+                           return whole_number_of(entry.first).has_value();
+                       });
     std::vector<double> meant(numbers_.size());
     double place = 0;
     for (const auto& [word, number] : numbers_) {

@@ -33,7 +33,8 @@ struct FrameRows {
 
 // The least and the greatest number of each of four columns.
 struct Ranges {
-    double least[4]{INFINITY, INFINITY, INFINITY, INFINITY}, most[4]{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    double least[4]{INFINITY, INFINITY, INFINITY, INFINITY},
+        most[4]{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
 
     void add(const Cells& cells, bool decimal_comma) {
         for (std::size_t i = 0; i < 4; ++i) {
@@ -56,7 +57,7 @@ std::optional<TableLayout> layout_at(const FileHead& head) {
 
 // s in the unit that stands behind the name of a time.
 double seconds_in(const std::string& unit) {
-    static const std::map<std::string, double> units{{"ms", 1e-3},       {"us", 1e-6}, {"\u00b5s", 1e-6},
+    static const std::map<std::string, double> units{{"ms", 1e-3},      {"us", 1e-6}, {"\u00b5s", 1e-6},
                                                      {"\u03bcs", 1e-6}, {"ns", 1e-9}, {"min", 60},
                                                      {"h", 3600}};
     const auto found = units.find(unit);
@@ -136,7 +137,8 @@ bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
     split_cells(lines_.text(), layout_.separator, cells_);
     if (cells_.size() < layout_.names.size() && !lines_.ended()) return false;
     if (cells_.size() != layout_.names.size())
-        lines_.fault(fmt::format("this row has {} columns in place of {}", cells_.size(), layout_.names.size()));
+        lines_.fault(
+            fmt::format("this row has {} columns in place of {}", cells_.size(), layout_.names.size()));
     const double key = time_ ? clock_of(*time_) : step_ ? clock_of(*step_) : 0.0;
     FrameRows& frame = frames[key];
     RawMoment& moment = frame.moment;
@@ -170,11 +172,11 @@ void NumberTable::find_frames() {
     const bool shut = lines_.ended() || trimmed(lines_.text()).ends_with(layout_.separator);
     const bool many = frames.size() > 1;
     if (!whole && !many)
-        throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?", name,
-                                    lines_.number()));
+        throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?",
+                                    name, lines_.number()));
     if (many && (!whole || !shut)) {
-        news_.push_back(fmt::format("{}: its last frame is cut off in line {} and is left out", name,
-                                    lines_.number()));
+        news_.push_back(
+            fmt::format("{}: its last frame is cut off in line {} and is left out", name, lines_.number()));
         frames.erase(last);
     } else if (!shut) {
         news_.push_back(fmt::format("{}: its last line has no end; its last number may be cut", name));
@@ -196,9 +198,10 @@ void NumberTable::name_nameless() {
         news_.push_back(name + ": its columns have no names; the four are taken as x, y, z, radius");
         return;
     }
-    news_.push_back(fmt::format("{}: its columns have no names; they are called c1 to c{}, and --columns "
-                                "\"x=c1,y=c2,z=c3\" says what they are",
-                                name, layout_.names.size()));
+    news_.push_back(
+        fmt::format("{}: its columns have no names; they are called c1 to c{}, and --columns "
+                    "\"x=c1,y=c2,z=c3\" says what they are",
+                    name, layout_.names.size()));
 }
 
 bool is_place(const std::string& name) {

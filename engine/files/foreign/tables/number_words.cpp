@@ -79,7 +79,8 @@ std::string_view take_word(std::string_view& text) {
 
 void split_words(std::string_view line, std::vector<std::string_view>& words) {
     words.clear();
-    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) words.push_back(word);
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
+        words.push_back(word);
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {

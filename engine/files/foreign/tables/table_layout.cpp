@@ -54,10 +54,10 @@ bool is_number(std::string_view cell, bool decimal_comma) {
 
 // Whether the cells can be names: none of them is a number, and not all are empty.
 bool are_names(const Cells& cells, bool decimal_comma) {
-    const bool number = std::any_of(cells.begin(), cells.end(), [&](std::string_view cell) {
-        return is_number(cell, decimal_comma);
-    });
-    const bool any = std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
+    const bool number = std::any_of(cells.begin(), cells.end(),
+                                    [&](std::string_view cell) { return is_number(cell, decimal_comma); });
+    const bool any =
+        std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
     return any && !number;
 }
 
@@ -200,7 +200,8 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
             close = line.find(line.front(), close + 2);  // a doubled quote stands for one
         std::size_t end = close == std::string_view::npos ? 0 : close + 1;
         while (end < line.size() && !ends(line[end])) ++end;
-        cells.push_back(close == std::string_view::npos ? trimmed(line.substr(0, end)) : line.substr(1, close - 1));
+        cells.push_back(close == std::string_view::npos ? trimmed(line.substr(0, end))
+                                                        : line.substr(1, close - 1));
         line.remove_prefix(std::min(end + 1, line.size()));
         const std::size_t next = line.find_first_not_of(separator == '\t' ? " " : " \t");
         line.remove_prefix(std::min(next, line.size()));
@@ -229,7 +230,8 @@ std::string unit_of_name(std::string_view name) {
     const std::size_t open = name.find_first_of("[(");
     if (open == std::string_view::npos) return {};
     const std::size_t close = name.find_first_of("])", open);
-    return std::string(trimmed(name.substr(open + 1, close == std::string_view::npos ? close : close - open - 1)));
+    return std::string(
+        trimmed(name.substr(open + 1, close == std::string_view::npos ? close : close - open - 1)));
 }
 
 }  // namespace grainreel

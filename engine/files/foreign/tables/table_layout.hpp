@@ -16,7 +16,7 @@ struct TableLayout {
     bool decimal_comma = false;  // "1,5"
     bool named = false;          // the file names its columns; otherwise they are "c1", "c2", ...
     std::vector<std::string> names;
-    std::vector<bool> is_word;    // of each column: it holds words
+    std::vector<bool> is_word;     // of each column: it holds words
     std::uint64_t head_lines = 0;  // before the first row
     std::string program;           // that writes tables of this kind, where the names tell
 };

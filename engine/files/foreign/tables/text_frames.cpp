@@ -21,9 +21,10 @@ void TextFrames::find_frames() {
     seen_ = look();
     go_on(false);
     if (!moments_.empty()) return;
-    throw UserError(fmt::format("{}:{}: the file ends within its first frame, so that no frame of it is whole; "
-                                "was it copied or written to the end?",
-                                file_.string(), lines_.number()));
+    throw UserError(
+        fmt::format("{}:{}: the file ends within its first frame, so that no frame of it is whole; "
+                    "was it copied or written to the end?",
+                    file_.string(), lines_.number()));
 }
 
 void TextFrames::go_on(bool growing) {
@@ -42,14 +43,14 @@ void TextFrames::go_on(bool growing) {
         }
         moments_.push_back(moment);
         places_.push_back(begin);
-        next_ = {lines_.end(), lines_.number()};
+        next_ = {lines_.next_begin(), lines_.number()};
         if (open_end_)
-            news_.push_back(fmt::format("{}: its last line has no end; its last number may be cut",
-                                        file_.string()));
+            news_.push_back(
+                fmt::format("{}: its last line has no end; its last number may be cut", file_.string()));
     }
     if (lines_.cut_off() && !growing)
-        news_.push_back(fmt::format("{}: its packed bytes end too early; the frames before are whole",
-                                    file_.string()));
+        news_.push_back(
+            fmt::format("{}: its packed bytes end too early; the frames before are whole", file_.string()));
 }
 
 void TextFrames::leave_out(const TextLines& lines) {

@@ -32,7 +32,8 @@ class TextFrames : public RawFile {
     // One that was passed over.
     virtual RawFrame read_frame(TextLines& lines, const RawMoment& moment) const = 0;
 
-    // Finds all frames; called by who makes the reader, once it is whole. Throws UserError when there is none.
+    // Finds all frames; called by who makes the reader, once it is whole. Throws UserError when there is
+    // none.
     void find_frames();
     template <class Reader>
     friend std::unique_ptr<RawFile> open_text_frames(const std::filesystem::path& file);

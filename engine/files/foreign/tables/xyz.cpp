@@ -1,5 +1,5 @@
-// XYZ, plain and extended: a count, a line of words, a row a grain. Plain rows have an element and a place, and
-// perhaps columns without a name; in extended XYZ the second line names all (libAtoms' extxyz).
+// XYZ, plain and extended: a count, a line of words, a row a grain. Plain rows have an element and a place,
+// and perhaps columns without a name; in extended XYZ the second line names all (libAtoms' extxyz).
 #include <cmath>
 
 #include <fmt/format.h>
@@ -32,9 +32,9 @@ std::vector<ColumnFiller> named_columns(const std::vector<XyzField>& fields) {
     std::vector<ColumnFiller> columns;
     for (const XyzField& field : fields)
         for (std::size_t i = 0; i < field.count; ++i) {
-            const std::string name = field.name == "pos"  ? std::string(1, "xyz"[i])
-                                     : field.count == 1 ? field.name
-                                                          : fmt::format("{}:{}", field.name, i);
+            const std::string name = field.name == "pos" ? std::string(1, "xyz"[i])
+                                     : field.count == 1  ? field.name
+                                                         : fmt::format("{}:{}", field.name, i);
             columns.emplace_back(name, kind_of(field.kind));
         }
     return columns;
@@ -82,7 +82,8 @@ std::vector<ColumnFiller> XyzFile::columns_of(const TextLines& lines, const XyzH
                                               const Words& row) const {
     if (!header.fields.empty()) return named_columns(header.fields);
     if (row.size() < 4)
-        lines.fault("a row of XYZ has an element and x, y, z; this one has fewer words; is the count above right?");
+        lines.fault(
+            "a row of XYZ has an element and x, y, z; this one has fewer words; is the count above right?");
     return plain_columns(row);
 }
 
@@ -95,7 +96,8 @@ void XyzFile::add_row(const TextLines& lines, std::vector<ColumnFiller>& columns
             lines.fault(fmt::format("column {} ({}) has {}, which is {}", i + 1, columns[i].name(),
                                     shown(row[i]), name_of_wrong(columns[i].kind())));
         if (is_place(columns[i].name()) && !std::isfinite(columns[i].last()))
-            lines.fault(fmt::format("the grain has no place: its {} is {}", columns[i].name(), shown(row[i])));
+            lines.fault(
+                fmt::format("the grain has no place: its {} is {}", columns[i].name(), shown(row[i])));
     }
 }
 
@@ -104,9 +106,10 @@ TextFrames::Passed XyzFile::pass_over(TextLines& lines, RawMoment& moment) {
     const std::optional<std::int64_t> count = count_of(lines.text());
     if (!count) {
         if (!lines.ended()) return Passed::cut;
-        lines.fault(fmt::format("the count of grains of a frame must stand here, not {}; is the count of the "
-                                "frame before right?",
-                                shown(trimmed(lines.text()))));
+        lines.fault(
+            fmt::format("the count of grains of a frame must stand here, not {}; is the count of the "
+                        "frame before right?",
+                        shown(trimmed(lines.text()))));
     }
     const std::uint64_t first = lines.number();
     if (!lines.ended() || !lines.next()) return *count == 0 && lines.ended() ? Passed::frame : Passed::cut;
@@ -121,10 +124,10 @@ TextFrames::Passed XyzFile::pass_over(TextLines& lines, RawMoment& moment) {
         if (columns == 0) columns = words;
         if (words < columns && !lines.ended()) return Passed::cut;
         if (words != columns || words < 2)
-            lines.fault(fmt::format("row {} of {} has {} columns in place of {}; line {} says {} grains: is that "
-                                    "right?",
-                                    i + 1, *count, words > columns ? "more" : std::to_string(words), columns,
-                                    first, *count));
+            lines.fault(fmt::format(
+                "row {} of {} has {} columns in place of {}; line {} says {} grains: is that "
+                "right?",
+                i + 1, *count, words > columns ? "more" : std::to_string(words), columns, first, *count));
     }
     moment.grains = *count;
     moment.time = header.time;

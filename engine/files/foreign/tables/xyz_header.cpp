@@ -90,15 +90,15 @@ void read_periods(const std::string& value, WorldCell& box) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == ',' || c == '[' || c == ']'; }, ' ');
     const std::vector<std::string_view> words = words_of(text);
-    if (words.size() != 3)
-        throw UserError(fmt::format("pbc is {}; it is three of T and F", shown(value)));
+    if (words.size() != 3) throw UserError(fmt::format("pbc is {}; it is three of T and F", shown(value)));
     for (std::size_t axis = 0; axis < 3; ++axis)
         box.periodic[axis] = words[axis] == "t" || words[axis] == "true" || words[axis] == "1";
 }
 
 XyzField field_of(std::string_view name, std::string_view kind, std::string_view count) {
     constexpr const char* what = "as in species:S:1:pos:R:3";
-    if (name.empty()) throw UserError(fmt::format("Properties has an entry without a name; write it {}", what));
+    if (name.empty())
+        throw UserError(fmt::format("Properties has an entry without a name; write it {}", what));
     if (kind.size() != 1 || std::string_view("SRIL").find(kind.front()) == std::string_view::npos)
         throw UserError(fmt::format("Properties gives {} the type {}; it is S, R, I or L, {}", shown(name),
                                     shown(kind), what));
