@@ -116,13 +116,13 @@ Numbers MercuryContacts::numbers(const TextLines& lines) const {
         const std::optional<double> number = number_of(word);
         if (!number)
             lines.fault(
-                fmt::format("column {} ({}) has {}, which is no number", i + 2, names[i], shown(word)));
+                fmt::format("column {} ({}) has {}, which is no number", i + 2, names[i], in_quotes(word)));
         const bool whole = std::isfinite(*number) && std::floor(*number) == *number;
         if (i < first_place && !whole)
             lines.fault(
-                fmt::format("column {} ({}) has {}, which is no grain", i + 2, names[i], shown(word)));
+                fmt::format("column {} ({}) has {}, which is no grain", i + 2, names[i], in_quotes(word)));
         if (i >= first_place && i < first_place + 3 && !std::isfinite(*number))
-            lines.fault(fmt::format("the contact has no place: its {} is {}", names[i], shown(word)));
+            lines.fault(fmt::format("the contact has no place: its {} is {}", names[i], in_quotes(word)));
         row.push_back(*number);
     }
     return row;
