@@ -106,9 +106,9 @@ void MercuryData::add_row(const TextLines& lines, RawTable& grains) const {
         const std::optional<double> number = number_of(word);
         if (!number)
             lines.fault(
-                fmt::format("column {} ({}) has {}, which is no number", i + 1, name(i), shown(word)));
+                fmt::format("column {} ({}) has {}, which is no number", i + 1, name(i), in_quotes(word)));
         if (i < dimensions_ && !std::isfinite(*number))
-            lines.fault(fmt::format("the grain has no place: its {} is {}", name(i), shown(word)));
+            lines.fault(fmt::format("the grain has no place: its {} is {}", name(i), in_quotes(word)));
         grains.columns[i].values.push_back(*number);
     }
 }

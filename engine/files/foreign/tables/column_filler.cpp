@@ -19,8 +19,8 @@ std::optional<bool> truth_of(std::string_view word) {
 
 }  // namespace
 
-const char* name_of_wrong(WordKind kind) {
-    return kind == WordKind::logical ? "neither T nor F" : "no number";
+const char* name_of_wrong(CellKind kind) {
+    return kind == CellKind::logical ? "neither T nor F" : "no number";
 }
 
 bool ColumnFiller::add_word(std::string_view word) {
@@ -32,12 +32,12 @@ bool ColumnFiller::add_word(std::string_view word) {
 }
 
 bool ColumnFiller::add(std::string_view word) {
-    if (kind_ == WordKind::number) {
+    if (kind_ == CellKind::number) {
         const std::optional<double> value = number_of(word);
         if (value) column_.values.push_back(*value);
         return value.has_value();
     }
-    if (kind_ == WordKind::logical) {
+    if (kind_ == CellKind::logical) {
         const std::optional<bool> truth = truth_of(word);
         if (truth) column_.values.push_back(*truth ? 1.0 : 0.0);
         return truth.has_value();
@@ -46,9 +46,9 @@ bool ColumnFiller::add(std::string_view word) {
 }
 
 RawColumn ColumnFiller::finish() {
-    if (kind_ == WordKind::logical) column_.words = {"F", "T"};
-    if (kind_ != WordKind::word && kind_ != WordKind::word_or_number) return std::move(column_);
-    const bool whole = kind_ == WordKind::word_or_number &&
+    if (kind_ == CellKind::logical) column_.words = {"F", "T"};
+    if (kind_ != CellKind::word && kind_ != CellKind::word_or_number) return std::move(column_);
+    const bool whole = kind_ == CellKind::word_or_number &&
                        std::all_of(numbers_.begin(), numbers_.end(), [](const auto& entry) {
                            return whole_number_of(entry.first).has_value();
                        });

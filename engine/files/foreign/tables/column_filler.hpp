@@ -10,7 +10,7 @@
 
 namespace grainreel {
 
-enum class WordKind {
+enum class CellKind {
     number,
     logical,  // T and F, true and false, 1 and 0
     word,
@@ -21,10 +21,10 @@ enum class WordKind {
 // numbers where the frames have the same words.
 class ColumnFiller {
   public:
-    ColumnFiller(std::string name, WordKind kind) : kind_(kind) { column_.name = std::move(name); }
+    ColumnFiller(std::string name, CellKind kind) : kind_(kind) { column_.name = std::move(name); }
 
     const std::string& name() const { return column_.name; }
-    WordKind kind() const { return kind_; }
+    CellKind kind() const { return kind_; }
     // Whether the word is of the column's kind.
     bool add(std::string_view word);
     void add_number(double value) { column_.values.push_back(value); }
@@ -35,12 +35,12 @@ class ColumnFiller {
   private:
     bool add_word(std::string_view word);
 
-    WordKind kind_;
+    CellKind kind_;
     RawColumn column_;
     std::map<std::string, double, std::less<>> numbers_;  // of each word, in the order of their coming
 };
 
 // What a message calls a word that is not of the kind: "no number".
-const char* name_of_wrong(WordKind kind);
+const char* name_of_wrong(CellKind kind);
 
 }  // namespace grainreel

@@ -89,6 +89,7 @@ class NumberTable : public RawFile {
     std::vector<std::string> news_;
     std::optional<std::size_t> time_, step_;  // columns
     double time_unit_ = 1;                    // s
+    double last_ = 0;                         // time or step of the last row
     Ranges ranges_;
     mutable std::mutex reading_;
     mutable TextLines lines_;
@@ -128,22 +129,26 @@ double NumberTable::clock_of(std::size_t column) const {
     const std::optional<double> value = cell_number(cells_[column], layout_.decimal_comma);
     if (!value || !std::isfinite(*value))
         lines_.fault(fmt::format("column {} ({}) has {}, which is no time", column + 1, layout_.names[column],
-                                 shown(cells_[column])));
+                                 in_quotes(cells_[column])));
     return *value;
 }
 
 // Whether the row is whole.
 bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
-    split_cells(lines_.text(), layout_.separator, cells_);
-    if (cells_.size() < layout_.names.size() && !lines_.ended()) return false;
+    split_cells(lines_.text(), layout_.separator, layout_.closed, cells_);
+    const std::optional<std::size_t> clock = time_ ? time_ : step_;
+    if (cells_.size() < layout_.names.size() && !lines_.ended()) {
+        if (clock && *clock + 1 < cells_.size()) last_ = clock_of(*clock);
+        return false;
+    }
     if (cells_.size() != layout_.names.size())
         lines_.fault(
             fmt::format("this row has {} columns in place of {}", cells_.size(), layout_.names.size()));
-    const double key = time_ ? clock_of(*time_) : step_ ? clock_of(*step_) : 0.0;
-    FrameRows& frame = frames[key];
+    last_ = clock ? clock_of(*clock) : 0.0;
+    FrameRows& frame = frames[last_];
     RawMoment& moment = frame.moment;
     if (moment.grains == 0) {
-        if (time_) moment.time = key * time_unit_;
+        if (time_) moment.time = last_ * time_unit_;
         if (step_) {
             const double step = clock_of(*step_);
             if (std::abs(step) < 9e18) moment.step = static_cast<std::int64_t>(std::llround(step));
@@ -162,14 +167,13 @@ void NumberTable::find_frames() {
     std::map<double, FrameRows> frames;
     while (lines_.number() < layout_.head_lines && lines_.next()) continue;
     bool whole = true;
-    double last = 0;
     while (whole && lines_.next_filled()) {
         if (is_remark(lines_.text())) continue;
         whole = take_row(frames);
-        if (whole && (time_ || step_)) last = clock_of(time_ ? *time_ : *step_);
     }
     const std::string name = lines_.file().string();
-    const bool shut = lines_.ended() || trimmed(lines_.text()).ends_with(layout_.separator);
+    const bool shut =
+        lines_.ended() || (layout_.closed && trimmed(lines_.text()).ends_with(layout_.separator));
     const bool many = frames.size() > 1;
     if (!whole && !many)
         throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?",
@@ -177,7 +181,7 @@ void NumberTable::find_frames() {
     if (many && (!whole || !shut)) {
         news_.push_back(
             fmt::format("{}: its last frame is cut off in line {} and is left out", name, lines_.number()));
-        frames.erase(last);
+        frames.erase(last_);
     } else if (!shut) {
         news_.push_back(fmt::format("{}: its last line has no end; its last number may be cut", name));
     }
@@ -210,20 +214,20 @@ bool is_place(const std::string& name) {
 }
 
 void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
-    split_cells(lines_.text(), layout_.separator, cells_);
+    split_cells(lines_.text(), layout_.separator, layout_.closed, cells_);
     if (cells_.size() != columns.size()) lines_.fault("the file has changed while it was read");
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        if (columns[i].kind() == WordKind::word) {
+        if (columns[i].kind() == CellKind::word) {
             columns[i].add(cells_[i]);
             continue;
         }
         const std::optional<double> value = cell_number(cells_[i], layout_.decimal_comma);
         if (!value)
             lines_.fault(fmt::format("column {} ({}) has {}, which is no number", i + 1, columns[i].name(),
-                                     shown(cells_[i])));
+                                     in_quotes(cells_[i])));
         if (!std::isfinite(*value) && is_place(columns[i].name()))
             lines_.fault(
-                fmt::format("the grain has no place: its {} is {}", columns[i].name(), shown(cells_[i])));
+                fmt::format("the grain has no place: its {} is {}", columns[i].name(), in_quotes(cells_[i])));
         columns[i].add_number(*value);
     }
 }
@@ -240,7 +244,7 @@ RawFrame NumberTable::read(std::size_t index) const {
     const std::lock_guard lock(reading_);
     std::vector<ColumnFiller> columns;
     for (std::size_t i = 0; i < layout_.names.size(); ++i)
-        columns.emplace_back(layout_.names[i], layout_.is_word[i] ? WordKind::word : WordKind::number);
+        columns.emplace_back(layout_.names[i], layout_.is_word[i] ? CellKind::word : CellKind::number);
     for (const Run& run : runs_.at(index)) add_rows(columns, run);
     RawFrame frame;
     frame.time = moments_[index].time;

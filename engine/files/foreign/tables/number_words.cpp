@@ -112,7 +112,7 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
-std::string shown(std::string_view word) {
+std::string in_quotes(std::string_view word) {
     constexpr std::size_t most = 40;
     std::string text = "\"";
     for (const char c : word.substr(0, most)) text += (c >= 0 && c < ' ') || c == 127 ? '?' : c;

@@ -32,6 +32,6 @@ std::optional<std::vector<double>> numbers_of(std::string_view line);
 std::string lower_case(std::string_view text);
 
 // A word of a file for a message: in quotes, cut where it is long, without what a terminal cannot show.
-std::string shown(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 }  // namespace grainreel

@@ -27,6 +27,18 @@ struct Sample {
     std::vector<std::uint64_t> numbers;  // of the filled ones, from 1
 };
 
+// Without blanks at both ends, but with tabs.
+std::string_view trimmed_blanks(std::string_view line) {
+    while (line.starts_with(' ')) line.remove_prefix(1);
+    while (line.ends_with(' ') || line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+std::string_view without_return(std::string_view line) {
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
 std::optional<Sample> sample_of(std::string_view text, bool whole) {
     constexpr std::string_view mark = "\xef\xbb\xbf";
     if (text.starts_with(mark)) text.remove_prefix(mark.size());
@@ -34,10 +46,10 @@ std::optional<Sample> sample_of(std::string_view text, bool whole) {
     for (std::uint64_t number = 1; !text.empty() && sample.filled.size() < most_rows; ++number) {
         const std::size_t length = text.find('\n');
         if (length == std::string_view::npos && !whole) break;
-        const std::string_view line = trimmed(text.substr(0, length));
+        const std::string_view line = without_return(text.substr(0, length));
         if (line.find('\0') != std::string_view::npos) return std::nullopt;
         text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
-        if (line.empty()) continue;
+        if (trimmed(line).empty()) continue;
         if (is_remark(line)) {
             if (sample.filled.empty()) sample.remarks.push_back(line);
             continue;
@@ -105,7 +117,7 @@ void name_by_remarks(TableLayout& layout, const Sample& sample) {
     line.remove_prefix(std::min(line.find_first_not_of("#%/ \t"), line.size()));
     for (const char separator : {layout.separator, ' '}) {
         Cells cells;
-        split_cells(line, separator, cells);
+        split_cells(line, separator, layout.closed, cells);
         if (cells.size() != layout.names.size() || !are_names(cells, layout.decimal_comma)) continue;
         name_columns(layout, cells);
         return;
@@ -124,11 +136,11 @@ std::string program_of(const TableLayout& layout) {
 
 // Of each column whether it holds words; none where a row has another number of cells.
 std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
-                                          std::size_t columns, bool last_may_be_cut) {
+                                          std::size_t columns, bool closed, bool last_may_be_cut) {
     std::vector<bool> is_word(columns, false);
     Cells cells;
     for (std::size_t i = first; i < sample.filled.size(); ++i) {
-        split_cells(sample.filled[i], writing.separator, cells);
+        split_cells(sample.filled[i], writing.separator, closed, cells);
         if (cells.size() < columns && last_may_be_cut && i + 1 == sample.filled.size() && i > first) break;
         if (cells.size() != columns) return std::nullopt;
         for (std::size_t k = 0; k < columns; ++k)
@@ -147,9 +159,11 @@ bool names_places(const std::vector<std::string>& names) {
 
 std::optional<TableLayout> layout_by(const Sample& sample, const Writing& writing, bool whole) {
     Cells first;
-    split_cells(sample.filled.front(), writing.separator, first);
+    const bool closed =
+        writing.separator != ' ' && trimmed_blanks(sample.filled.front()).ends_with(writing.separator);
+    split_cells(sample.filled.front(), writing.separator, closed, first);
     if (first.size() < 2) return std::nullopt;
-    TableLayout layout{writing.separator, writing.decimal_comma, false, {}, {}, 0, {}};
+    TableLayout layout{writing.separator, writing.decimal_comma, closed, false, {}, {}, 0, {}};
     layout.names.resize(first.size());
     for (std::size_t i = 0; i < first.size(); ++i) layout.names[i] = fmt::format("c{}", i + 1);
     const bool header = are_names(first, writing.decimal_comma);
@@ -158,7 +172,7 @@ std::optional<TableLayout> layout_by(const Sample& sample, const Writing& writin
     } else {
         name_by_remarks(layout, sample);
     }
-    const auto words = words_in(sample, header ? 1 : 0, writing, first.size(), whole);
+    const auto words = words_in(sample, header ? 1 : 0, writing, first.size(), closed, whole);
     if (!words) return std::nullopt;
     layout.is_word = *words;
     layout.head_lines = header ? sample.numbers.front() : sample.numbers.front() - 1;
@@ -189,12 +203,14 @@ std::optional<TableLayout> layout_of(std::string_view text, bool whole) {
     return std::nullopt;
 }
 
-void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
+void split_cells(std::string_view line, char separator, bool closed, std::vector<std::string_view>& cells) {
     cells.clear();
-    const auto ends = [&](char c) { return separator == ' ' ? c == ' ' || c == '\t' : c == separator; };
-    line = trimmed(line);
-    while (!line.empty()) {
-        const bool quote = line.front() == '"' || line.front() == '\'';
+    const bool blanks = separator == ' ';
+    const auto ends = [&](char c) { return blanks ? c == ' ' || c == '\t' : c == separator; };
+    line = blanks ? trimmed(line) : trimmed_blanks(line);
+    for (bool more = !line.empty(); more;) {
+        while (line.starts_with(' ') || (separator != '\t' && line.starts_with('\t'))) line.remove_prefix(1);
+        const bool quote = line.starts_with('"') || line.starts_with('\'');
         std::size_t close = quote ? line.find(line.front(), 1) : std::string_view::npos;
         while (close != std::string_view::npos && close + 1 < line.size() && line[close + 1] == line[close])
             close = line.find(line.front(), close + 2);  // a doubled quote stands for one
@@ -202,10 +218,10 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
         while (end < line.size() && !ends(line[end])) ++end;
         cells.push_back(close == std::string_view::npos ? trimmed(line.substr(0, end))
                                                         : line.substr(1, close - 1));
+        more = end < line.size();
         line.remove_prefix(std::min(end + 1, line.size()));
-        const std::size_t next = line.find_first_not_of(separator == '\t' ? " " : " \t");
-        line.remove_prefix(std::min(next, line.size()));
     }
+    if (closed && cells.size() > 1 && cells.back().empty()) cells.pop_back();
 }
 
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
@@ -219,6 +235,7 @@ std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
 }
 
 bool is_remark(std::string_view line) {
+    line = trimmed(line);
     return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
 }
 

@@ -14,6 +14,7 @@ namespace grainreel {
 struct TableLayout {
     char separator = ',';        // ' ': blanks and tabs, any number of them
     bool decimal_comma = false;  // "1,5"
+    bool closed = false;         // a separator ends each row; no cell comes behind it
     bool named = false;          // the file names its columns; otherwise they are "c1", "c2", ...
     std::vector<std::string> names;
     std::vector<bool> is_word;     // of each column: it holds words
@@ -24,8 +25,9 @@ struct TableLayout {
 // None where the text is no table. `whole`: the text is the whole file.
 std::optional<TableLayout> layout_of(std::string_view text, bool whole);
 
-// The cells of a row, without blanks and quotes around them. One separator at the end of a row makes no cell.
-void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells);
+// The cells of a row, without blanks and quotes around them. Where rows are `closed`, a separator at the end
+// makes no cell.
+void split_cells(std::string_view line, char separator, bool closed, std::vector<std::string_view>& cells);
 
 // What a cell holds; NaN for an empty one and for "NA", none for what is no number.
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma);

@@ -43,7 +43,7 @@ void TextFrames::go_on(bool growing) {
         }
         moments_.push_back(moment);
         places_.push_back(begin);
-        next_ = {lines_.end(), lines_.number()};
+        next_ = {lines_.next_begin(), lines_.number()};
         if (open_end_)
             news_.push_back(
                 fmt::format("{}: its last line has no end; its last number may be cut", file_.string()));

@@ -61,7 +61,6 @@ bool TextLines::next() {
             ended_ ? static_cast<std::size_t>(static_cast<const char*>(found) - from) : filled_ - at_;
         begin_ = place_ + at_;
         at_ += length + (ended_ ? 1 : 0);
-        end_ = place_ + at_;
         text_ = without_end({from, length});
         if (begin_ == 0 && text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
         ++number_;
@@ -84,6 +83,8 @@ void TextLines::go_to(std::uint64_t byte, std::uint64_t lines) {
         at_ = filled_ = 0;
     }
     number_ = lines;
+    text_ = {};
+    ended_ = true;
 }
 
 void TextLines::fault(const std::string& what) const {

@@ -21,13 +21,15 @@ class TextLines {
     bool next();
     // The same, past lines of blanks.
     bool next_filled();
+    // Takes the line back: next() gives it once more. The line is then the one before, without its text.
+    void put_back() { go_to(begin_, number_ - 1); }
     // Without its end ("\n", "\r\n"); the mark of UTF-8 before the first line is left out. Stands until the
     // next call.
     std::string_view text() const { return text_; }
     std::uint64_t number() const { return number_; }  // from 1
     std::uint64_t begin() const { return begin_; }    // byte of the unpacked content
-    std::uint64_t end() const { return end_; }        // byte behind it and its end
     bool ended() const { return ended_; }             // whether the line has an end
+    std::uint64_t next_begin() const { return place_ + at_; }
     bool cut_off() const { return source_->cut_off(); }
 
     // The next line is then the one that begins at `byte`, with `lines` lines before it.
@@ -46,7 +48,7 @@ class TextLines {
     std::size_t at_ = 0, filled_ = 0;  // of the buffer
     std::uint64_t place_ = 0;          // byte of the file where the buffer begins
     std::string_view text_;
-    std::uint64_t number_ = 0, begin_ = 0, end_ = 0;
+    std::uint64_t number_ = 0, begin_ = 0;
     bool ended_ = true;
 };
 

@@ -24,8 +24,8 @@ std::optional<std::int64_t> count_of(std::string_view line) {
     return count && *count >= 0 ? count : std::nullopt;
 }
 
-WordKind kind_of(char kind) {
-    return kind == 'S' ? WordKind::word : kind == 'L' ? WordKind::logical : WordKind::number;
+CellKind kind_of(char kind) {
+    return kind == 'S' ? CellKind::word : kind == 'L' ? CellKind::logical : CellKind::number;
 }
 
 std::vector<ColumnFiller> named_columns(const std::vector<XyzField>& fields) {
@@ -43,11 +43,11 @@ std::vector<ColumnFiller> named_columns(const std::vector<XyzField>& fields) {
 // Plain XYZ says nothing of its columns; "c5" is the fifth.
 std::vector<ColumnFiller> plain_columns(const Words& row) {
     std::vector<ColumnFiller> columns;
-    columns.emplace_back("species", WordKind::word_or_number);
-    for (const char* name : {"x", "y", "z"}) columns.emplace_back(name, WordKind::number);
+    columns.emplace_back("species", CellKind::word_or_number);
+    for (const char* name : {"x", "y", "z"}) columns.emplace_back(name, CellKind::number);
     for (std::size_t i = columns.size(); i < row.size(); ++i)
         columns.emplace_back(fmt::format("c{}", i + 1),
-                             number_of(row[i]) ? WordKind::number : WordKind::word);
+                             number_of(row[i]) ? CellKind::number : CellKind::word);
     return columns;
 }
 
@@ -94,10 +94,10 @@ void XyzFile::add_row(const TextLines& lines, std::vector<ColumnFiller>& columns
     for (std::size_t i = 0; i < row.size(); ++i) {
         if (!columns[i].add(row[i]))
             lines.fault(fmt::format("column {} ({}) has {}, which is {}", i + 1, columns[i].name(),
-                                    shown(row[i]), name_of_wrong(columns[i].kind())));
+                                    in_quotes(row[i]), name_of_wrong(columns[i].kind())));
         if (is_place(columns[i].name()) && !std::isfinite(columns[i].last()))
             lines.fault(
-                fmt::format("the grain has no place: its {} is {}", columns[i].name(), shown(row[i])));
+                fmt::format("the grain has no place: its {} is {}", columns[i].name(), in_quotes(row[i])));
     }
 }
 
@@ -109,7 +109,7 @@ TextFrames::Passed XyzFile::pass_over(TextLines& lines, RawMoment& moment) {
         lines.fault(
             fmt::format("the count of grains of a frame must stand here, not {}; is the count of the "
                         "frame before right?",
-                        shown(trimmed(lines.text()))));
+                        in_quotes(trimmed(lines.text()))));
     }
     const std::uint64_t first = lines.number();
     if (!lines.ended() || !lines.next()) return *count == 0 && lines.ended() ? Passed::frame : Passed::cut;

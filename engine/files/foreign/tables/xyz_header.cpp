@@ -66,7 +66,7 @@ std::vector<double> list_of(const std::string& value, const char* key) {
     for (const std::string_view word : words_of(text)) {
         const std::optional<double> number = number_of(word);
         if (!number || !std::isfinite(*number))
-            throw UserError(fmt::format("{} has {}, which is no number", key, shown(word)));
+            throw UserError(fmt::format("{} has {}, which is no number", key, in_quotes(word)));
         numbers.push_back(*number);
     }
     return numbers;
@@ -90,7 +90,8 @@ void read_periods(const std::string& value, WorldCell& box) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == ',' || c == '[' || c == ']'; }, ' ');
     const std::vector<std::string_view> words = words_of(text);
-    if (words.size() != 3) throw UserError(fmt::format("pbc is {}; it is three of T and F", shown(value)));
+    if (words.size() != 3)
+        throw UserError(fmt::format("pbc is {}; it is three of T and F", in_quotes(value)));
     for (std::size_t axis = 0; axis < 3; ++axis)
         box.periodic[axis] = words[axis] == "t" || words[axis] == "true" || words[axis] == "1";
 }
@@ -100,12 +101,12 @@ XyzField field_of(std::string_view name, std::string_view kind, std::string_view
     if (name.empty())
         throw UserError(fmt::format("Properties has an entry without a name; write it {}", what));
     if (kind.size() != 1 || std::string_view("SRIL").find(kind.front()) == std::string_view::npos)
-        throw UserError(fmt::format("Properties gives {} the type {}; it is S, R, I or L, {}", shown(name),
-                                    shown(kind), what));
+        throw UserError(fmt::format("Properties gives {} the type {}; it is S, R, I or L, {}",
+                                    in_quotes(name), in_quotes(kind), what));
     const std::optional<std::int64_t> columns = whole_number_of(count);
     if (!columns || *columns < 1 || *columns > static_cast<std::int64_t>(most_columns))
         throw UserError(fmt::format("Properties gives {} {} columns; it is a number from 1 on, {}",
-                                    shown(name), shown(count), what));
+                                    in_quotes(name), in_quotes(count), what));
     return {std::string(name), kind.front(), static_cast<std::size_t>(*columns)};
 }
 
