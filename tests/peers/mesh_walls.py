@@ -100,7 +100,7 @@ def make_mesh(name, file, *numbers):
 
 
 class Drum:
-    grains, until, after, block = 2500, 2.5, 0.75, 0.25  # s
+    grains, until, after, block = 2500, 1.5, 0.5, 0.125  # s
     names = ("mean y, mm", "mean z, mm", "torque, mN m")
 
     def mesh(self, folder, facets):
