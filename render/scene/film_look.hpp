@@ -20,6 +20,10 @@ struct FilmCut {
 
 // How meshes are drawn.
 struct FilmWalls {
+    // plain: as walls are; else by what the grains do to each triangle: how hard they press on it, or how
+    // they wear it.
+    enum class Colour { plain, pressure, wear };
+    Colour colour = Colour::plain;
     double edge_angle = 30;          // degrees; edges whose faces turn more are drawn
     std::vector<std::string> solid;  // names of meshes that are solid from all sides
     std::vector<std::string> glass;  // names of meshes that are glass from outside

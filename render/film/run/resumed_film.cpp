@@ -20,7 +20,8 @@ bool is_of_single_moments(const Film& film) {
     const bool spans =
         std::any_of(film.segments.begin(), film.segments.end(),
                     [](const FilmSegment& segment) { return segment.exposure > 0 || segment.average > 0; });
-    return !spans && !needs_displacement(film.shows) && !needs_touches(film.shows);
+    return !spans && !needs_displacement(film.shows) && !needs_touches(film.shows) &&
+           film.look.walls.colour == FilmWalls::Colour::plain;
 }
 
 // The first step before `end` at which the film that is to be made and the pictures whose moments were kept

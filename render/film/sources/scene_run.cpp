@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/measure/walls/mesh_wear.hpp"
+
 namespace grainreel {
 
 // What pictures may take from it. Its moments are those that were kept for them.
 class SceneRun::Parts final : public PartSupply {
   public:
-    explicit Parts(const RunDriver& driver) : driver_(driver) {}
+    Parts(const RunDriver& driver, const Scene& scene) : driver_(driver), scene_(scene) {}
     FramePtr at(std::int64_t step) const override { return driver_.kept(step); }
     std::vector<Touch> touches(const Frame&) const override {
         std::vector<Touch> touches;
@@ -19,12 +21,18 @@ class SceneRun::Parts final : public PartSupply {
         const std::shared_ptr<const MeasureTable> table = driver_.files()->measures();
         return {table, table->rows()};
     }
+    std::shared_ptr<const std::vector<MeshWear>> worn(const Frame&) const override {
+        const Simulation& simulation = driver_.simulation();
+        return std::make_shared<const std::vector<MeshWear>>(
+            wear_among(scene_, simulation.field_sets(), simulation.fields()));
+    }
     std::optional<FlowedOut> flowed_out(const Frame& frame) const override {
         return driver_.files()->flowed_out(frame.time);
     }
 
   private:
     const RunDriver& driver_;
+    const Scene& scene_;
 };
 
 Span SceneRun::span() const {
@@ -96,7 +104,7 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     earlier_.reset();
     const std::shared_ptr<Frame> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
-    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_));
+    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_, scene_));
     frame_ = frame;
     return waiting();
 }

@@ -41,7 +41,15 @@ BoundKey<FilmWalls> names_key(const char* name, std::vector<std::string> FilmWal
 }
 
 const KeyTable<FilmWalls>& walls_table() {
+    using Colour = FilmWalls::Colour;
     static const KeyTable<FilmWalls> table{
+        choice(
+            "colour", &FilmWalls::colour,
+            Words<Colour>{{"plain", Colour::plain}, {"pressure", Colour::pressure}, {"wear", Colour::wear}},
+            initial(),
+            "Colours of meshes: plain, or by what the grains do to each triangle (instrument wear): the mean "
+            "normal force over its area, or the work of the tangential forces over its area.")
+            .unwritten_if([](const FilmWalls& walls) { return walls.colour == Colour::plain; }),
         quantity("edge_angle", &FilmWalls::edge_angle, Dimension::degrees, {0, 180, false, false}, initial(),
                  "Edges of a mesh whose faces turn more than this are drawn, beside its outlines.")
             .unwritten_if([](const FilmWalls& walls) { return walls == FilmWalls(); }),
@@ -60,6 +68,8 @@ void list_film_walls(Keys& all) {
 void read_film_walls(Document& document, FilmedScene& scene) {
     FilmWalls& walls = scene.film.look.walls;
     walls_table().read(document, scene, "film.walls", walls);
+    if (walls.colour != FilmWalls::Colour::plain && scene.meshes.empty())
+        document.fail("film.walls.colour", "colours meshes, and the scene has none; leave it out");
     for (const std::string& name : walls.solid)
         if (std::find(walls.glass.begin(), walls.glass.end(), name) != walls.glass.end())
             document.fail("film.walls.glass",
