@@ -87,11 +87,10 @@ const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
 // answers what the general way would, and says whether it could.
 bool PatchMatcher::find_lone(const ContactGroup& group, const MeshNear& near, const MeshLists& lists,
                              const ContactTable& table, const Asked& asked) {
-    if (near.flat < near.count &&
-        lists.triangles[static_cast<std::size_t>(near.first + near.flat)].distance < asked.reach)
-        return false;
     if (!(asked.gone < near.stays)) return false;
-    const std::int32_t triangle = lists.triangles[static_cast<std::size_t>(near.first)].number;
+    const NearTriangle* const own = lists.triangles.data() + near.first;
+    if (near.flat < near.count && own[near.flat].distance < asked.reach) return false;
+    const std::int32_t triangle = own->number;
     const Vec3& out = asked.surface.normal(triangle);
     const double plane = out.dot(asked.centre - asked.surface.corner(triangle, 0)),
                  distance = std::abs(plane);

@@ -1,3 +1,4 @@
+// Loads of meshes as point_loads.cpp adds them, for a register of contacts at once.
 #include <algorithm>
 
 #include "engine/step/forces/point_loads.hpp"
