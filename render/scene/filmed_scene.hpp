@@ -18,7 +18,7 @@ struct FilmedScene : Scene {
 
 // Whether walls have the colours of pressure or wear.
 inline bool shows_wear(const FilmedScene& scene) {
-    return scene.film.look.walls.colour != FilmWalls::Colour::plain && !scene.meshes.empty();
+    return scene.film.look.walls.coloured() && !scene.meshes.empty();
 }
 
 // Makes what the engine keeps of the film (Scene::film_text, the species' colours as text, Scene::wishes) say

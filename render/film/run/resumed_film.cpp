@@ -20,8 +20,7 @@ bool is_of_single_moments(const Film& film) {
     const bool spans =
         std::any_of(film.segments.begin(), film.segments.end(),
                     [](const FilmSegment& segment) { return segment.exposure > 0 || segment.average > 0; });
-    return !spans && !needs_displacement(film.shows) && !needs_touches(film.shows) &&
-           film.look.walls.colour == FilmWalls::Colour::plain;
+    return !spans && !needs_displacement(film.shows) && !needs_touches(film.shows);
 }
 
 // The first step before `end` at which the film that is to be made and the pictures whose moments were kept

@@ -133,8 +133,16 @@ void RecordedRun::read_outflow_of_run() {
 // Walls without their colours would look as if nothing touched them.
 void RecordedRun::read_wear_of_run() {
     try {
+        if (const std::string name = name_of("fields.nc"); !fs::exists(name))
+            throw UserError(fmt::format(
+                "{}: is missing, and the film colours walls by it; run the scene with output.instruments = "
+                "[\"wear\"]",
+                name));
         wear_.emplace(name_of("fields.nc"), scene_);
     } catch (const UserError& lack) {
+        if (!for_questions_)
+            throw UserError(fmt::format("{}, or draw walls without colours, by --set film.walls.colour=plain",
+                                        lack.what()));
         scene_.film.look.walls.colour = FilmWalls::Colour::plain;
         archive_->note(fmt::format("{}; walls are plain", lack.what()));
     }
@@ -167,7 +175,7 @@ std::optional<FlowedOut> RecordedRun::flowed_out(const Frame& frame) const {
 }
 
 std::shared_ptr<const std::vector<MeshWear>> RecordedRun::worn(const Frame& frame) const {
-    return wear_ ? std::make_shared<const std::vector<MeshWear>>(wear_->at(frame.time)) : nullptr;
+    return wear_ ? wear_->until(frame.time) : nullptr;
 }
 
 PartSupply::Measured RecordedRun::measured(const Frame& frame) const {
