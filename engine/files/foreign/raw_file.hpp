@@ -27,9 +27,12 @@ struct RawFacts {
     std::string format;   // "LAMMPS text dump"
     std::string program;  // that wrote it, with its version, where the file says so
     std::string units;    // "si", "lj", "cgs", "micro", "real", ... as the file says; empty where it does not
+    std::optional<Vec3> gravity{};  // in the file's units, where it says it
     // Where the format fixes them: m in one unit of length, s in one unit of time.
     std::optional<double> length_unit{}, time_unit{};
-    int dimensions = 3;  // 2 where the file says so
+    int dimensions = 3;    // 2 where the file says so
+    int first_row_id = 1;  // id of a frame's first row where the file has no ids; contacts count from there
+    bool scaled_places = false;  // columns x, y, z are shares of the box (old dumps without names)
 };
 
 class RawFile {

@@ -21,6 +21,7 @@ struct ReadingOptions {
     std::map<std::string, std::string> species{};  // --species "1=small,2=big": name of a type
     std::optional<double> density{};               // --density, kg/m3
     bool one = false;                              // --one: this file alone, without its series
+    std::vector<std::string> contacts{};           // --contacts: files or patterns of contacts
     std::vector<std::string> walls{};              // --walls: files or patterns of surfaces
     std::optional<double> walls_scale{};           // m in one unit of the walls' files
     std::filesystem::path container{};             // --container scene.toml: its walls and its drive
