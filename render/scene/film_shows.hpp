@@ -27,7 +27,7 @@ enum class GrainValue {
     contact_force,      // N, sum of the normal forces on the grain
 };
 
-enum class ColourMap { viridis, cividis, vik };
+enum class ColourMap { viridis, cividis, vik, bilbao };  // bilbao: of walls alone
 
 struct GrainColouring {
     GrainValue by = GrainValue::species;

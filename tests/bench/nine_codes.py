@@ -10,9 +10,11 @@ Dosta et al. 2024, Comput. Phys. Commun. 296, 109066. DATA is a folder with the 
     drum        8,000 grains of 4 mm under 30,000 of 2 mm in a drum; to 1 s
     drum_soft   the same with a five hundredth of the stiffness and a step of 20 us; to 5 s
     silo        100,000 grains of 4 mm run out of a silo through its large orifice; to 1.5 s
+    silo_soft   40,000 of them with a hundredth of the stiffness and a step of 15 us; to 0.6 s
 
 Each writes its input and its run into FOLDER/CASE, prints what is compared and its tolerance, and writes CASE.csv with our
-curve and, where gnuplot is, CASE.svg with all three. A run that is there already is compared again without being run.
+curve and, where gnuplot is, CASE.svg with all three. A run that is there already is compared again without being run; one
+that was broken off (SIGINT to the program), or that ended before SECONDS, goes on.
 Exit status: 0 within the tolerances, 1 outside, 2 a mistake.
 """
 import argparse
@@ -20,10 +22,10 @@ import csv
 import json
 import lzma
 import math
+import resource
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "phenomena"))
@@ -36,7 +38,6 @@ PAIRS = {("M1", "M1"): (0.5, 0.3), ("M1", "M2"): (0.45, 0.2), ("M2", "M2"): (0.4
          ("M1", "steel"): (0.4, 0.2), ("M2", "steel"): (0.4, 0.2)}
 FLOOR = -0.0902431  # m, of the box of the impact
 ORIFICE = -0.0554222  # m, of the silo
-GRAINS_OF_SILO = 100000
 
 
 def modulus(a, b, softer):
@@ -102,7 +103,7 @@ def table(file):
 # ---- Cases: input, curve, comparison --------------------------------------------------------------------------------
 
 class Impact:
-    until, step, title, axis = 0.03, 0.5e-6, "A steel ball falls into 25,000 grains", "height of the ball's centre, m"
+    until, step, title = 0.03, 0.5e-6, "A steel ball falls into 25,000 grains"
     published, column = {"LIGGGHTS": "case3_25k_liggghts.csv", "MUSEN": "case3_25k_musen.csv"}, "ball_z_m"
 
     def prepare(self, job):
@@ -113,7 +114,7 @@ class Impact:
                 contacts({"grains": "M1", "ball": "steel"}, "wall") +
                 "[container]\nshape = \"box\"\ndepth = 0.098\nwidth = 0.06\nheight = 0.198\ntop = \"open\"\n"
                 "[start]\nmethod = \"file\"\nfile = \"start.csv\"\n" + job.run_table(self.step) +
-                "[output]\ntrajectory = false\nmeasures_interval = \"0.1 ms\"\n")
+                "[output]\ntrajectory_interval = \"5 ms\"\nmeasures_interval = \"0.1 ms\"\n")
 
     def curve(self, job):
         return ["t_s", "ball_z_m"], [(row["time_s"], row["ball_centre_z_m"] + FLOOR)
@@ -132,9 +133,20 @@ class Impact:
         return good
 
 
+    def panels(self, job, rows):
+        def way(points):
+            return [(1e3 * t, 1e3 * (z - 0.06)) for t, z in points]
+        others = {name: [point for point in way(job.results(file, self.column)) if point[0] <= 1e3 * job.until]
+                  for name, file in self.published.items()}
+        musen = [point for point in others["MUSEN"] if point[0] >= 5]
+        ours = way(rows)
+        return [Panel("way of the ball, mm", "time, ms", {"grainreel": ours}, others),
+                Panel("off MUSEN, %", "time, ms", {"grainreel": [(t, 100 * (at(ours, t) / z - 1)) for t, z in musen]},
+                      {"LIGGGHTS": [(t, 100 * (at(others["LIGGGHTS"], t) / z - 1)) for t, z in musen]}, (-1, 1))]
+
+
 class Drum:
     until, step, softer, title = 1.0, 0.8e-6, 1.0, "Grains in two quarters of a drum"
-    axis = "grains of 2 mm with x < 0 and z < 0"
     published, column = {"LIGGGHTS": "case2_liggghts.csv", "MUSEN": "case2_musen.csv"}, "z2_m1"
     counts = ("z1_m1", "z1_m2", "z2_m1", "z2_m2")
 
@@ -150,7 +162,7 @@ class Drum:
                 "[[mesh]]\nname = \"drum\"\nfile = \"drum.stl\"\n"
                 "turn = { axis = [0, 1, 0], through = [0, 0, 0], rate = -2 }\n"
                 "[start]\nmethod = \"file\"\nfile = \"start.csv\"\n" + job.run_table(self.step) +
-                "[output]\ntrajectory_interval = 0.1\nmeasures_interval = 0.01\n")
+                "[output]\ntrajectory_interval = 0.05\nmeasures_interval = 0.01\n")
 
     def curve(self, job):
         frames, rows = Fields(job.run / "trajectory.nc"), []
@@ -183,43 +195,61 @@ class Drum:
         return good
 
 
+    def panels(self, job, rows):
+        last, wholes = rows[-1][0] + 1e-9, {"M1": 30000, "M2": 8000}
+        ours, others, off = {}, {}, {}
+        for column, name in (("z2_m1", "M1"), ("z2_m2", "M2")):
+            ours[f"grainreel, {name}"] = [(row[0], row[1 + self.counts.index(column)]) for row in rows]
+            for code, file in self.published.items():
+                others.setdefault(code, []).extend(point for point in job.results(file, column) if point[0] <= last)
+            off[f"grainreel, {name}"] = [(t, 100 * (at(ours[f"grainreel, {name}"], t) - count) / wholes[name])
+                                         for t, count in job.results(self.published["MUSEN"], column) if t <= last]
+        return [Panel("grains in the lower left quarter", "time, s", ours, others),
+                Panel("off MUSEN, % of the grains", "time, s", off, {}, (-5, 5))]
+
+
 class SoftDrum(Drum):
     until, step, softer = 5.0, 2e-5, 0.002
 
 
 class Silo:
-    until, step, title, axis = 1.5, 1.5e-6, "100,000 grains run out of a silo", "grains above the orifice"
+    until, step, softer = 1.5, 1.5e-6, 1.0
+    grains, title = 100000, "100,000 grains run out of a silo"
     published = {"LIGGGHTS": "case1_large_M1_liggghts.csv", "MUSEN": "case1_large_M1_musen.csv"}
     column = "particles_above_orifice"
+    fills = ((0.01, 0.05), (0.1, 0.05), (1, 0.02))  # stiffness, and seconds with it
 
     def scene(self, softer, start, gate, run, job):
-        text = (species_table("M1", "M1", GRAINS_OF_SILO, 0.004) + contacts({"M1": "M1"}, "silo", softer) +
+        text = (species_table("M1", "M1", self.grains, 0.004) + contacts({"M1": "M1"}, "silo", softer) +
                 "[container]\nshape = \"mesh\"\nmesh = \"silo\"\n[[mesh]]\nname = \"silo\"\nfile = \"silo.stl\"\n")
         if gate:
             text += (f"[[contact.pair]]\nbetween = [\"M1\", \"gate\"]\n{numbers('M1', 'steel', softer)}"
                      f"[[mesh]]\nname = \"gate\"\nfile = \"gate.stl\"\nposition = [0, 0, {ORIFICE - 2e-4}]\n")
-        else:
-            text += (f"[[exit]]\nlow = [-0.2, -0.2, -0.5]\nhigh = [0.2, 0.2, {ORIFICE}]\n")
-        return text + start + job.run_table(*run) + "[output]\ntrajectory = false\nmeasures_interval = 0.01\n"
+        bottom = ORIFICE - (0.02 if gate else 0)
+        text += f"[[exit]]\nlow = [-0.2, -0.2, -0.5]\nhigh = [0.2, 0.2, {bottom}]\n"
+        return text + start + job.run_table(*run) + "[output]\ntrajectory_interval = 0.25\nmeasures_interval = 0.01\n"
 
     # The published start is not to be had. Soft grains settle behind a gate, and are then made stiffer by steps.
     def prepare(self, job):
-        shutil.copy(job.data / "stl" / "silo_large_orifice_m.stl", job.folder / "silo.stl")
+        fill = job.folder.parent / f"silo_fill_{self.grains}"
         maker = Path(__file__).resolve().parents[2] / "scenes" / "meshes" / "make_meshes.py"
-        subprocess.run([sys.executable, maker, "plate", job.folder / "gate.stl", "width=0.08", "depth=0.08"], check=True)
         start = "[start]\nsettle_limit = 3\n"
-        for softer, duration in ((0.01, 0.05), (0.1, 0.05), (1, 0.02)):
+        for folder in (job.folder, fill):
+            folder.mkdir(exist_ok=True)
+            shutil.copy(job.data / "stl" / "silo_large_orifice_m.stl", folder / "silo.stl")
+        subprocess.run([sys.executable, maker, "plate", fill / "gate.stl", "width=0.08", "depth=0.08"], check=True)
+        for softer, duration in self.fills:
             name = f"fill_{softer:g}"
-            text = self.scene(softer, start, True, (self.step / math.sqrt(softer), duration), job)
-            if not (job.folder / name / "final.csv").exists():
-                (job.folder / f"{name}.toml").write_text(text)
-                job.call(job.folder / f"{name}.toml", job.folder / name)
-            shutil.copy(job.folder / name / "final.csv", job.folder / f"{name}.csv")  # a table without its run
+            text = self.scene(softer, start, True, (Silo.step / math.sqrt(softer), duration), job)
+            if not (fill / name / "final.csv").exists():
+                (fill / f"{name}.toml").write_text(text)
+                job.call("movie", fill / f"{name}.toml", "--out", fill / name, "--force")
+            shutil.copy(fill / name / "final.csv", fill / f"{name}.csv")  # a table without its run
             start = f"[start]\nmethod = \"file\"\nfile = \"{name}.csv\"\n"
-        rows = table(job.folder / f"{name}.csv")
+        rows = table(fill / f"{name}.csv")
         write_table(job.folder / "start.csv", [(1, row["radius"], row["x"], row["y"], row["z"], 0 if i else -NUDGE)
                                                for i, row in enumerate(rows)])
-        return self.scene(1, start.replace(name, "start"), False, (self.step,), job)
+        return self.scene(self.softer, start.replace(name, "start"), False, (self.step,), job)
 
     def curve(self, job):
         left = sorted(row["time_s"] for row in table(job.run / "outflow.csv"))
@@ -227,19 +257,50 @@ class Silo:
         for i in range(round(job.until / 0.01) + 1):
             while gone < len(left) and left[gone] <= 0.01 * i:
                 gone += 1
-            rows.append((0.01 * i, GRAINS_OF_SILO - gone))
+            rows.append((0.01 * i, self.grains - gone))
         return ["t_s", self.column], rows
 
     def compare(self, job, rows):
+        begin = 0.5 if job.until > 1 else 0.1
+
         def rate(points):
-            return (at(points, 0.5) - at(points, job.until)) / (job.until - 0.5)
+            return (at(points, begin) - at(points, job.until)) / (job.until - begin)
         others = {name: rate(job.results(file, self.column)) for name, file in self.published.items()}
         mean = sum(others.values()) / len(others)
-        return judge(f"grains a second from 0.5 to {job.until:g} s: {rate(rows):.0f}; " +
+        return judge(f"grains a second from {begin:.2g} to {job.until:g} s: {rate(rows):.0f}; " +
                      ", ".join(f"{name} {value:.0f}" for name, value in others.items()), rate(rows) / mean - 1, 0.05)
 
 
-CASES = {"impact": Impact, "drum": Drum, "drum_soft": SoftDrum, "silo": Silo}
+    def panels(self, job, rows):
+        last = rows[-1][0] + 1e-9
+
+        def rate(points):  # over a tenth of a second each
+            times = [0.1 * i for i in range(int(10 * points[-1][0] + 1e-6) + 1)]
+            return [((a + b) / 2, (at(points, a) - at(points, b)) / (b - a) / 1e3) for a, b in zip(times, times[1:])]
+        others = {name: job.results(file, self.column) for name, file in self.published.items()}
+        steady = [value for points in others.values() for t, value in rate(points) if 0.5 < t < 1.5]
+        mean = sum(steady) / len(steady)
+        return [Panel("grains above the orifice", "time, s", {"grainreel": rows},
+                      {name: [(t, n - 100000 + self.grains) for t, n in points if t <= last][::1 + len(points) // 60]
+                       for name, points in others.items()}),
+                Panel("thousand grains a second", "time, s", {"grainreel": rate(rows)},
+                      {name: [p for p in rate(points) if p[0] <= last] for name, points in others.items()},
+                      (0.95 * mean, 1.05 * mean))]
+
+
+class SoftSilo(Silo):
+    until, step, softer, fills = 0.6, 1.5e-5, 0.01, Silo.fills[:1]
+    grains, title = 40000, "40,000 soft grains run out of a silo"
+
+
+CASES = {"impact": Impact, "drum": Drum, "drum_soft": SoftDrum, "silo": Silo, "silo_soft": SoftSilo}
+
+
+class Panel:
+    """A chart: axes, our curves, the published ones, and the band that is allowed."""
+
+    def __init__(self, ordinate, abscissa, ours, others, band=None):
+        self.ordinate, self.abscissa, self.ours, self.others, self.band = ordinate, abscissa, ours, others, band
 
 
 # ---- Running and comparing --------------------------------------------------------------------------------------------
@@ -270,10 +331,18 @@ class Job:
         # A step more, so that the last moment that is asked for is there.
         return f"[run]\nduration = {(duration or self.until) + step:.10g}\nstep = {step:.10g}\n"
 
-    def call(self, scene, out):
-        subprocess.run([self.program, "movie", scene, "--no-film", "--no-report", "--out", out, "--force",
-                        *(["--threads", str(self.threads)] if self.threads else [])],
-                       stdout=subprocess.DEVNULL, check=True)
+    def call(self, *words):
+        """Runs the program. A run that a signal ends is kept as far as it has come. Gives the processor time it took."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        command = [self.program, *words, "--no-film", "--no-report", *(["--threads", str(self.threads)] if self.threads else [])]
+        done = subprocess.run(command, stdout=subprocess.DEVNULL)
+        if done.returncode not in (0, 130, 143):
+            raise subprocess.CalledProcessError(done.returncode, command)
+        return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+    def state(self):
+        file = self.run / "run.json"
+        return json.loads(file.read_text()) if file.exists() else None
 
     def results(self, file, column):
         rows = table(self.data / "results" / file)
@@ -283,27 +352,50 @@ class Job:
 
 
 def run_case(job, case):
-    """Seconds by the clock, or none if the run was there already."""
-    if (job.run / "run.json").exists():
-        return None
-    scene = job.folder / "scene.toml"
-    scene.write_text(f"title = \"{case.title}\"\n" + case.prepare(job))
-    begin = time.time()
-    job.call(scene, job.run)
-    return time.time() - begin
+    """Runs the case, or goes on with it. Gives steps and seconds of processor time of all its pieces."""
+    file = job.folder / "cost.json"
+    cost = json.loads(file.read_text()) if file.exists() else {"steps": 0, "user_s": 0.0}
+    state, end = job.state(), job.until + case.step
+    if state is None:
+        scene = job.folder / "scene.toml"
+        scene.write_text(f"title = \"{case.title}\"\n" + case.prepare(job))
+        cost["user_s"] += job.call("movie", scene, "--out", job.run, "--force")
+    elif state["engine"]["simulated_s"] < job.until - 1e-9:
+        cost["user_s"] += job.call("resume", job.run, "--until", f"{end:.10g}")
+    cost["steps"] = job.state()["engine"]["steps"]
+    file.write_text(json.dumps(cost))
+    return cost
 
 
-def chart(job, case, name, rows):
-    parts = [f"'{name}.csv' every ::1 using 1:{2 + getattr(case, 'counts', (case.column,)).index(case.column)} "
-             f"with lines lw 3 title 'grainreel'"]
-    for code, file in case.published.items():
-        points = [point for point in job.results(file, case.column) if point[0] <= rows[-1][0]]
-        (job.folder / f"{code}.csv").write_text("".join(f"{t},{value}\n" for t, value in points))
-        parts.append(f"'{code}.csv' using 1:2 with points pt 7 ps 0.5 title '{code}'")
+def chart(job, name, panels):
+    """NAME.gp with all its numbers, and NAME.svg where gnuplot is."""
+    blocks, plots = [], []
+    for panel in panels:
+        span = "[*:*]"
+        ends = [t for rows in panel.ours.values() for t, _ in rows]
+        parts = []
+        if panel.band:
+            low, high = panel.band
+            values = [value for rows in (*panel.ours.values(), *panel.others.values()) for _, value in rows]
+            room = 0.1 * (high - low)
+            span = f"[{min(low, *values) - room:g}:{max(high, *values) + room:g}]"
+            parts.append(f"[{min(ends):g}:{max(ends):g}] '+' using 1:({low:g}):({high:g}) with filledcurves lc rgb '#dddddd' "
+                         "title 'allowed'")
+        for i, (title, rows) in enumerate([*panel.ours.items(), *panel.others.items()]):
+            data, own = f"$data{len(blocks)}", title in panel.ours
+            blocks.append(f"{data} << END\n" + "".join(f"{t:.6g} {value:.6g}\n" for t, value in rows) + "END\n")
+            look = f"lines lw 3 lc {i + 1}" if own else f"points pt {(6, 2)['MUSEN' in title]} ps 1.1 lc rgb 'black'"
+            parts.append(f"{data} with {look} title '{title}'")
+        plots.append(f"set yrange {span}\nset xlabel '{panel.abscissa}'\nset ylabel '{panel.ordinate}'\nplot " +
+                     ", \\\n     ".join(parts) + "\n")
     (job.folder / f"{name}.gp").write_text(
-        "set datafile separator ','\nset terminal svg size 760,420 font 'DejaVu Sans,14' background 'white'\n"
-        f"set output '{name}.svg'\nset xlabel 'time, s'\nset ylabel \"{case.axis}\"\nset grid\n"
-        "set key outside top center horizontal\nplot " + ", \\\n     ".join(parts) + "\n")
+        "# Made by tests/bench/nine_codes.py; the published values are those of Dosta et al. 2024 (its docstring).\n" +
+        "".join(blocks) +
+        "do for [form in 'svg png'] {\n"
+        "if (form eq 'svg') { set terminal svg size 820,720 font 'DejaVu Sans,14' background 'white' } "
+        "else { set terminal pngcairo size 1230,1080 font 'DejaVu Sans,18' }\n"
+        f"set output '{name}.'.form\nset grid\nset key outside right top\nset lmargin 11\nset rmargin 24\n"
+        f"set multiplot layout {len(panels)},1\n" + "".join(plots) + "unset multiplot\n}\n")
     if shutil.which("gnuplot"):
         subprocess.run(["gnuplot", f"{name}.gp"], cwd=job.folder, check=True)
 
@@ -322,15 +414,21 @@ def main():
     case = CASES[options.case]()
     job = Job(options, case)
     try:
-        seconds = run_case(job, case)
+        cost = run_case(job, case)
     except subprocess.CalledProcessError as error:
         sys.exit(f"`{' '.join(map(str, error.cmd))}` ended with {error.returncode}")
     head, rows = case.curve(job)
     with open(job.folder / f"{options.case}.csv", "w", newline="") as file:
         csv.writer(file).writerows([head, *rows])
-    chart(job, case, options.case, rows)
-    engine = json.loads((job.run / "run.json").read_text()).get("engine") or {}
-    print(f"{options.case}: {seconds or 0:.0f} s by the clock; {json.dumps(engine)}")
+    chart(job, options.case, case.panels(job, rows))
+    engine = job.state()["engine"]
+    come = engine["simulated_s"]
+    if come < job.until - 1e-9:
+        print(f"broken off at {come:g} s; the same command goes on with it")
+        job.until = come
+    if cost["user_s"]:
+        print(f"{options.case}: {engine['grains']} grains, {cost['steps']} steps, {cost['user_s']:.0f} s of processor time: "
+              f"{engine['grains'] * cost['steps'] / cost['user_s'] / 1e6:.2f} million grain-steps a second and core")
     return 0 if case.compare(job, rows) else 1
 
 

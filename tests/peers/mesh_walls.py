@@ -9,15 +9,15 @@ hopper  a round hopper with a cone of 45 degrees empties through its orifice: ma
 The state is that of grainreel's grains at rest (drum still, a gate below the orifice). Both programs then have linear
 springs and dashpots with friction, without pull and without tangential dashpot (LIGGGHTS: hooke/stiffness, tangential
 history). Printed are means over blocks of time with their standard errors, the difference over its error, and
-grain-steps a second on one thread each. A run that is there already is used again. Needs `liggghts` (Debian:
+grain-steps a second of processor time (user time) on one thread each. A run that is there already is used again. Needs `liggghts` (Debian:
 liggghts). With --only liggghts the grains begin on a lattice, to try the deck where there is no PROGRAM.
 Exit status: 0 alike within three standard errors, 1 not, 2 a mistake, 77 no liggghts.
 """
 import argparse
 import csv
-import json
 import math
 import re
+import resource
 import shutil
 import statistics
 import subprocess
@@ -29,6 +29,7 @@ D, SOLID = 0.003, 2500.0  # m, kg/m3
 STIFFNESS, DAMPING, FRICTION = 2000.0, 4250.0, 0.5  # N/m; 1/s, times the effective mass
 STEP, EVERY = 1e-5, 100  # s; steps between two looks
 RATE = 2.0  # rad/s
+NUDGE = 0.3  # m/s, downwards, of one grain: a bed that moves is taken as it is, and one at rest would settle once more
 BELOW = -0.02  # m; grains are counted as flowed out there
 
 SCENE = """[[species]]
@@ -99,7 +100,7 @@ def make_mesh(name, file, *numbers):
 
 
 class Drum:
-    grains, until, after, block = 2500, 4.0, 1.0, 0.25  # s
+    grains, until, after, block = 2500, 1.5, 0.5, 0.125  # s
     names = ("mean y, mm", "mean z, mm", "torque, mN m")
 
     def mesh(self, folder, facets):
@@ -122,15 +123,16 @@ class Drum:
 
 
 class Hopper:
-    grains, until, after, block = 9000, 0.8, 0.2, 0.1  # s
+    grains, until, after, block = 6000, 0.5, 0.1, 0.05  # s
     names = ("mass flow, kg/s",)
 
     def mesh(self, folder, facets):
         make_mesh("hopper", folder / "vessel.stl", "radius=0.04", "orifice=0.03", f"facets={facets}")
         make_mesh("plate", folder / "gate.stl")
 
-    still = "[[mesh]]\nname = \"gate\"\nfile = \"gate.stl\"\nposition = [0, 0, -0.0002]\n"
-    flow = f"[[exit]]\nlow = [-0.1, -0.1, -0.5]\nhigh = [0.1, 0.1, {BELOW}]\n"
+    exit = f"[[exit]]\nlow = [-0.1, -0.1, -0.5]\nhigh = [0.1, 0.1, {BELOW}]\n"
+    still = exit + "[[mesh]]\nname = \"gate\"\nfile = \"gate.stl\"\nposition = [0, 0, -0.0002]\n"
+    flow = exit
     move = ""
 
     def lattice(self, count):
@@ -140,8 +142,11 @@ class Hopper:
         return rates([(r["time_s"], r["outflow_kg"]) for r in rows])
 
     def theirs(self, rows):
-        mass = SOLID * math.pi / 6 * D**3
-        return rates([(t, below + mass * (rows[0][5] - atoms)) for t, _, _, below, _, atoms in rows])
+        return rates([(t, below + grain_mass() * (rows[0][5] - atoms)) for t, _, _, below, _, atoms in rows])
+
+
+def grain_mass():
+    return SOLID * math.pi / 6 * D**3
 
 
 def rates(rows):
@@ -183,6 +188,20 @@ def numbers_of(file):
         return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(rows)]
 
 
+def timed(folder, name, command, **options):
+    """Runs a command to its end, and writes the seconds of processor time that it took."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    done = subprocess.run(command, **options)
+    if done.returncode:
+        sys.exit(f"`{' '.join(map(str, command))}` ended with {done.returncode}; see {folder}")
+    (folder / f"{name}.user").write_text(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before))
+
+
+def speed(folder, name, rows, steps):
+    """Grain-steps a second of processor time; rows end with the number of grains."""
+    return statistics.fmean(row[-1] for row in rows) * steps / float((folder / f"{name}.user").read_text())
+
+
 def grainreel(program, folder, name, case, count, start, more, until):
     out = folder / name
     if not (out / "final.csv").exists():
@@ -190,8 +209,8 @@ def grainreel(program, folder, name, case, count, start, more, until):
         (folder / f"{name}.toml").write_text(SCENE.format(
             count=count, d=D, solid=SOLID, stiffness=STIFFNESS, damping=DAMPING, friction=FRICTION, step=STEP,
             more=more, start=start, duration=until, interval=STEP * EVERY, instruments=outflow))
-        subprocess.run([program, "movie", folder / f"{name}.toml", "--no-film", "--no-report", "--threads", "1",
-                        "--quiet", "--out", out, "--force"], check=True, stdout=subprocess.DEVNULL)
+        timed(folder, name, [program, "movie", folder / f"{name}.toml", "--no-film", "--no-report", "--threads", "1",
+                             "--quiet", "--out", out, "--force"], stdout=subprocess.DEVNULL)
     return out
 
 
@@ -203,16 +222,12 @@ def liggghts(folder, case, until):
             stiffness=STIFFNESS, tangential=2 / 7 * STIFFNESS, damping=DAMPING, friction=FRICTION, step=STEP,
             move=case.move, below=BELOW, every=EVERY, thermo=max(1, steps // 20), steps=steps))
         with open(folder / "liggghts.part", "w") as out:
-            done = subprocess.run(["stdbuf", "-oL", "liggghts", "-log", "none", "-in", "in.liggghts"], cwd=folder,
-                                  stdout=out, stderr=subprocess.STDOUT)
-        if done.returncode:
-            sys.exit(f"liggghts ended with {done.returncode}; see {folder}/liggghts.part")
+            timed(folder, "liggghts", ["stdbuf", "-oL", "liggghts", "-log", "none", "-in", "in.liggghts"], cwd=folder,
+                  stdout=out, stderr=subprocess.STDOUT)
         (folder / "liggghts.part").rename(folder / "liggghts.out")
-    text = (folder / "liggghts.out").read_text()
-    loop = re.search(r"Loop time of (\S+) on \d+ procs for (\d+) steps", text)
     rows = [list(map(float, line.split())) for line in (folder / "looks.txt").read_text().splitlines()
             if not line.startswith("#")]
-    return rows, statistics.fmean(row[5] for row in rows) * float(loop[2]) / float(loop[1])
+    return rows, speed(folder, "liggghts", rows, round(until / STEP))
 
 
 def blocks(rows, case, column):
@@ -248,9 +263,13 @@ def main():
         state = case.lattice(count)
     else:
         rest = grainreel(options.program.resolve(), folder, "rest", case, count, "settle_limit = 2", case.still, 0.2)
-        shutil.copy(rest / "final.csv", folder / "state.csv")
-        with open(folder / "state.csv", newline="") as file:
+        with open(rest / "final.csv", newline="") as file:
             state = list(csv.DictReader(file))
+        state[0]["vz"] = str(-NUDGE)
+        with open(folder / "state.csv", "w", newline="") as file:
+            table = csv.DictWriter(file, state[0])
+            table.writeheader()
+            table.writerows(state)
     write_data(folder / "state.data", state)
     looks, their_speed = liggghts(folder, case, until)
     theirs = case.theirs(looks)
@@ -267,9 +286,10 @@ def main():
         off = (a - b) / math.hypot(a_error, b_error)
         alike &= abs(off) <= 3
         print(f"{name}: grainreel {a:.5g} +- {a_error:.2g}, LIGGGHTS {b:.5g} +- {b_error:.2g}; {off:+.1f} standard errors")
-    speed = json.loads((run / "run.json").read_text())["engine"]["particle_steps_per_second"]
-    print(f"grain-steps a second: grainreel {speed / 1e6:.2f} million, LIGGGHTS {their_speed / 1e6:.2f} million; "
-          f"{speed / their_speed:.1f} times")
+    grains = [(count - row.get("outflow_kg", 0) / grain_mass(),) for row in numbers_of(run / "measures.csv")]
+    our_speed = speed(folder, "run", grains, round(until / STEP))
+    print(f"grain-steps a second of processor time: grainreel {our_speed / 1e6:.2f} million, "
+          f"LIGGGHTS {their_speed / 1e6:.2f} million; {our_speed / their_speed:.1f} times")
     return 0 if alike else 1
 
 

@@ -13,8 +13,8 @@ namespace grainreel {
 
 enum class Packing { none, gzip, zstd };
 
-// The first kHeadBytes of a file's content, unpacked. Throws UserError where the file is no ordinary file, cannot be
-// opened, or is packed in a way that is not read (xz, lzma, bzip2: refused by name).
+// The first kHeadBytes of a file's content, unpacked. Throws UserError where the file is no ordinary file,
+// cannot be opened, or is packed in a way that is not read (xz, lzma, bzip2: refused by name).
 FileHead unpacked_head(const std::filesystem::path& file);
 
 // A stream of a file's content from its beginning.
@@ -25,7 +25,8 @@ class ByteSource {
     virtual std::size_t read(char* to, std::size_t size) = 0;
     // Whether the packed stream ended before its end: the bytes until there were given.
     virtual bool cut_off() const = 0;
-    // To a place of the unpacked content. Packed files are read from the beginning again where it lies behind.
+    // To a place of the unpacked content. Packed files are read from the beginning again where it lies
+    // behind.
     virtual void seek(std::uint64_t place) = 0;
 };
 

@@ -30,7 +30,9 @@ struct RawFacts {
     std::optional<Vec3> gravity{};  // in the file's units, where it says it
     // Where the format fixes them: m in one unit of length, s in one unit of time.
     std::optional<double> length_unit{}, time_unit{};
-    int dimensions = 3;   // 2 where the file says so
+    int dimensions = 3;    // 2 where the file says so
+    int first_row_id = 1;  // id of a frame's first row where the file has no ids; contacts count from there
+    bool scaled_places = false;  // columns x, y, z are shares of the box (old dumps without names)
 };
 
 class RawFile {
@@ -38,8 +40,8 @@ class RawFile {
     virtual ~RawFile() = default;
 
     virtual const RawFacts& facts() const = 0;
-    // All that are whole, in the order of the file. A frame that is cut at the end is left out, with a line of
-    // news(). Where no frame is whole, opening throws UserError.
+    // All that are whole, in the order of the file. A frame that is cut at the end is left out, with a line
+    // of news(). Where no frame is whole, opening throws UserError.
     virtual const std::vector<RawMoment>& moments() const = 0;
     // Throws UserError "FILE:LINE: what is wrong; what to do" (byte in place of line in binary files). Counts
     // are bounded by the file's size before memory is asked for.

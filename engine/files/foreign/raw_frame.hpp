@@ -14,7 +14,8 @@
 namespace grainreel {
 
 // One number a row. A vector has a column for each component: "v:0", "v:1", "v:2". Places are "x", "y", "z"
-// where the format has a place of its own for them (VTK's Points, XYZ, GSD). Numbers that are missing are NaN.
+// where the format has a place of its own for them (VTK's Points, XYZ, GSD). Numbers that are missing are
+// NaN.
 struct RawColumn {
     std::string name;
     std::vector<double> values;
@@ -32,9 +33,9 @@ struct RawTable {
 
 // A surface of walls, in the file's unit of length, where it is at that moment.
 struct RawWall {
-    std::string name;    // "bucket"; empty where the file has none
-    TriangleMesh mesh;   // quads and strips are split into triangles
-    RawTable cells{};    // a row a triangle: stress, wear
+    std::string name;   // "bucket"; empty where the file has none
+    TriangleMesh mesh;  // quads and strips are split into triangles
+    RawTable cells{};   // a row a triangle: stress, wear
 };
 
 struct RawFrame {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "engine/files/foreign/reading_options.hpp"
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/reading_options.hpp"
 
 namespace grainreel {
 
