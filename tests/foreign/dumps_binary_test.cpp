@@ -57,7 +57,7 @@ class Writer {
     std::string bytes_;
 };
 
-constexpr const char* names = "id x y z";
+constexpr const char* four = "id x y z";
 const std::vector<double> straight{-1, 1, 0, 2, 0, 3};
 
 struct Frame {
@@ -65,7 +65,7 @@ struct Frame {
     std::vector<Rows> parts{{{1, 0.1, 0.2, 0.3}}, {{2, 0.4, 0.5, 0.6}}};
     std::int32_t tilted = 0;
     std::vector<double> box = straight;
-    std::string units{}, names = grainreel::names;
+    std::string units{}, names = four;
     std::optional<double> time{};
 };
 
