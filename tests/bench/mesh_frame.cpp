@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/mesh/load_mesh.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
