@@ -1,7 +1,9 @@
 #include <netcdf.h>
 
 #include <cmath>
+#include <cstdlib>
 
+#include "engine/files/foreign/amber/trial_in_child.hpp"
 #include "tests/foreign/small_files.hpp"
 
 namespace grainreel {
@@ -161,6 +163,24 @@ TEST(Amber, ACutFileGivesItsWholeFrames) {
     const std::string packed = Bed(NC_NETCDF4).bytes();
     EXPECT_THAT(complaint_of(amber_format(), packed.substr(0, packed.size() - 1)), HasSubstr("is cut off"));
     EXPECT_THAT(complaint_of(amber_format(), packed.substr(0, 30)), HasSubstr("is cut off"));
+}
+
+TEST(TrialInChild, ACrashEndsTheChildAlone) {
+    int changed = 0;
+    EXPECT_TRUE(survives([&] { changed = 1; }, 10));
+    EXPECT_TRUE(survives([] { throw UserError("refused"); }, 10));
+    EXPECT_FALSE(survives([] { std::abort(); }, 10));
+    EXPECT_EQ(changed, 0);
+}
+
+// Whatever a byte of an HDF5 file is, the file is read or refused.
+TEST(Amber, AnyByteOfHdf5MayBeWrong) {
+    const std::string bytes = Bed(NC_NETCDF4).bytes();
+    for (std::size_t at = 8; at < bytes.size(); at += 331) {
+        std::string wrong = bytes;
+        wrong[at] = static_cast<char>(wrong[at] ^ 0x5a);
+        complaint_of(amber_format(), wrong);
+    }
 }
 
 TEST(Amber, NetcdfWithoutGrainsIsRefused) {

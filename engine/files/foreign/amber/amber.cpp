@@ -1,7 +1,9 @@
 // AMBER NetCDF trajectories (convention 1.0 and what LAMMPS, OVITO and SimPARTIX put beside it): every number
 // of a grain becomes a column under the file's name.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -10,6 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/amber/amber_variables.hpp"
+#include "engine/files/foreign/amber/trial_in_child.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
@@ -17,11 +20,12 @@ namespace grainreel {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view hdf5_signature("\x89HDF\r\n\x1a\n");
 constexpr double pi = 3.14159265358979323846;
 
 // The library has one state for all files.
-std::recursive_mutex& library() {
-    static std::recursive_mutex one;
+std::mutex& library() {
+    static std::mutex one;
     return one;
 }
 
@@ -76,6 +80,8 @@ class AmberFile : public RawFile {
     const std::vector<RawMoment>& moments() const override { return moments_; }
     std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
+    // The same, where the library is ours already.
+    RawFrame frame_at(std::size_t index) const;
 
   private:
     std::size_t grains_of(std::size_t frame) const;
@@ -195,7 +201,7 @@ void AmberFile::add_columns(RawTable& grains, const AmberVariable& variable, std
 // Whether the grains lie closer than 1 angstrom on the average, so that a file that says angstrom, as the
 // convention asks for, cannot mean it.
 bool AmberFile::too_dense_for_atoms() const {
-    const RawFrame frame = read(0);
+    const RawFrame frame = frame_at(0);
     double size = 1;
     int ways = 0;
     for (const char* name : {"x", "y", "z"}) {
@@ -228,6 +234,10 @@ void AmberFile::find_units() {
 
 RawFrame AmberFile::read(std::size_t index) const {
     const std::lock_guard lock(library());
+    return frame_at(index);
+}
+
+RawFrame AmberFile::frame_at(std::size_t index) const {
     RawFrame frame;
     frame.time = moments_.at(index).time;
     frame.box = box_of(index);
@@ -239,13 +249,34 @@ RawFrame AmberFile::read(std::size_t index) const {
 
 bool takes_amber(const FileHead& head) {
     const std::string_view bytes = head.bytes;
-    constexpr std::string_view hdf5("\x89HDF\r\n\x1a\n");
     return bytes.starts_with("CDF\x01") || bytes.starts_with("CDF\x02") || bytes.starts_with("CDF\x05") ||
-           bytes.starts_with(hdf5);
+           bytes.starts_with(hdf5_signature);
+}
+
+bool is_hdf5(const std::filesystem::path& file) {
+    std::string head(hdf5_signature.size(), '\0');
+    std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+    return head == hdf5_signature;
+}
+
+// Opens a file of HDF5 and reads all of it, where a crash does no harm.
+void try_hdf5(const std::filesystem::path& file) {
+    const auto read_all = [&] {
+        const AmberFile one(file);
+        for (std::size_t i = 0; i < one.moments().size(); ++i) one.frame_at(i);
+    };
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    const auto seconds =
+        static_cast<unsigned>(std::min<std::uintmax_t>(30 + (error ? 0 : size) / 5000000, 3600));
+    if (!survives(read_all, seconds))
+        throw UserError(fmt::format(
+            "{}: is a damaged HDF5 file, on which the HDF5 library fails; copy it again", file.string()));
 }
 
 std::unique_ptr<RawFile> open_amber(const std::filesystem::path& file) {
     const std::lock_guard lock(library());
+    if (is_hdf5(file)) try_hdf5(file);
     return std::make_unique<AmberFile>(file);
 }
 
