@@ -8,7 +8,7 @@ Dosta et al. 2024, Comput. Phys. Commun. 296, 109066. DATA is a folder with the 
 
     impact      a steel ball of 20 mm falls into 25,000 grains of 2 mm; to 0.03 s
     drum        8,000 grains of 4 mm under 30,000 of 2 mm in a drum; to 1 s
-    drum_soft   the same with a five hundredth of the stiffness and a step of 20 us; to 5 s
+    drum_soft   the same with a five hundredth of the stiffness and a step of 20 us; to 1 s
     silo        100,000 grains of 4 mm run out of a silo through its large orifice; to 1.5 s
     silo_soft   40,000 of them with a hundredth of the stiffness and a step of 15 us; to 0.6 s
 
@@ -209,7 +209,7 @@ class Drum:
 
 
 class SoftDrum(Drum):
-    until, step, softer = 5.0, 2e-5, 0.002
+    step, softer, title = 2e-5, 0.002, "Soft grains in two quarters of a drum"
 
 
 class Silo:
