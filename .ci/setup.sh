@@ -22,6 +22,10 @@ libnetcdf-dev        netcdf
 libfftw3-dev         fftw3
 libpng-dev           libpng
 libdeflate-dev       libdeflate
+zlib1g-dev           zlib
+libzstd-dev          libzstd
+liblz4-dev           liblz4
+libexpat1-dev        expat
 libmicrohttpd-dev    libmicrohttpd
 libpango1.0-dev      pangocairo, pangoft2, cairo
 fonts-dejavu-core    the DejaVu fonts

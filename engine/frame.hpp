@@ -12,6 +12,7 @@
 namespace grainreel {
 
 class MeasureTable;  // engine/measure/measure_table.hpp
+struct MeshWear;     // engine/measure/walls/mesh_wear.hpp
 
 // Two bodies that push each other.
 struct Touch {
@@ -56,6 +57,9 @@ struct Frame {
     // film asks for it.
     std::shared_ptr<const MeasureTable> measures;
     std::size_t measure_rows = 0;
+
+    // What the grains do to the triangles of each mesh. Null unless the film asks for it.
+    std::shared_ptr<const std::vector<MeshWear>> worn;
 
     std::optional<FlowedOut> flowed_out;  // since the run began; empty unless the film asks for it
 

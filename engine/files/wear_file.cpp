@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
+#include "engine/measure/no_value.hpp"
 #include "engine/state/face_names.hpp"
 
 namespace grainreel {
@@ -57,7 +59,9 @@ struct WearReader::Impl {
     std::string name;
     NetcdfFile file;
     std::vector<Mesh> meshes;
-    std::vector<double> bounds;  // s, begin and end of each record
+    std::vector<double> bounds;                         // s, begin and end of each record
+    std::shared_ptr<const std::vector<MeshWear>> last;  // as it was asked for last
+    std::size_t last_ended = 0;
 };
 
 WearReader::WearReader(const std::filesystem::path& path, const Scene& scene)
@@ -68,27 +72,22 @@ std::size_t WearReader::records() const {
     return impl_->bounds.size() / 2;
 }
 
-std::vector<MeshWear> WearReader::at(double time) const {
-    const std::vector<double>& bounds = impl_->bounds;
-    std::vector<MeshWear> all(impl_->meshes.size());
-    if (records() == 0) return all;
-    std::size_t record = 0;
-    while (record + 1 < records() && bounds[2 * record + 1] < time) ++record;
-    const double begin = bounds[2 * record], end = bounds[2 * record + 1];
-    const double share = end > begin ? std::clamp((time - begin) / (end - begin), 0.0, 1.0) : 1;
-    for (std::size_t m = 0; m < all.size(); ++m) {
-        const auto& [name, triangles] = impl_->meshes[m];
-        all[m].pressure = impl_->values(pressure_field(name), record, triangles);
-        all[m].wear = impl_->values(wear_field(name), record, triangles);
-        if (record == 0) {
-            for (double& wear : all[m].wear) wear *= share;
-            continue;
-        }
-        const std::vector<double> before = impl_->values(wear_field(name), record - 1, triangles);
-        for (std::size_t t = 0; t < triangles; ++t)
-            all[m].wear[t] = before[t] + share * (all[m].wear[t] - before[t]);
+std::shared_ptr<const std::vector<MeshWear>> WearReader::until(double time) const {
+    const double now = time + 1e-9 * std::abs(time) + 1e-12;
+    std::size_t ended = 0;
+    while (ended < records() && impl_->bounds[2 * ended + 1] <= now) ++ended;
+    if (impl_->last && impl_->last_ended == ended) return impl_->last;
+    auto all = std::make_shared<std::vector<MeshWear>>();
+    for (const auto& [name, triangles] : impl_->meshes) {
+        if (ended == 0)
+            all->push_back({std::vector<double>(triangles, kNoValue), std::vector<double>(triangles, 0.0)});
+        else
+            all->push_back({impl_->values(pressure_field(name), ended - 1, triangles),
+                            impl_->values(wear_field(name), ended - 1, triangles)});
     }
-    return all;
+    impl_->last = std::move(all);
+    impl_->last_ended = ended;
+    return impl_->last;
 }
 
 }  // namespace grainreel

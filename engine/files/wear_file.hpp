@@ -17,9 +17,9 @@ class WearReader {
     WearReader(const std::filesystem::path& path, const Scene& scene);
     ~WearReader();
 
-    // At a time (s) since the drive started, of each mesh of the scene: the pressure of the record that the
-    // time lies in, and the wear between its two ends. Outside all records those of the nearest one.
-    std::vector<MeshWear> at(double time) const;
+    // At a time (s) since the drive started, of each mesh of the scene: as the last record has it that has
+    // ended by then. Before the first one the pressure is not known, and nothing is worn.
+    std::shared_ptr<const std::vector<MeshWear>> until(double time) const;
     std::size_t records() const;
 
   private:

@@ -65,12 +65,24 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
         return asked;
     };
     if (request.at) return named(*request.at, request.at_option);
+    if (request.frame && record_.frames().scene() == nullptr) return kept_frame(*request.frame);
     if (request.frame) return named(clock.time(step_of_frame(request)), "--frame");
     if (request.cycle) {
         if (!record_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
         return named(clock.time(clock.step_at(*request.cycle)), "--cycle");
     }
     return last();
+}
+
+// A file of frames alone has no film: its frames are counted as they lie in it.
+AskedMoment MomentFinder::kept_frame(std::int64_t frame) const {
+    const std::vector<Frame>& moments = record_.moments();
+    const auto count = static_cast<std::int64_t>(moments.size());
+    if (frame < 0 || frame >= count)
+        throw UserError(fmt::format("--frame: {} has the frames 0 to {}, but {} is asked for",
+                                    record_.frames().path().string(), count - 1, frame));
+    const auto index = static_cast<std::size_t>(frame);
+    return {moments[index].step, moments[index].time, index, index, frame + 1 == count};
 }
 
 // The end of a run is in its last checkpoint, and need not be among the kept moments.

@@ -56,6 +56,7 @@ class MomentFinder {
     bool is_checkpoint(const AskedMoment& moment) const;
 
   private:
+    AskedMoment kept_frame(std::int64_t frame) const;
     void check_can_bring_back(const AskedMoment& moment) const;
     std::int64_t step_of_frame(const MomentRequest& request) const;
     double last_time() const;

@@ -61,7 +61,7 @@ class Page {
 
     void read() {
         const double each = 1.0 / static_cast<double>(parts_.size());
-        std::size_t taken = page_files().script.size();
+        std::size_t taken = script().size();
         double done = 0;
         for (RunPart& part : parts_) {
             part.read([&](double share) { return progress_(films_share * (done + each * share)); });
@@ -169,9 +169,14 @@ class Page {
         return fmt::format(R"({{"begin":{},"end":{},"frequency":null,"runs":[{}]}})", all.from, all.to, runs);
     }
 
-    static Texts frame(Texts texts) {
+    std::string script() const {
+        return page_files().script(std::any_of(
+            parts_.begin(), parts_.end(), [](const RunPart& part) { return !part.scene().meshes.empty(); }));
+    }
+
+    Texts frame(Texts texts) const {
         texts.emplace_back("style", std::string(page_files().style));
-        texts.emplace_back("script", std::string(page_files().script));
+        texts.emplace_back("script", script());
         texts.emplace_back("live", "");
         return texts;
     }

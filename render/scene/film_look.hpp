@@ -1,6 +1,7 @@
 // How the pictures of the film are lit, and where the bed is opened.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,19 @@ struct FilmCut {
 
 // How meshes are drawn.
 struct FilmWalls {
+    // plain: as walls are; else by what the grains do to each triangle: how hard they press on it, or how
+    // they wear it.
+    enum class Colour { plain, pressure, wear };
+    Colour colour = Colour::plain;
+    // Of the colours, for the whole film: Pa or J/m2. Of no meaning where walls are plain.
+    std::array<double, 2> range{0, 0};
+    bool fixed = false;              // the range is the user's
     double edge_angle = 30;          // degrees; edges whose faces turn more are drawn
     std::vector<std::string> solid;  // names of meshes that are solid from all sides
     std::vector<std::string> glass;  // names of meshes that are glass from outside
+    bool coloured() const { return colour != Colour::plain; }
+    // Steps of the colour are ratios; else, where the range begins at 0, differences.
+    bool logarithmic() const { return range[0] > 0; }
     bool operator==(const FilmWalls&) const = default;
 };
 

@@ -23,6 +23,7 @@ Wishes wishes_of(const FilmedScene& scene) {
     };
     const FilmShows& shows = scene.film.shows;
     if (shows.wall_forces.wanted) take_instrument("walls");
+    if (shows_wear(scene)) take_instrument("wear");
     for (const FilmPlot& plot : shows.plots) take(plot.column);
     for (const LiveWords& words : shows.live_words) take(words.column);
     wishes.orientation = scene.film.look.rotation;

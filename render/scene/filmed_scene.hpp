@@ -16,6 +16,11 @@ struct FilmedScene : Scene {
     std::vector<Colour> colours;  // one a species
 };
 
+// Whether walls have the colours of pressure or wear.
+inline bool shows_wear(const FilmedScene& scene) {
+    return scene.film.look.walls.coloured() && !scene.meshes.empty();
+}
+
 // Makes what the engine keeps of the film (Scene::film_text, the species' colours as text, Scene::wishes) say
 // what the film says. The reader has done so; whoever changes the film of a scene that is to be run does it
 // again.

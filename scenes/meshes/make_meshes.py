@@ -80,7 +80,7 @@ def channel(section, start, end, wall):
 
 # ---- Shapes ------------------------------------------------------------------------------------------------------
 
-def hopper(radius=0.045, orifice=0.036, angle=45.0, height=0.15, facets=72):
+def hopper(radius=0.045, orifice=0.036, angle=45.0, height=0.1, facets=72):
     """A round silo that ends below in a cone, open at both ends; z = 0 is the orifice.
 
     `orifice` is its diameter and `angle` that of the cone against the axis; 90 is a flat bottom with a hole.
@@ -104,7 +104,7 @@ def drum(radius=0.1, length=0.03, facets=72):
     return along_x(prism(ring, length / 2))
 
 
-def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.015, base=10.0, tip=5.0):
+def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.025, base=10.0, tip=5.0):
     """The same with bars along its wall, `lifter` high, so many degrees wide at base and tip."""
     step, ring = 360 / facets, []
     for k in range(lifters):
@@ -117,10 +117,13 @@ def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.01
     return along_x(prism(ring, length / 2))
 
 
-def screw(radius=0.02, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, facets=36):
-    """A right-handed blade about a shaft, along y, from y = 0 on."""
-    steps, rings = round(turns * facets), 5
-    inner = 0.8 * shaft  # the blade begins inside the shaft
+def screw(radius=0.0235, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, facets=40):
+    """A right-handed blade about a shaft, along y, from y = 0 on.
+
+    Between blade and trough there is room for less than half a grain, or for one and a half: what lies between nips grains.
+    """
+    steps, rings = round(turns * facets), 6
+    inner = 0.95 * shaft  # the blade begins inside the shaft
     # Rings by equal ratios, so that neighbours on the blade, which is steeper at the shaft, turn by less than 10 degrees.
     radii = [inner * (radius / inner) ** (k / rings) for k in range(rings + 1)]
     section = [(r, -1) for r in radii] + [(r, 1) for r in reversed(radii)]
@@ -135,20 +138,25 @@ def screw(radius=0.02, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, face
         for k in range(rings):
             blade += face(quad(row[k], row[k + 1], row[n - 2 - k], row[n - 1 - k]))
     length = pitch * turns
-    axle = prism([(x, y) for x, y, _ in circle(shaft, facets, 0.0)], length / 2 + thickness)
+    axle = prism([(x, y) for x, y, _ in circle(shaft, facets, 0.0)], length / 2 + 0.75 * thickness)
     axle = [tuple((x, y, z + length / 2) for x, y, z in t) for t in axle]
     return along_y(blade + axle)
 
 
-def screw_trough(radius=0.025, rim=0.03, start=-0.005, end=0.205, facets=20):
-    """A trough along y with a round bottom about the axis, walls up to z = rim, and an end wall at its start."""
-    section = [(-radius, rim)]
-    section += [(-radius * cos(pi * i / facets), -radius * sin(pi * i / facets)) for i in range(facets + 1)]
-    section.append((radius, rim))
-    return channel(section, start, end, wall=True)
+def screw_trough(radius=0.025, rim=0.035, over=45.0, start=-0.0025, end=0.205, facets=30):
+    """A trough along y that is round about the axis up to `over` degrees above it, with upright walls from there to
+    z = rim, and an end wall at its start.
+
+    Between a screw and a wall that stands upright beside its axis grains are nipped, where the blade goes down: there the
+    gap narrows by a small angle. The round wall reaches so far up that the gap narrows by more than friction can hold.
+    """
+    def at(angle):
+        return (-radius * cos(radians(angle)), -radius * sin(radians(angle)))
+    arc = [at(-over + (180 + 2 * over) * i / facets) for i in range(facets + 1)]
+    return channel([(arc[0][0], rim), *arc, (arc[-1][0], rim)], start, end, wall=True)
 
 
-def trough(width=0.06, rim=0.025, start=-0.25, end=0.25):
+def trough(width=0.06, rim=0.025, start=-0.18, end=0.18):
     """A level trough along y, open at its end; z = 0 is its bottom."""
     half = width / 2
     return channel([(-half, rim), (-half, 0.0), (half, 0.0), (half, rim)], start, end, wall=True)

@@ -1,8 +1,8 @@
 // Colours that stand for numbers.
 #include <gtest/gtest.h>
 
-#include "render/picture/grains/colour_map.hpp"
-#include "render/picture/grains/colour_scale.hpp"
+#include "render/picture/base/colour_map.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/plots/ticks.hpp"
 #include "render/scene/grain_values.hpp"

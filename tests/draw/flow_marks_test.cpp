@@ -63,6 +63,28 @@ TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
     EXPECT_FALSE(field.at(0, 0.5));
 }
 
+// A quarter of a turn moves the origin of a container whose axis lies elsewhere. Its axis, and the grid,
+// stay.
+TEST(VelocityField, StandsWhereTheAxisOfATurningContainerIs) {
+    FilmedScene scene = wedge();
+    Frame frame = rotating_grains();
+    VelocityField still(scene, 0.006, false);
+    still.take(frame);
+    FilmedScene drum = wedge();
+    drum.container.turn.emplace();
+    drum.container.turn->axis = Vec3(1, 0, 0);
+    drum.container.turn->through = axis;
+    frame.container().rotation = Eigen::AngleAxisd(0.5 * pi, Vec3(1, 0, 0));
+    frame.container().place = axis - frame.container().rotation * axis;
+    VelocityField turned(drum, 0.006, false);
+    turned.take(frame);
+    for (double y = -0.05; y < 0.055; y += 0.01) {
+        ASSERT_TRUE(turned.at(y, 0.11)) << y;
+        // The cells lie elsewhere, for the container needs more room.
+        EXPECT_LT((*turned.at(y, 0.11) - *still.at(y, 0.11)).norm(), 0.02 * turning.norm() * 0.006) << y;
+    }
+}
+
 TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
     const FilmedScene scene = wedge();
     Frame frame = spread_grains();

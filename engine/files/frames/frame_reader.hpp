@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/reading_options.hpp"
 
 namespace grainreel {
 
@@ -26,6 +27,8 @@ struct FrameRequest {
     std::string format{};
     // Reads the scene.toml of a run's folder; none: as the engine reads it.
     std::function<Scene(const std::filesystem::path& folder)> scene_of_run{};
+    // What the user says of files of other programs.
+    ReadingOptions reading{};
 };
 
 struct FrameReader {

@@ -24,8 +24,9 @@ class FrameWriter {
 };
 
 struct FrameFormat {
-    const char* name;   // "trajectory"
-    const char* about;  // "a trajectory.nc, as runs have it"
+    const char* name;    // "trajectory"
+    const char* about;   // "a trajectory.nc, as runs have it"
+    const char* ending;  // of a file's or folder's usual name: ".xyz", "-vtk"
     // Nothing is written before begin().
     std::unique_ptr<FrameWriter> (*make)(const std::filesystem::path& path);
 };

@@ -8,10 +8,12 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/files/frames/path_pattern.hpp"
 
 // All readers, a line each, in the order in which they are asked: FrameReader NAME_reader() in
 // engine/files/frames/readers.
-#define GRAINREEL_FRAME_READERS(one) one(run_folder) one(trajectory) one(checkpoint) one(grain_table)
+#define GRAINREEL_FRAME_READERS(one) \
+    one(run_folder) one(trajectory) one(checkpoint) one(grain_table) one(foreign)
 
 namespace grainreel {
 
@@ -26,6 +28,7 @@ namespace {
 FileHead head_of(const fs::path& path) {
     FileHead head;
     head.path = path;
+    if (is_pattern(path)) return head;
     std::error_code error;
     head.folder = fs::is_directory(path, error);
     if (head.folder) return head;

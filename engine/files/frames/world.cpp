@@ -12,7 +12,10 @@ World world_of(const Scene& scene) {
     for (const Species& species : scene.species)
         world.species.push_back({species.name, species.diameter.mean, species.density, species.count});
     WorldCell& cell = world.cell.emplace();
-    cell.origin = extent_of(scene).low;
+    const Extent extent = extent_of(scene);
+    world.low = extent.low;
+    world.high = extent.high;
+    cell.origin = extent.low;
     if (scene.container.periodic_depth) {
         cell.edges[0].x() = scene.container.depth;
         cell.periodic[0] = true;

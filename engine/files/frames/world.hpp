@@ -46,10 +46,11 @@ struct World {
     std::string program_version;  // of the program that wrote it
     std::vector<WorldSpecies> species;
     std::optional<WorldCell> cell;
-    std::vector<WorldBody> bodies;  // by number; container and floor first, or none where nothing is known
-    std::size_t most_grains = 0;    // that a frame can have, all that ever come counted
-    bool traffic = false;           // grains come and go
-    bool container_turns = false;   // with its floor: their poses have a rotation
+    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, corners of what the walls take up; equal where that is not known
+    std::vector<WorldBody> bodies;     // by number; container and floor first, or none where nothing is known
+    std::size_t most_grains = 0;       // that a frame can have, all that ever come counted
+    bool traffic = false;              // grains come and go
+    bool container_turns = false;      // with its floor: their poses have a rotation
     bool time_known = true;
     FileFacts facts = {};  // words for whoever reads the file
 };

@@ -5,7 +5,9 @@
 #include "engine/base/error.hpp"
 
 // All writers, a line each: FrameFormat NAME_format() in engine/files/frames/writers.
-#define GRAINREEL_FRAME_FORMATS(one) one(trajectory) one(grain_table)
+#define GRAINREEL_FRAME_FORMATS(one)                                                             \
+    one(trajectory) one(lammps_dump) one(lammps_data) one(xyz_writer) one(csv) one(vtk) one(stl) \
+        one(gsd_writer) one(gltf) one(blender) one(grain_table)
 
 namespace grainreel {
 

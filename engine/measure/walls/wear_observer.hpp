@@ -8,6 +8,7 @@
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
+#include "engine/measure/walls/wear_tally.hpp"
 #include "engine/state/face_names.hpp"
 
 namespace grainreel::observers {

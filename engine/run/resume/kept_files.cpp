@@ -11,6 +11,7 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
+#include "engine/measure/walls/wear_observer.hpp"
 #include "engine/plan/rhythm.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -76,8 +77,11 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
 
 bool keeps_fields(const Scene& scene) {
     const std::vector<std::string> wanted = scene.instruments();
-    return scene.output.fields.wanted() ||
-           std::find(wanted.begin(), wanted.end(), observers::WallForces::instrument) != wanted.end();
+    const auto wants = [&](const char* instrument) {
+        return std::find(wanted.begin(), wanted.end(), instrument) != wanted.end();
+    };
+    return scene.output.fields.wanted() || wants(observers::WallForces::instrument) ||
+           (wants(observers::Wear::instrument) && !scene.meshes.empty());
 }
 
 void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& plan) {

@@ -48,6 +48,16 @@ void print_time(const FilmedScene& scene, const Plan& plan, Listing& list) {
                     plan.impact_speed, 100 * std::max(scene.run.overlap, plan.usual_overlap)));
 }
 
+// What was mended stands with its mesh already.
+bool is_of_mended_mesh(const Scene& scene, const std::string& warning) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const SceneMesh& mesh) {
+        const std::vector<std::string>& mended = mesh.surface->facts().mended;
+        return std::any_of(mended.begin(), mended.end(), [&](const std::string& line) {
+            return warning.ends_with(fmt::format(": mesh \"{}\": {}", mesh.name, line));
+        });
+    });
+}
+
 }  // namespace
 
 void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out) {
@@ -64,6 +74,7 @@ void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out) {
     print_files(scene, plan, film, list);
     print_cost(scene, plan, film, list);
     std::vector<std::string> warnings = plan.warnings;
+    std::erase_if(warnings, [&](const std::string& line) { return is_of_mended_mesh(scene, line); });
     for (std::string& line : pace_warnings(scene, plan.clock)) warnings.push_back(std::move(line));
     for (std::string& line : strobe_warnings(scene.film, scene.drive, scene.run.duration))
         warnings.push_back(std::move(line));

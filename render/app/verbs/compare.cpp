@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/foreign/foreign_archive.hpp"
+#include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
@@ -26,7 +28,8 @@ class Compare final : public Verb {
     void add_options(CLI::App& parser) override {
         parser
             .add_option("SCENE", request_.inputs,
-                        "Two to six scenes to run, or folders of finished runs to draw from; one with --vary")
+                        "Two to six scenes to run, folders of finished runs or files of other programs; one "
+                        "with --vary")
             ->required()
             ->type_name("FILE|DIR");
         add_vary(parser);
@@ -34,6 +37,7 @@ class Compare final : public Verb {
         CLI::Option* at =
             add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file in the folder");
         add_no_replay(parser, request_.replay);
+        add_reading(parser, reading_);
         add_scene_keys(parser, request_.sets);
         add_film(parser, film_,
                  "Folder of the film, with one in it for each run [output/ and the scenes' names]");
@@ -44,6 +48,14 @@ class Compare final : public Verb {
     int run(Reporter& reporter) override {
         film_.command = command;
         film_.program = program_info();
+        bool any_foreign = false;
+        for (std::filesystem::path& input : request_.inputs) {
+            if (!is_foreign(input)) continue;
+            any_foreign = true;
+            input = run_to_read(input, reading_, reporter).folder;
+        }
+        if (const std::string option = given_reading(reading_); !any_foreign && !option.empty())
+            throw UserError(option + ": is for files of other programs, and none is compared");
         if (request_.at) request_.sets = sets_for_still(std::move(request_.sets));
         CompareRun comparison(film_, reporter, read_comparison(request_, film_));
         return tell_folder(comparison.run(), film_);
@@ -76,6 +88,7 @@ class Compare final : public Verb {
     }
 
     CompareRequest request_;
+    ReadingOptions reading_;
     FilmRequest film_;
 };
 

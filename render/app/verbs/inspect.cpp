@@ -9,6 +9,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/damaged_frame.hpp"
 #include "engine/questions/answer_forces.hpp"
 #include "engine/questions/asked_moment.hpp"
@@ -19,6 +20,7 @@
 #include "engine/questions/questions.hpp"
 #include "engine/run/driver/stage_times.hpp"
 #include "engine/run/folder/replay_progress.hpp"
+#include "render/app/foreign/run_to_read.hpp"
 #include "render/app/inspect/print_answer.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
@@ -67,7 +69,7 @@ class Inspect final : public Verb {
         parser
             .add_option("RUN", run_,
                         "Folder of a run, with its scene.toml and trajectory.nc; or a checkpoint, a "
-                        "final.csv or a trajectory.nc alone")
+                        "final.csv or a trajectory.nc alone; or files of another program")
             ->required()
             ->type_name("PATH");
         parser.option_defaults()->group("Moment");
@@ -91,6 +93,7 @@ class Inspect final : public Verb {
                 ->check(CLI::Range(0.05, 1e6));
         parser.add_flag("--no-replay", no_replay_,
                         "Give what was kept alone: the kept moment that is nearest");
+        add_reading(parser, reading_);
         parser.option_defaults()->group("Question (one of them; none: an overview)");
         add_questions(parser);
         parser.option_defaults()->group("Picture");
@@ -231,8 +234,15 @@ class Inspect final : public Verb {
 
     void open() {
         std::error_code ignored;
-        asked_ = fs::is_regular_file(run_, ignored) ? open_filmed_state(run_, sets_)
-                                                    : open_filmed_run(run_, sets_for_contacts());
+        const bool foreign = is_foreign(run_);
+        if (const std::string option = given_reading(reading_); !foreign && !option.empty())
+            throw UserError(
+                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
+                            option, run_.string()));
+        // Frames are counted in the file that was named, so it is read without its series.
+        reading_.one = true;
+        asked_ = foreign || fs::is_regular_file(run_, ignored) ? open_filmed_state(run_, sets_, reading_)
+                                                               : open_filmed_run(run_, sets_for_contacts());
         CaptionHolds holds(asked_->scene().film);
         moment_.held = [holds](double time) mutable { return holds.begin_at(time); };
     }
@@ -416,6 +426,7 @@ class Inspect final : public Verb {
         }
     }
 
+    ReadingOptions reading_;
     fs::path run_;
     Assignments sets_;
     std::unique_ptr<const FilmedRecord> asked_;  // once it is open

@@ -1,15 +1,20 @@
 // The verb `render`: a finished run is drawn again, as a film or as one picture. What it did not keep is
 // brought back from its checkpoints; the run itself stays as it is.
+#include <tuple>
+
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "render/app/foreign/run_to_read.hpp"
+#include "render/app/options/camera_file.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
+#include "render/film/run/follow_run.hpp"
 #include "render/film/run/redraw_run.hpp"
 #include "render/film/run/still.hpp"
 #include "render/film/sources/revisited_run.hpp"
@@ -38,9 +43,13 @@ class Render final : public Verb {
                           exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
-        parser.add_option("RUN", request_.run, "Folder of a run, with its scene.toml and trajectory.nc")
+        parser
+            .add_option(
+                "RUN", request_.run,
+                "Folder of a run, with its scene.toml and trajectory.nc; or files of another program: a "
+                "file, a quoted pattern or a folder")
             ->required()
-            ->type_name("DIR");
+            ->type_name("PATH");
         add_sets(parser, request_.sets,
                  "Another value for a key of [film] or a species' colour, as in --set film.camera.azimuth=60 "
                  "or --set species.big.colour=orange; may be repeated");
@@ -55,7 +64,26 @@ class Render final : public Verb {
                 ->check(CLI::Range(1, 1000000000))
                 ->type_name("N");
         CLI::Option* at = add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file");
+        for (const auto& [flag, into, about, type] :
+             {std::tuple("--dpi", &request_.dpi,
+                         "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]",
+                         "N"),
+              {"--width-mm", &request_.width_mm,
+               "With --at: width on paper; the picture gets the pixels that this needs", "MM"}})
+            parser.add_option(flag, *into, about)->needs(at)->check(CLI::Range(1.0, 1e5))->type_name(type);
+        add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
+        add_reading(parser, reading_);
+        CLI::Option* follow = parser.add_flag(
+            "--follow", follow_,
+            "Film files of another program while they grow, until nothing new comes or Ctrl-C");
+        parser
+            .add_option("--idle", idle_,
+                        "With --follow: s without a new frame, after which the film ends [60]")
+            ->needs(follow)
+            ->check(CLI::Range(0.5, 1e6))
+            ->type_name("SECONDS");
+        for (CLI::Option* other : {at, from, to, every}) follow->excludes(other);
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
@@ -67,25 +95,47 @@ class Render final : public Verb {
 
     int run(Reporter& reporter) override {
         film_.command = command;
+        use_camera_file(camera_, request_.sets);
         film_.program = program_info();
+        if (follow_) return follow(reporter);
+        const RunToRead read = run_to_read(request_.run, reading_, reporter);
+        request_.run = read.folder;
+        if (read.imported) request_.beside = read.beside;
+        if (read.imported && !request_.at && !request_.every) request_.every = 1;
         if (request_.at) return draw_one(reporter);
         if (request_.every) check_no_segments(request_.sets);
         RevisitedRun source(request_.run, request_.sets, request_.replay);
         source.leave_out_damaged();
+        keep_camera_file(camera_, source.scene().film.camera);
         RedrawRun redraw(film_, request_, reporter, source);
         return tell_folder(redraw.run(), film_);
     }
 
   private:
+    int follow(Reporter& reporter) const {
+        std::error_code ignored;
+        if (std::filesystem::exists(request_.run / "scene.toml", ignored))
+            throw UserError(
+                "--follow: is for files of other programs; a run of ours is shown by grainreel watch");
+        FollowRun film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle_},
+                       reporter);
+        return tell_folder(film.run(), film_);
+    }
+
     int draw_one(Reporter& reporter) const {
         RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
-        const auto file = draw_still(film_, *request_.at, reporter, source);
+        keep_camera_file(camera_, source.scene().film.camera);
+        const auto file = draw_still(film_, request_, reporter, source);
         if (!file) return signal_base + reporter.stop_signal();
         print_exact(file->string() + "\n");
         return 0;
     }
 
     RenderRequest request_;
+    ReadingOptions reading_;
+    CameraFiles camera_;
+    bool follow_ = false;
+    double idle_ = 60;
     FilmRequest film_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
+#include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"
@@ -33,7 +34,8 @@ class Report final : public Verb {
     void add_options(CLI::App& parser) override {
         parser
             .add_option("RUN", runs_,
-                        "Folder of a run, however it ended; of several, which then stand\nside by side on "
+                        "Folder of a run, however it ended, or files of another program; of several, which "
+                        "then stand\nside by side on "
                         "one time axis")
             ->required()
             ->type_name("DIR ...");
@@ -42,6 +44,7 @@ class Report final : public Verb {
                         "The page's file [report.html in RUN; of several runs side_by_side.html]")
             ->type_name("FILE")
             ->check(not_empty());
+        add_reading(parser, reading_);
         add_reporting(parser, report);
     }
 
@@ -50,6 +53,12 @@ class Report final : public Verb {
             throw UserError(fmt::format("report: {} runs do not fit side by side; give {} at most",
                                         runs_.size(), most_runs));
         if (runs_.size() > 1 && out_.empty()) out_ = "side_by_side.html";
+        for (fs::path& run : runs_) {
+            const RunToRead read = run_to_read(run, reading_, reporter);
+            if (read.imported && out_.empty())
+                out_ = read.beside / (read.folder.filename().string() + "-report.html");
+            run = read.folder;
+        }
         if (!out_.empty()) check_out(out_);
         const ShareWatcher watcher(reporter, Progress::Stage::paging);
         const bool checked = false;
@@ -82,6 +91,7 @@ class Report final : public Verb {
 
     static constexpr std::size_t most_runs = 6;
     std::vector<fs::path> runs_;
+    ReadingOptions reading_;
     fs::path out_;
 };
 

@@ -42,6 +42,7 @@ FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const A
         shows.colour = {}, shows.highlight_if = {}, shows.arrows = {}, shows.streamlines = {};
     }
     if (!snapshot.contacts && needs_touches(shows)) shows.colour = {}, shows.highlight_if = {};
+    if (!snapshot.frame.worn) scene.film.look.walls.colour = FilmWalls::Colour::plain;
     shows.trails = {};
     shows.highlighted = marks.grains;
     shows.force_chains = snapshot.contacts && marks.lines && !marks.grains.empty();

@@ -18,9 +18,10 @@ void open_checkpoint(FilmedRecord& one, const fs::path& file, const Assignments&
     one.film = scene_of_checkpoint_to_draw(file, sets);
 }
 
-// Whatever no reader takes must be a table, and is told what a table has.
-void open_table(FilmedRecord& one, const fs::path& file, const Assignments& sets) {
-    FrameRequest request{.format = reader_of(file) == nullptr ? "grain-table" : ""};
+void open_table(FilmedRecord& one, const fs::path& file, const Assignments& sets,
+                const ReadingOptions& reading) {
+    FrameRequest request;
+    request.reading = reading;
     request.scene_of_run = [&](const fs::path& folder) {
         return one.film.emplace(scene_of_run(folder, sets));
     };
@@ -44,9 +45,10 @@ std::unique_ptr<const FilmedRecord> open_filmed_run(const fs::path& folder, cons
     return one;
 }
 
-std::unique_ptr<const FilmedRecord> open_filmed_state(const fs::path& file, const Assignments& sets) {
+std::unique_ptr<const FilmedRecord> open_filmed_state(const fs::path& file, const Assignments& sets,
+                                                      const ReadingOptions& reading) {
     auto one = std::make_unique<FilmedRecord>();
-    is_checkpoint(file) ? open_checkpoint(*one, file, sets) : open_table(*one, file, sets);
+    is_checkpoint(file) ? open_checkpoint(*one, file, sets) : open_table(*one, file, sets, reading);
     one->record = one->state.get();
     return one;
 }

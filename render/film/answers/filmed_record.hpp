@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/files/frames/reading_options.hpp"
 #include "engine/questions/record.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sources/recorded_run.hpp"
@@ -28,7 +29,9 @@ std::unique_ptr<const FilmedRecord> open_filmed_run(const std::filesystem::path&
 // A single state of a run, without the run's folder: a checkpoint, or a table of grains. A checkpoint holds
 // its scene. A table takes that of the scene.toml beside it; without one its species are "type 1", "type 2"
 // and so on, of unknown density, in no container. Throws UserError when the file cannot be read.
+// Files of other programs are read as `reading` says.
 std::unique_ptr<const FilmedRecord> open_filmed_state(const std::filesystem::path& file,
-                                                      const Assignments& sets);
+                                                      const Assignments& sets,
+                                                      const ReadingOptions& reading = {});
 
 }  // namespace grainreel

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/questions/along_ray.hpp"
+#include "render/picture/base/way_of_container.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/camera/exaggeration.hpp"
 #include "render/picture/grains/shown_grains.hpp"

@@ -96,8 +96,8 @@ class Writer {
 
     // data: of the one IDAT chunk. False after an error. Nothing in here may need a destructor: libpng leaves
     // by longjmp.
-    bool write(const Picture& picture, bool alpha, const std::vector<std::uint8_t>& data, png_textp texts,
-               int text_count) {
+    bool write(const Picture& picture, bool alpha, double dpi, const std::vector<std::uint8_t>& data,
+               png_textp texts, int text_count) {
         if (!info_ || data.empty()) return false;
         if (setjmp(png_jmpbuf(png_))) return false;
         png_set_IHDR(png_, info_, static_cast<png_uint_32>(picture.width),
@@ -105,6 +105,9 @@ class Writer {
                      alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                      PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
         png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+        constexpr double inch = 0.0254;                                // m
+        const auto dots = static_cast<png_uint_32>(dpi / inch + 0.5);  // a metre
+        if (dots > 0) png_set_pHYs(png_, info_, dots, dots, PNG_RESOLUTION_METER);
         png_set_text(png_, info_, texts, text_count);
         png_write_info(png_, info_);
         png_write_chunk(png_, reinterpret_cast<png_const_bytep>("IDAT"), data.data(), data.size());
@@ -133,7 +136,7 @@ std::vector<png_text> png_texts(const std::vector<PngText>& texts) {
 
 // An empty string, or why it failed.
 std::string write_file(const std::filesystem::path& path, const Picture& picture,
-                       const std::vector<PngText>& texts, bool alpha) {
+                       const std::vector<PngText>& texts, bool alpha, double dpi) {
     const int made = make_plain(path);
     FilePtr file(made < 0 ? nullptr : ::fdopen(made, "wb"));
     if (!file) return std::strerror(errno);
@@ -141,7 +144,7 @@ std::string write_file(const std::filesystem::path& path, const Picture& picture
     std::vector<png_text> chunks = png_texts(texts);
     const std::vector<std::uint8_t> data = compressed(filtered(picture, alpha ? rgba : rgb));
     Writer writer(target);
-    if (!writer.write(picture, alpha, data, chunks.data(), static_cast<int>(chunks.size())))
+    if (!writer.write(picture, alpha, dpi, data, chunks.data(), static_cast<int>(chunks.size())))
         return target.error.empty() ? "no memory" : target.error;
     return std::fclose(file.release()) == 0 ? "" : std::strerror(errno);
 }
@@ -149,9 +152,9 @@ std::string write_file(const std::filesystem::path& path, const Picture& picture
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Picture& picture, const std::vector<PngText>& texts,
-               bool alpha) {
+               bool alpha, double dpi) {
     const std::filesystem::path part = path.string() + ".part";
-    std::string reason = write_file(part, picture, texts, alpha);
+    std::string reason = write_file(part, picture, texts, alpha, dpi);
     std::error_code renamed;
     if (reason.empty()) {
         std::filesystem::rename(part, path, renamed);

@@ -21,9 +21,11 @@ struct FilmRequest : RunRequest {
 
 // What is to be drawn of a finished run. Times in s, of the run; whole numbers of frames.
 struct RenderRequest {
-    std::filesystem::path run;  // its folder
-    Assignments sets;           // other values for keys of its film
+    std::filesystem::path run;     // its folder
+    std::filesystem::path beside;  // where what is drawn goes without --out; empty: beside the run
+    Assignments sets;              // other values for keys of its film
     std::optional<double> from, to, at;
+    std::optional<double> dpi, width_mm;  // of one picture, for print: pixels an inch, its width on paper
     std::optional<int> every;  // kept frames of the trajectory, one of so many; none: the film's pictures
     bool replay = true;        // what was not kept is brought back
 };

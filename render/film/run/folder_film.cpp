@@ -18,6 +18,7 @@ void FolderFilm::check(const FilmedScene& scene, std::int64_t frames) const {
 
 void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr start, DrawerMaker draw) {
     if (!wanted()) return;
+    desk_.folder->lock().check_there();  // else the film would begin in whatever has its name now
     FilmOptions film;
     film.folder = desk_.folder->path();
     film.film = request_.film;

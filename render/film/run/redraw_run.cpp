@@ -48,8 +48,9 @@ RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunL
         choose_pictures(what);
     film_.check(scene_, static_cast<std::int64_t>(shots_.size()));
     film_.use_threads(drawing_threads(scene_.run.threads));
-    make_folder({scene_.name + "-render", source.record().frames().folder().parent_path(), request.out,
-                 request.force});
+    const std::filesystem::path beside =
+        what.beside.empty() ? source.record().frames().folder().parent_path() : what.beside;
+    make_folder({scene_.name + "-render", beside, request.out, request.force});
 }
 
 // The film's, from one moment to another.

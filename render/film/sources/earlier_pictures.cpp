@@ -16,13 +16,14 @@ namespace grainreel {
 EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
                                  const std::filesystem::path& run, const std::vector<Shot>& shots,
                                  std::size_t count, std::shared_ptr<const MeasureTable> measures,
-                                 const RunFiles& files)
+                                 const RunFiles& files, std::shared_ptr<const WearReader> wear)
     : scene_(scene),
       files_(files),
       moments_(open_frames(run / kFilmMoments, {.format = "trajectory"})),
       shots_(shots),
       count_(count),
       measures_(std::move(measures)),
+      wear_(std::move(wear)),
       parts_(scene, clock, 0) {
     const std::shared_ptr<const MeasureTable> rows = read_measures(run / "measures.csv");
     GRAINREEL_CHECK(rows != nullptr);

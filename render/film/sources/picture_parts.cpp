@@ -11,6 +11,7 @@ namespace grainreel {
 
 PictureParts::PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first)
     : shows_(scene.film.shows),
+      wear_(shows_wear(scene)),
       clock_(clock),
       first_(first),
       depth_(scene.container.periodic_depth ? scene.container.depth : 0) {}
@@ -52,6 +53,7 @@ void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, const
     for (const std::int64_t step : exposed(frame.step, rule, periods))
         if (FramePtr moment = supply.at(step)) frame.exposed.push_back(std::move(moment));
     if (needs_touches(shows_)) frame.touches = supply.touches(frame);
+    if (wear_) frame.worn = supply.worn(frame);
     if (shows_.outflow) frame.flowed_out = supply.flowed_out(frame);
     if (needs_measures(shows_)) {
         PartSupply::Measured measured = supply.measured(frame);

@@ -30,6 +30,8 @@ class PartSupply {
     // Of the same moment as the frame.
     virtual std::vector<Touch> touches(const Frame& frame) const = 0;
     virtual Measured measured(const Frame& frame) const = 0;
+    // What the grains do to meshes, a mesh each; null when that is not known.
+    virtual std::shared_ptr<const std::vector<MeshWear>> worn(const Frame&) const { return nullptr; }
     // What has left the run until the frame; none when that is not known.
     virtual std::optional<FlowedOut> flowed_out(const Frame& frame) const = 0;
 };
@@ -55,6 +57,7 @@ class PictureParts {
     void add_mean(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
 
     FilmShows shows_;
+    bool wear_;  // whether walls have its colours
     Clock clock_;
     std::int64_t first_;
     double depth_;  // m, along x, after which a periodic container repeats; 0 for none

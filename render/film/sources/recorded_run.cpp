@@ -47,6 +47,7 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
     if (needs_touches(shows)) archive_->read_contacts(use.alone);
     if (needs_measures(shows)) read_measures_of_run();
     if (shows.outflow) read_outflow_of_run();
+    if (shows_wear(scene_)) read_wear_of_run();
     if (scene_.film.periods > 0) archive_->set_periods(scene_.film.periods);
     parts_.emplace(scene_, clock(), moments().front().step);
     if (use.alone) do_without_others();
@@ -129,6 +130,24 @@ void RecordedRun::read_outflow_of_run() {
     if (!outflow_) archive_->note(fmt::format("{}: is missing; how much has flowed out is left out", name));
 }
 
+// Walls without their colours would look as if nothing touched them.
+void RecordedRun::read_wear_of_run() {
+    try {
+        if (const std::string name = name_of("fields.nc"); !fs::exists(name))
+            throw UserError(fmt::format(
+                "{}: is missing, and the film colours walls by it; run the scene with output.instruments = "
+                "[\"wear\"]",
+                name));
+        wear_.emplace(name_of("fields.nc"), scene_);
+    } catch (const UserError& lack) {
+        if (!for_questions_)
+            throw UserError(fmt::format("{}, or draw walls without colours, by --set film.walls.colour=plain",
+                                        lack.what()));
+        scene_.film.look.walls.colour = FilmWalls::Colour::plain;
+        archive_->note(fmt::format("{}; walls are plain", lack.what()));
+    }
+}
+
 void RecordedRun::look_for_earlier_frames() {
     const double first = moments().front().cycles + archive_->periods() - 1e-3;
     std::size_t lack = 0;
@@ -153,6 +172,10 @@ std::vector<Touch> RecordedRun::touches(const Frame& frame) const {
 
 std::optional<FlowedOut> RecordedRun::flowed_out(const Frame& frame) const {
     return outflow_ ? std::optional(outflow_->until(frame.time)) : std::nullopt;
+}
+
+std::shared_ptr<const std::vector<MeshWear>> RecordedRun::worn(const Frame& frame) const {
+    return wear_ ? wear_->until(frame.time) : nullptr;
 }
 
 PartSupply::Measured RecordedRun::measured(const Frame& frame) const {

@@ -9,6 +9,7 @@
 
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/files/outflow_record.hpp"
+#include "engine/files/wear_file.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/questions/record.hpp"
 #include "engine/scene/text/assignment.hpp"
@@ -72,12 +73,14 @@ class RecordedRun final : public FrameSource, private PartSupply {
     std::vector<Touch> touches(const Frame& frame) const override;
     Measured measured(const Frame& frame) const override;
     std::optional<FlowedOut> flowed_out(const Frame& frame) const override;
+    std::shared_ptr<const std::vector<MeshWear>> worn(const Frame& frame) const override;
 
     void frame_what_is_reached();
     void read_measures_of_run();
     void leave_out_measures(const std::string& why);
     void check_columns() const;
     void read_outflow_of_run();
+    void read_wear_of_run();
     void look_for_earlier_frames();
     const MeasureTable& table() const { return *archive_->measures(); }
     std::string name_of(const char* file) const { return archive_->name_of(file); }
@@ -88,6 +91,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     std::unique_ptr<const Record> record_;
     std::vector<double> measured_;          // s, times of the rows of measures
     std::optional<OutflowRecord> outflow_;  // of a film that counts it
+    std::optional<WearReader> wear_;        // of a film whose walls have its colours
     std::optional<PictureParts> parts_;
 
     Pictures pictures_;

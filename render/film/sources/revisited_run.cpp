@@ -186,4 +186,8 @@ std::optional<FlowedOut> RevisitedRun::flowed_out(const Frame& frame) const {
     return run_.of_parts().flowed_out(frame);
 }
 
+std::shared_ptr<const std::vector<MeshWear>> RevisitedRun::worn(const Frame& frame) const {
+    return run_.of_parts().worn(frame);
+}
+
 }  // namespace grainreel

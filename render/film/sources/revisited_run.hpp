@@ -71,6 +71,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     std::vector<Touch> touches(const Frame& frame) const override;
     Measured measured(const Frame& frame) const override;
     std::optional<FlowedOut> flowed_out(const Frame& frame) const override;
+    std::shared_ptr<const std::vector<MeshWear>> worn(const Frame& frame) const override;
 
     std::vector<Shot> shots_of(const Pictures& pictures) const;
     bool wants_touches() const;

@@ -1,13 +1,19 @@
 #include "render/film/sources/scene_run.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "engine/files/run_names.hpp"
+#include "engine/measure/no_value.hpp"
+#include "engine/measure/walls/mesh_wear.hpp"
 
 namespace grainreel {
 
 // What pictures may take from it. Its moments are those that were kept for them.
 class SceneRun::Parts final : public PartSupply {
   public:
-    explicit Parts(const RunDriver& driver) : driver_(driver) {}
+    Parts(const RunDriver& driver, std::shared_ptr<const std::vector<MeshWear>> worn)
+        : driver_(driver), worn_(std::move(worn)) {}
     FramePtr at(std::int64_t step) const override { return driver_.kept(step); }
     std::vector<Touch> touches(const Frame&) const override {
         std::vector<Touch> touches;
@@ -19,12 +25,14 @@ class SceneRun::Parts final : public PartSupply {
         const std::shared_ptr<const MeasureTable> table = driver_.files()->measures();
         return {table, table->rows()};
     }
+    std::shared_ptr<const std::vector<MeshWear>> worn(const Frame&) const override { return worn_; }
     std::optional<FlowedOut> flowed_out(const Frame& frame) const override {
         return driver_.files()->flowed_out(frame.time);
     }
 
   private:
     const RunDriver& driver_;
+    const std::shared_ptr<const std::vector<MeshWear>> worn_;
 };
 
 Span SceneRun::span() const {
@@ -55,10 +63,11 @@ void SceneRun::start(const Pictures& pictures) {
     segments_ = pictures.segments;
     bed_periods_.emplace(scene_, clock, shots_, segments_, pictures.may_leave_out);
     parts_.emplace(scene_, clock, driver_.first_step());
+    if (shows_wear(scene_)) read_wear_before();
     driver_.start(wishes());
     if (driver_.goes_on() && driver_.files()->keeps_film_moments())
         earlier_.emplace(scene_, clock, driver_.folder(), shots_, driver_.frames_before(),
-                         driver_.files()->measures(), *driver_.files());
+                         driver_.files()->measures(), *driver_.files(), wear_before_);
     // As far as one knows: what a bed of several periods leaves out is found later.
     count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Shot& shot) {
         return shot.step >= driver_.first_step() && bed_periods_->shows(rule(shot.segment), shot);
@@ -68,7 +77,10 @@ void SceneRun::start(const Pictures& pictures) {
 FrameWishes SceneRun::wishes() {
     FrameWishes wishes;
     for (const Shot& shot : shots_) wishes.steps.push_back(shot.step);
-    wishes.look = [this](const Simulation& simulation) { look_at_bed_periods(simulation); };
+    wishes.look = [this](const Simulation& simulation) {
+        look_at_bed_periods(simulation);
+        if (shows_wear(scene_)) look_at_wear(simulation);
+    };
     wishes.left_out = [this](std::int64_t step) { return leaves_out(step); };
     wishes.kept = wanted_moments();
     wishes.to_file = film_moments_bytes(scene_, driver_.plan(), std::ssize(shots_)) > 0;
@@ -96,7 +108,7 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     earlier_.reset();
     const std::shared_ptr<Frame> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
-    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_));
+    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_, worn_));
     frame_ = frame;
     return waiting();
 }
@@ -130,6 +142,28 @@ bool SceneRun::leaves_out(std::int64_t step) {
 void SceneRun::look_at_bed_periods(const Simulation& simulation) {
     bed_periods_->note(simulation.step(), static_cast<int>(simulation.measure("bed_periods")),
                        simulation.measure("period_difference_m"));
+}
+
+// As fields.nc has it: films of the run and of its files are alike.
+void SceneRun::look_at_wear(const Simulation& simulation) {
+    if (driver_.plan().fields.ends_record(simulation.step()))
+        worn_ = std::make_shared<const std::vector<MeshWear>>(
+            wear_among(scene_, simulation.field_sets(), simulation.fields()));
+}
+
+// Before the first record has ended.
+void SceneRun::read_wear_before() {
+    if (driver_.goes_on()) {
+        wear_before_ = std::make_shared<const WearReader>(driver_.folder() / "fields.nc", scene_);
+        worn_ = wear_before_->until(driver_.plan().clock.time(driver_.simulation().step()));
+        return;
+    }
+    std::vector<MeshWear> none;
+    for (const SceneMesh& mesh : scene_.meshes) {
+        const auto triangles = static_cast<std::size_t>(mesh.surface->size());
+        none.push_back({std::vector<double>(triangles, kNoValue), std::vector<double>(triangles, 0.0)});
+    }
+    worn_ = std::make_shared<const std::vector<MeshWear>>(std::move(none));
 }
 
 }  // namespace grainreel

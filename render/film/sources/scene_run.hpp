@@ -2,10 +2,12 @@
 // beside the grains.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/files/wear_file.hpp"
 #include "engine/run/driver/run_driver.hpp"
 #include "render/film/moments/bed_periods.hpp"
 #include "render/film/sources/earlier_pictures.hpp"
@@ -23,7 +25,10 @@ class SceneRun final : public FrameSource {
     // Before start(): key moments are kept with their contacts. A run that goes on does what it did.
     void keep_key_moments() { keys_wanted_ = true; }
     // Closes what it reads of the run's folder. Nothing else may be called afterwards.
-    void close() { earlier_.reset(); }
+    void close() {
+        earlier_.reset();
+        wear_before_.reset();
+    }
 
     const FilmedScene& scene() const override { return scene_; }
     Supply supply() const override { return {true, true, true, scene_.keeps_orientations()}; }
@@ -49,6 +54,8 @@ class SceneRun final : public FrameSource {
     // Whether the film, by now, shows none of the pictures of that step. Notes those that it shows.
     bool leaves_out(std::int64_t step);
     void look_at_bed_periods(const Simulation& simulation);
+    void look_at_wear(const Simulation& simulation);
+    void read_wear_before();
     const FilmSegment& rule(int segment) const { return segments_.at(static_cast<std::size_t>(segment)); }
 
     const FilmedScene scene_;
@@ -59,6 +66,8 @@ class SceneRun final : public FrameSource {
     std::int64_t count_ = 0;
     std::optional<BedPeriods> bed_periods_;
     std::optional<PictureParts> parts_;
+    std::shared_ptr<const WearReader> wear_before_;      // of a run that goes on
+    std::shared_ptr<const std::vector<MeshWear>> worn_;  // since the last record of fields.nc ended
     std::optional<EarlierPictures> earlier_;
     FramePtr frame_;                     // taken last
     std::vector<int> segments_waiting_;  // of its pictures that are yet to come

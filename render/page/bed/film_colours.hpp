@@ -8,7 +8,7 @@
 #include "engine/base/clock.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "render/film/sources/frame_source.hpp"
-#include "render/picture/grains/colour_scale.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
 #include "render/scene/filmed_scene.hpp"
 

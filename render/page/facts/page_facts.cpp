@@ -8,9 +8,9 @@
 
 #include "engine/scene/text/fitting_unit.hpp"
 #include "render/page/bed/slabs.hpp"
+#include "render/picture/base/colour_map.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/grains/colour_map.hpp"
-#include "render/picture/grains/colour_scale.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -123,58 +123,6 @@ flat in vec3 paint;
 out vec4 pixel;
 void main() { pixel = vec4(paint, 1.0); }`;
 
-// A triangle of a mesh in its body's frame. Its light comes from its plane, so that no normals are carried.
-const meshVertexShader = `#version 300 es
-precision highp float;
-layout(location = 0) in vec3 place;
-uniform mat4 pose, view, projection;
-out vec3 seen;                            // m, in the camera's axes
-void main() {
-    vec4 here = view * pose * vec4(place, 1.0);
-    seen = here.xyz;
-    gl_Position = projection * here;
-}`;
-
-const meshFragmentShader = `#version 300 es
-precision highp float;
-in vec3 seen;
-uniform vec3 paint;
-uniform vec2 cover;                       // how much a face hides that is seen from ahead, and one seen along
-out vec4 pixel;
-void main() {
-    vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
-    float ahead = abs(dot(normal, normalize(seen)));
-    if (dot(normal, seen) > 0.0) normal = -normal;
-    float light = 0.86 + 0.16 * dot(normal, normalize(vec3(-0.4, 0.75, 0.55)));
-    float along = (1.0 - ahead) * (1.0 - ahead);
-    pixel = vec4(min(paint * light, 1.0), mix(cover.x, cover.y, along));
-}`;
-
-// An edge of a mesh, as a segment is drawn (below). Its colour tells whether it is on solid walls or on glass.
-const meshEdgeVertexShader = `#version 300 es
-precision highp float;
-layout(location = 0) in vec3 from;
-layout(location = 1) in vec3 to;
-layout(location = 2) in vec3 solidSide;   // sum of the normals that meet here; 0: it is solid from all sides
-uniform mat4 pose, view, projection;
-uniform vec3 eye;                         // m, in the body's frame
-uniform float height, wide;               // of the canvas and of the line, pixels
-uniform vec3 solid, glass;                // colours
-flat out vec3 paint;
-flat out float roundness;
-out float across;
-void main() {
-    vec3 a = (view * pose * vec4(from, 1.0)).xyz, b = (view * pose * vec4(to, 1.0)).xyz;
-    vec3 here = gl_VertexID < 2 ? a : b;
-    vec3 aside = cross(b - a, here);
-    aside = length(aside) > 0.0 ? normalize(aside) : vec3(1, 0, 0);
-    float pixel = 2.0 * max(-here.z, 1e-6) / (projection[1][1] * height); // m
-    paint = dot(solidSide, eye - from) < 0.0 ? glass : solid;
-    roundness = 0.0;
-    across = (gl_VertexID & 1) == 0 ? 1.0 : -1.0;
-    gl_Position = projection * vec4(here + 0.5 * across * wide * pixel * aside, 1.0);
-}`;
-
 // A segment is a flat band that faces the eye: edges of walls and ways of grains so many pixels wide, force chains so many
 // metres.
 const segmentVertexShader = `#version 300 es

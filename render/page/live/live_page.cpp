@@ -34,7 +34,7 @@ std::string live_page(const FilmedScene& scene, const std::filesystem::path& fol
                                {"body", body},
                                {"words", chapters_html(scene, record, planned, folder, "report.html")},
                                {"facts", json_in_html(live_facts_json(scene))},
-                               {"script", std::string(files.script)},
+                               {"script", files.script(!scene.meshes.empty())},
                                {"blobs", ""}});
 }
 

@@ -230,11 +230,6 @@ View CameraPath::at(double film_time) const {
     return view;
 }
 
-Vec3 way_of_container(const FilmedScene& scene, const Frame& frame) {
-    const std::optional<BodyTurn>& turn = scene.container.turn;
-    return turn ? Vec3(frame.container().moved(turn->through) - turn->through) : frame.container().place;
-}
-
 View frame_container(const FilmedScene& scene, const PictureLayout& layout) {
     return CameraPath(scene, layout).at(0);
 }

@@ -63,10 +63,6 @@ class CameraPath {
     std::vector<MonotoneCurve> place_;  // x, y, z of the target
 };
 
-// m, how far the container has come, for a camera that follows it: with its shaking, and not with its
-// turning.
-Vec3 way_of_container(const FilmedScene& scene, const Frame& frame);
-
 // The scene's camera as the film begins.
 View frame_container(const FilmedScene& scene, const PictureLayout& layout);
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "render/picture/container/drawing_kit.hpp"
+#include "render/picture/container/exit_fade.hpp"
 #include "render/picture/container/lab_marks.hpp"
 #include "render/picture/container/mesh_reach.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -116,23 +118,22 @@ void add_sources(const FilmedScene& scene, std::vector<Vec3>& corners) {
                                                  [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
     const double most = high->z() + 0.5 * (high->z() - low->z());
     const auto add = [&](const Vec3& from, const Vec3& to) {
-        if (to.z() > most) return;
+        if (to.z() > most && from.z() > high->z()) return;
         for (const Vec3& corner : extent_corners({from, to})) corners.push_back(corner);
     };
     for (const Feed& feed : scene.feeds) add(feed.low, feed.high);
     if (scene.start.region) add(scene.start.region->low, scene.start.region->high);
 }
 
-// Down to a box below all meshes, where grains leave, as far as that is not far away.
+// Down to where grains leave below all meshes, as far as that is not far away.
 void add_fall(const FilmedScene& scene, std::vector<Vec3>& corners) {
-    if (scene.exits.empty() || corners.empty()) return;
+    const std::optional<double> end = exit_level(scene);
+    if (!end || corners.empty()) return;
     const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
                                                  [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
-    double top = -1e300;
-    for (const ExitBox& box : scene.exits) top = std::max(top, box.high.z());
-    if (top >= low->z() || low->z() - top > 0.5 * (high->z() - low->z())) return;
+    if (*end >= low->z() || low->z() - *end > 0.5 * (high->z() - low->z())) return;
     const Vec3 middle = extent_of(scene).middle();
-    corners.emplace_back(middle.x(), middle.y(), top);
+    corners.emplace_back(middle.x(), middle.y(), *end);
 }
 
 }  // namespace

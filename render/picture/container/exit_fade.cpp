@@ -41,23 +41,31 @@ std::optional<Fall> fall_below_outlet(const FilmedScene& scene, const View& view
     return Fall{Vec3(0, 0, 0), Vec3(0, 0, -c.outlet->exit_depth), lowest_of_floor(scene, view)};
 }
 
-// Into a box that lies below all meshes.
+// Where they leave below all meshes.
 std::optional<Fall> fall_into_exit(const FilmedScene& scene, const View& view,
                                    const std::vector<Vec3>& meshes) {
-    if (scene.exits.empty() || meshes.empty()) return std::nullopt;
+    const std::optional<double> end = exit_level(scene);
+    if (!end || meshes.empty()) return std::nullopt;
     double lowest = meshes.front().z(), row = 0;
     for (const Vec3& point : meshes) {
         lowest = std::min(lowest, point.z());
         row = std::max(row, view.project(point).y());
     }
-    double top = -1e300;
-    for (const ExitBox& box : scene.exits) top = std::max(top, box.high.z());
-    if (top >= lowest) return std::nullopt;
+    if (*end >= lowest) return std::nullopt;
     const Vec3 middle = extent_of(scene).middle();
-    return Fall{{middle.x(), middle.y(), lowest}, {middle.x(), middle.y(), top}, row};
+    return Fall{{middle.x(), middle.y(), lowest}, {middle.x(), middle.y(), *end}, row};
 }
 
 }  // namespace
+
+std::optional<double> exit_level(const FilmedScene& scene) {
+    std::optional<double> level;
+    for (const ExitBox& box : scene.exits) {
+        const double here = box.outside ? box.low.z() : box.high.z();
+        level = std::max(level.value_or(here), here);
+    }
+    return level;
+}
 
 std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height,
                                      const std::vector<Vec3>& meshes) {

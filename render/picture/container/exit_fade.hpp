@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/picture/base/view.hpp"
@@ -10,10 +11,14 @@
 
 namespace grainreel {
 
+// m: the height at which a grain that falls below all else leaves, into a box or out of one. Empty without
+// boxes.
+std::optional<double> exit_level(const FilmedScene& scene);
+
 // Of each row of a port so high, counted from the top: how strong grains are there, 0 to 255. Empty where all
-// are as they are: without an outlet or a box below a vessel that they leave into, with a tray, and where the
-// eye looks down so steeply that rows with grains of the bed would fade too. meshes: m, their outermost
-// points.
+// are as they are: without an outlet or a box that they leave into or out of below a vessel, with a tray, and
+// where the eye looks down so steeply that rows with grains of the bed would fade too. meshes: m, their
+// outermost points.
 std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height,
                                      const std::vector<Vec3>& meshes = {});
 

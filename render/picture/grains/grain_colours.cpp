@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/grains/colour_scale.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

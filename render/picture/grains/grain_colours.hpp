@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "render/picture/grains/colour_scale.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
 #include "render/scene/filmed_scene.hpp"
 

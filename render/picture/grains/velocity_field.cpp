@@ -6,6 +6,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
+#include "render/picture/base/way_of_container.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -36,12 +37,13 @@ FieldOutput resolution(const FilmedScene& scene, double width) {
 FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period) {
     FieldState state;
     if (period && frame.displacement.size() != frame.size()) return state;
+    const Vec3 way = way_of_container(scene, frame);
     const double frequency = period ? periods_a_second(scene, frame) : 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {
         if (period && frame.displacement[i].hasNaN()) continue;
         const double volume = 4.0 / 3 * pi * std::pow(frame.radius[i], 3);
         const double density = scene.species[static_cast<std::size_t>(frame.species[i])].density;
-        state.grains.push_back({frame.position[i] - frame.container().place,
+        state.grains.push_back({frame.position[i] - way,
                                 period ? Vec3(frequency * frame.displacement[i]) : frame.velocity[i],
                                 density * volume, volume, frame.species[i], frame.radius[i]});
     }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "render/picture/base/way_of_container.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -38,11 +39,12 @@ FieldLayer::FieldLayer(const FilmedScene& scene)
 void FieldLayer::gather(const Frame& frame) {
     for (std::vector<double>* const sums : {&solid_, &mass_, &sum_}) sums->assign(shares_.size(), 0);
     const std::vector<double>& values = quantities_.of(frame);
+    const Vec3 way = way_of_container(scene_, frame);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         if (std::isnan(values[i])) continue;
         const double volume = 4.0 / 3 * std::numbers::pi * std::pow(frame.radius[i], 3);
         const double mass = volume * scene_.species[static_cast<std::size_t>(frame.species[i])].density;
-        for (const CellWeight& cell : footprint_.of_point(frame.position[i] - frame.container().place)) {
+        for (const CellWeight& cell : footprint_.of_point(frame.position[i] - way)) {
             const auto c = static_cast<std::size_t>(cell.cell);
             solid_[c] += cell.weight * volume;
             mass_[c] += cell.weight * mass;
@@ -54,10 +56,11 @@ void FieldLayer::gather(const Frame& frame) {
 void FieldLayer::draw(const View& view, const Frame& frame, Shapes& on) {
     gather(frame);
     const auto& [x, y, z] = grid_.axes;
+    const Vec3 way = way_of_container(scene_, frame);
     const auto corner = [&](std::int64_t j, std::int64_t k) {
         const Vec3 at(x.low + x.cell, y.low + static_cast<double>(j) * y.cell,
                       z.low + static_cast<double>(k) * z.cell);
-        return view.project(at + frame.container().place);
+        return view.project(at + way);
     };
     for (std::int64_t k = 0; k < z.count; ++k)
         for (std::int64_t j = 0; j < y.count; ++j) {

@@ -7,8 +7,8 @@
 #include "engine/frame.hpp"
 #include "engine/measure/fields/footprint.hpp"
 #include "render/picture/base/canvas.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/grains/quantities.hpp"
 #include "render/scene/filmed_scene.hpp"
 

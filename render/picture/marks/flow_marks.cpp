@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
+#include "render/picture/base/way_of_container.hpp"
 #include "render/picture/marks/arrow.hpp"
 #include "render/picture/marks/streamline.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -67,6 +68,7 @@ void FlowMarks::draw(const View& view, const Frame& frame, Shapes& on) {
 void FlowMarks::draw_arrows(const View& view, const Frame& frame, Shapes& on) const {
     const double side = arrow_cell(scene_), scale = arrow_scale(scene_);
     const Extent extent = extent_of(scene_);
+    const Vec3 way = way_of_container(scene_, frame);
     const auto upward = static_cast<int>(std::ceil(extent.size().z() / side));
     for (int row = 0; row < upward; ++row)
         for (int column = 0; column < scene_.film.shows.arrows.across; ++column) {
@@ -75,7 +77,7 @@ void FlowMarks::draw_arrows(const View& view, const Frame& frame, Shapes& on) co
             if (!velocity) continue;
             Vec3 along = scale * Vec3(0, velocity->y(), velocity->z());
             if (along.norm() > longest_arrow * side) along *= longest_arrow * side / along.norm();
-            const Vec3 middle = frame.container().place + Vec3(extent.middle().x(), y, z);
+            const Vec3 middle = way + Vec3(extent.middle().x(), y, z);
             draw_arrow(on, view.project(middle - 0.5 * along), view.project(middle + 0.5 * along),
                        {palette_.ink, palette_.background, 1.4 * pen_, pen_});
         }
@@ -106,9 +108,10 @@ void FlowMarks::draw_streamline(const View& view, const Frame& frame, const Eige
     const std::vector<StreamPoint> line = streamline(velocity, seed, streamline_reach * side, 0.1 * side);
     if (line.size() < 3) return;
     const double x = extent_of(scene_).middle().x();
+    const Vec3 way = way_of_container(scene_, frame);
     std::vector<Pixel> points;
     for (const StreamPoint& point : line)
-        points.push_back(view.project(frame.container().place + Vec3(x, point.at.x(), point.at.y())));
+        points.push_back(view.project(way + Vec3(x, point.at.x(), point.at.y())));
     const auto width = [&](std::size_t k) {
         const double speed = std::min(1.0, line[k].speed / full);
         const double along = static_cast<double>(k + 1) / static_cast<double>(line.size());

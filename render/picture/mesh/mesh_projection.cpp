@@ -11,6 +11,9 @@ namespace {
 
 constexpr float kKeyShare = 0.62f;  // of the light on walls; the sky gives the rest
 
+// Of a colour that says something, turned away from the light: it must still be found on the colour bar.
+constexpr float kDarkColour = 0.7f;
+
 // Lines: what share of a main line's width, and how strong.
 constexpr float kFeatureWidth = 0.8f, kOutlineWidth = 1;
 constexpr float kSolidLine = 0.85f, kGlassLine = 0.42f, kOutline = 0.7f;
@@ -209,9 +212,11 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
             share.glass.push_back(triangle);
             continue;
         }
+        const std::array<float, 3>* own = mesh.colours ? &(*mesh.colours)[t] : nullptr;
+        if (own && (*own)[0] < 0) own = nullptr;
         for (std::size_t c = 0; c < 3; ++c) {
-            const float dark = mesh.colours ? 0.55f * (*mesh.colours)[t][c] : paints_.dark[c];
-            const float lit = mesh.colours ? (*mesh.colours)[t][c] : paints_.lit[c];
+            const float dark = own ? kDarkColour * (*own)[c] : paints_.dark[c];
+            const float lit = own ? (*own)[c] : paints_.lit[c];
             triangle.colour[c] = dark;
             triangle.brighter[c] = lit - dark;
         }

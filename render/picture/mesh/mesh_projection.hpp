@@ -17,7 +17,8 @@ namespace grainreel {
 struct DrawnMesh {
     std::shared_ptr<const MeshShape> shape;
     BodyPose pose;
-    // sRGB, 0 to 255, of each triangle where a quantity is shown on it; null: as walls look.
+    // sRGB, 0 to 255, of each triangle where a quantity is shown on it; below 0, or null: as walls look.
+    // Glass stays glass.
     const std::vector<std::array<float, 3>>* colours = nullptr;
 };
 

@@ -1,7 +1,10 @@
 #include "render/picture/mesh/scene_meshes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+
+#include "engine/measure/walls/mesh_wear.hpp"
 
 namespace grainreel {
 namespace {
@@ -28,13 +31,35 @@ MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh) {
     return room.encloses_anything() && room.holds(middle) ? MeshLook::vessel : MeshLook::automatic;
 }
 
-SceneMeshes::SceneMeshes(const FilmedScene& scene) {
+SceneMeshes::SceneMeshes(const FilmedScene& scene)
+    : by_pressure_(scene.film.look.walls.colour == FilmWalls::Colour::pressure) {
+    if (shows_wear(scene)) scale_.emplace(scene.film.look.walls);
     const double edge_angle = scene.film.look.walls.edge_angle * std::numbers::pi / 180;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const SceneMesh& mesh = scene.meshes[m];
         if (!mesh.surface) continue;
         drawn_.push_back({mesh_shape(*mesh.surface, edge_angle, look_of(scene, mesh)), {}, nullptr});
         body_.push_back(static_cast<std::size_t>(first_mesh_body(scene)) + m);
+        mesh_.push_back(m);
+    }
+    colours_.resize(drawn_.size());
+}
+
+void SceneMeshes::colour_by(const Frame& frame) {
+    constexpr std::array<float, 3> as_walls_look{-1, -1, -1};
+    if (!scale_) return;
+    for (std::size_t m = 0; m < drawn_.size(); ++m) {
+        drawn_[m].colours = nullptr;
+        if (!frame.worn || mesh_[m] >= frame.worn->size()) continue;
+        const MeshWear& worn = (*frame.worn)[mesh_[m]];
+        const std::vector<double>& values = by_pressure_ ? worn.pressure : worn.wear;
+        if (values.size() != drawn_[m].shape->triangles.size()) continue;
+        colours_[m].clear();
+        for (const double value : values) {
+            colours_[m].push_back(std::isnan(value) ? as_walls_look : bytes(scale_->at(value)));
+            clipped_.take(value, {scale_->low(), scale_->high()});
+        }
+        drawn_[m].colours = &colours_[m];
     }
 }
 

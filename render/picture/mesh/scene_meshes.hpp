@@ -1,9 +1,12 @@
 // The meshes of a scene, ready to be drawn where a frame has them.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/mesh/mesh_painter.hpp"
 #include "render/picture/mesh/mesh_projection.hpp"
@@ -19,11 +22,20 @@ class SceneMeshes {
     explicit SceneMeshes(const FilmedScene& scene);
 
     bool any() const { return !drawn_.empty(); }
+    // By what the grains do to them in this frame, where the film wants it; until the next one.
+    void colour_by(const Frame& frame);
+    // Of all triangles that it has coloured.
+    const ClippedCount& clipped() const { return clipped_; }
     // Where they are in a frame.
     const std::vector<DrawnMesh>& at(const Frame& frame);
 
   private:
     std::vector<DrawnMesh> drawn_;
+    std::optional<ColourScale> scale_;  // where they have colours
+    bool by_pressure_ = false;
+    std::vector<std::size_t> mesh_;  // of the scene
+    std::vector<std::vector<std::array<float, 3>>> colours_;
+    ClippedCount clipped_;
     std::vector<std::size_t> body_;  // numbers
 };
 

@@ -22,6 +22,10 @@ bool close(double a, double b) {
     return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
+bool same_wall_colours(const FilmWalls& a, const FilmWalls& b) {
+    return a.colour == b.colour && (!a.coloured() || a.range == b.range);
+}
+
 bool same_clock(const Drive& a, const Drive& b) {
     return close(a.frequency, b.frequency) && a.phase == b.phase && a.ramp == b.ramp && a.stages == b.stages;
 }
@@ -82,7 +86,8 @@ Common common_of(const std::vector<Panel>& panels) {
                          close(g_level(scene), g_level(first));
         common.amplitude =
             common.amplitude && same_stages && close(scene.drive.amplitude, first.drive.amplitude);
-        common.colours = common.colours && scene.film.shows.colour == first.film.shows.colour;
+        common.colours = common.colours && scene.film.shows.colour == first.film.shows.colour &&
+                         same_wall_colours(scene.film.look.walls, first.film.look.walls);
         const FilmShows &x = scene.film.shows, &y = first.film.shows;
         common.marks.arrows = common.marks.arrows && x.arrows == y.arrows &&
                               (x.arrows.across == 0 || close(arrow_scale(scene), arrow_scale(first)));
@@ -112,7 +117,9 @@ std::vector<Panel> without_common(std::vector<Panel> panels, const Common& commo
     return panels;
 }
 
-void share_colours(std::vector<Panel>& panels) {
+namespace {
+
+void share_grain_colours(std::vector<Panel>& panels) {
     const auto colour = [](Panel& panel) -> GrainColouring& { return panel.scene.film.shows.colour; };
     GrainColouring common = colour(panels.front());
     for (Panel& panel : panels) {
@@ -122,6 +129,24 @@ void share_colours(std::vector<Panel>& panels) {
         common.range = {std::min(common.range[0], own.range[0]), std::max(common.range[1], own.range[1])};
     }
     for (Panel& panel : panels) colour(panel) = common;
+}
+
+void share_wall_colours(std::vector<Panel>& panels) {
+    const auto walls = [](Panel& panel) -> FilmWalls& { return panel.scene.film.look.walls; };
+    std::array<double, 2> range = walls(panels.front()).range;
+    for (Panel& panel : panels) {
+        const FilmWalls& own = walls(panel);
+        if (own.fixed || !own.coloured() || own.colour != walls(panels.front()).colour) return;
+        range = {std::min(range[0], own.range[0]), std::max(range[1], own.range[1])};
+    }
+    for (Panel& panel : panels) walls(panel).range = range;
+}
+
+}  // namespace
+
+void share_colours(std::vector<Panel>& panels) {
+    share_grain_colours(panels);
+    share_wall_colours(panels);
 }
 
 void share_reach(std::vector<Panel>& panels) {

@@ -39,6 +39,24 @@ AxisTicks axis_ticks(double low, double high, int most, int finest) {
     return {round_ticks(low, high, most), high - low};
 }
 
+std::vector<double> power_ticks(double low, double high, int most) {
+    const int first = static_cast<int>(std::ceil(std::log10(low) - hair)),
+              last = static_cast<int>(std::floor(std::log10(high) + hair));
+    std::vector<double> ticks;
+    if (last - first < 1) {
+        for (int power = first - 1; power <= last; ++power)
+            for (const double factor : {1.0, 2.0, 5.0})
+                if (const double at = factor * std::pow(10, power);
+                    at >= low * (1 - hair) && at <= high * (1 + hair))
+                    ticks.push_back(at);
+        return ticks;
+    }
+    const int step = (last - first) / most + 1;
+    for (int power = last - (last - first) / step * step; power <= last; power += step)
+        ticks.push_back(std::pow(10, power));
+    return ticks;
+}
+
 std::array<double, 2> round_limits(double low, double high, int most) {
     const double least = std::max({high - low, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-30});
     double step = round_step(least / (most - 1));

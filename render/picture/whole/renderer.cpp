@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "render/picture/base/way_of_container.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/camera/exaggeration.hpp"
 #include "render/picture/container/container_drawing.hpp"
@@ -20,6 +21,7 @@
 #include "render/picture/spheres/pixel.hpp"
 #include "render/picture/whole/compose.hpp"
 #include "render/picture/whole/exposure.hpp"
+#include "render/picture/words/grain_labels.hpp"
 #include "render/picture/words/overlay.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -152,11 +154,14 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
     if (!started) start_from(frame);
     overlay.write(words, frame, playback, view);
     copy_words(into);
+    meshes.colour_by(frame);
     watch.lap(&DrawTimes::overlay);
     if (frame.exposed.empty())
         draw_moment(frame, nullptr, view, into, watch);
     else
         draw_exposed(frame, view, into, watch);
+    if (!scene.film.labels.empty())
+        draw_grain_labels(scene, exaggeration.shown(frame), eye, layout, palette, into);
     overlay.lay_over(into);
     watch.lap(&DrawTimes::overlay);
 }
@@ -313,8 +318,12 @@ void Renderer::draw_into(Picture& picture, const Frame& frame, const std::string
 std::string Renderer::colour_note() const {
     const GrainColouring& colour = impl_->scene.film.shows.colour;
     const SpherePainter& of_all = impl_->ghost_painter ? *impl_->ghost_painter : impl_->sphere_painter;
-    if (colour.of_grains()) return clipped_words(colour, of_all.clipped(), "grains");
-    return colour.of_field() ? clipped_words(colour, impl_->marks.clipped(), "layer") : "";
+    std::string note;
+    if (colour.of_grains()) note = clipped_words(colour, of_all.clipped(), "grains");
+    if (colour.of_field()) note = clipped_words(colour, impl_->marks.clipped(), "layer");
+    if (!shows_wear(impl_->scene)) return note;
+    const std::string walls = clipped_words(impl_->scene.film.look.walls, impl_->meshes.clipped());
+    return note + (note.empty() || walls.empty() ? "" : "; ") + walls;
 }
 
 DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {

@@ -1,9 +1,9 @@
-// The colour bar: what the grains' colours mean.
+// The colour bars: what the colours of the grains and of the walls mean.
 #include <algorithm>
 #include <cmath>
 
 #include "engine/scene/text/fitting_unit.hpp"
-#include "render/picture/grains/colour_scale.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/plots/ticks.hpp"
 #include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -64,9 +64,36 @@ ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type,
     return place;
 }
 
-TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double x, double y, double width) {
-    if (!has_colour_bar(scene.film)) return {};
-    const ColourScale scale(scene.film.shows.colour);
+namespace {
+
+struct BarTick {
+    double share;  // of the bar, from its low end
+    std::string words;
+};
+
+// Room for the words decides how many.
+std::vector<BarTick> ticks_of(const ColourScale& scale, const TextStyle& style, double width) {
+    const double low = scale.low() / scale.unit_size(), high = scale.high() / scale.unit_size();
+    const auto most = [&](double nearest_low, double nearest_high) {
+        const double widest = std::max(measure_text(tick_text(low, nearest_low), style).width,
+                                       measure_text(tick_text(high, nearest_high), style).width);
+        return std::clamp(static_cast<int>(width / (1.5 * widest)), 2, 6);
+    };
+    std::vector<BarTick> ticks;
+    if (scale.logarithmic()) {
+        for (const double value : power_ticks(low, high, most(low, high)))
+            ticks.push_back({scale.share_of(value * scale.unit_size()), tick_text(value, value)});
+        return ticks;
+    }
+    constexpr int finest = 9;
+    const double apart = (high - low) / 3;
+    const AxisTicks even = axis_ticks(low, high, most(apart, apart), finest);
+    for (const double value : even.at)
+        ticks.push_back({(value - low) / (high - low), tick_text(value, even.distance)});
+    return ticks;
+}
+
+TextSize bar_block(const Writer& writer, const ColourScale& scale, double x, double y, double width) {
     const TypeScale& type = writer.type;
     const TextSize title = writer.write(x, y, scale.title(), writer.minor(), writer.palette.ink, width, 3);
     const double top = y + title.height + 0.4 * type.gap;
@@ -79,18 +106,10 @@ TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double
         cairo_set_source_rgb(writer.on, ink.red, ink.green, ink.blue);
         cairo_set_line_width(writer.on, std::max(1.0, type.main / 16));
     }
-    const double low = scale.low() / scale.unit_size(), high = scale.high() / scale.unit_size();
-    // Room for the words decides how many.
-    const double widest = std::max(measure_text(tick_text(low, (high - low) / 3), writer.minor()).width,
-                                   measure_text(tick_text(high, (high - low) / 3), writer.minor()).width);
-    const int most = std::clamp(static_cast<int>(width / (1.5 * widest)), 2, 6);
-    constexpr int finest = 9;
-    const AxisTicks ticks = axis_ticks(low, high, most, finest);
     double deepest = 0;
-    for (const double value : ticks.at) {
-        const double at = bar.x + (value - low) / (high - low) * (bar.width - 1) + 0.5;
-        const std::string text = tick_text(value, ticks.distance);
-        const TextSize size = measure_text(text, writer.minor());
+    for (const BarTick& one : ticks_of(scale, writer.minor(), width)) {
+        const double at = bar.x + one.share * (bar.width - 1) + 0.5;
+        const TextSize size = measure_text(one.words, writer.minor());
         const double left = std::clamp(at - 0.5 * size.width, x, std::max(x, x + width - size.width));
         if (writer.on) {
             const Colour& ink = writer.palette.ink;
@@ -99,10 +118,30 @@ TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double
             cairo_line_to(writer.on, at, below + tick);
             cairo_stroke(writer.on);
         }
-        writer.write(left, below + 1.2 * tick, text, writer.minor(), writer.palette.faint_ink);
+        writer.write(left, below + 1.2 * tick, one.words, writer.minor(), writer.palette.faint_ink);
         deepest = std::max(deepest, size.height);
     }
     return {width, below + 1.2 * tick + deepest - y};
+}
+
+}  // namespace
+
+std::vector<ColourScale> colour_scales(const Film& film) {
+    std::vector<ColourScale> scales;
+    if (!film.word_kinds.legend) return scales;
+    if (film.shows.colour.by != GrainValue::species) scales.emplace_back(film.shows.colour);
+    if (film.look.walls.coloured()) scales.emplace_back(film.look.walls);
+    return scales;
+}
+
+TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double x, double y, double width) {
+    TextSize size;
+    for (const ColourScale& scale : colour_scales(scene.film)) {
+        if (size.height > 0) size.height += writer.type.gap;
+        size.height += bar_block(writer, scale, x, y + size.height, width).height;
+        size.width = width;
+    }
+    return size;
 }
 
 }  // namespace grainreel

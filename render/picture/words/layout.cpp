@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/camera/camera_path.hpp"
-#include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/first_gutter.hpp"
 #include "render/picture/words/numbers_plan.hpp"
@@ -76,8 +76,10 @@ PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writ
 
 // Pixels, of the longest word above a colour bar.
 double colour_words(const FilmedScene& scene, const Writer& measure) {
-    if (!has_colour_bar(scene.film)) return 0;
-    return longest_word(ColourScale(scene.film.shows.colour).title(), measure.minor());
+    double longest = 0;
+    for (const ColourScale& scale : colour_scales(scene.film))
+        longest = std::max(longest, longest_word(scale.title(), measure.minor()));
+    return longest;
 }
 
 // Pixels between margins, of words at the left or right that wrap as they like.

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "engine/frame.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture_layout.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/grains/colour_scale.hpp"
 #include "render/picture/text/text.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -48,10 +49,13 @@ struct ColourBarPlace {
 };
 ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type, double x, double y,
                                 double width);
-// Not when the grains are coloured by species.
+// What the film has colour bars for: the grains, unless they are coloured by species, and the walls.
+std::vector<ColourScale> colour_scales(const Film& film);
 inline bool has_colour_bar(const Film& film) {
-    return film.word_kinds.legend && film.shows.colour.by != GrainValue::species;
+    return film.word_kinds.legend &&
+           (film.shows.colour.by != GrainValue::species || film.look.walls.coloured());
 }
+// Below each other.
 TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double x, double y, double width);
 // What the marks over the grains mean, with a sample of each; nothing without marks. scale: pixels a metre.
 TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scale, double x, double y,

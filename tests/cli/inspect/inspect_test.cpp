@@ -619,7 +619,7 @@ TEST_F(InspectedMoment, AFileThatIsNoStateIsToldInOneLine) {
         EXPECT_EQ(ended.status, 2) << ended.out;
         return ended.err;
     };
-    EXPECT_THAT(refused("run/log.txt"), HasSubstr("not a table of grains"));
+    EXPECT_THAT(refused("run/log.txt"), HasSubstr("holds no frames that can be read"));
     EXPECT_THAT(refused("run/final.csv", {"--wall", "floor"}), HasSubstr("has no checkpoints"));
     std::filesystem::resize_file(folder / "run/checkpoint.grs", 3000);
     EXPECT_THAT(refused("run/checkpoint.grs"), HasSubstr("checkpoint"));

@@ -11,6 +11,7 @@
 
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/trajectory.hpp"
+#include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -75,6 +76,20 @@ TEST_F(ReportProgram, EachRunLeavesItsPage) {
     ASSERT_EQ(again.status, 0) << again.err;
     EXPECT_FALSE(fs::exists(here / "run/report.html"));
     EXPECT_TRUE(nlohmann::json::parse(text_of(here / "run/run.json"))["written"]["page"].is_null());
+}
+
+// Beside each other: where one of them has meshes.
+TEST_F(ReportProgram, OnlyPagesWithMeshesCarryTheirScript) {
+    const char* const script = "class Meshes";
+    run({"--no-film"});
+    EXPECT_THAT(text_of(here / "run/report.html"), Not(HasSubstr(script)));
+    write_mesh_scene(here.path());
+    const Ended meshes = program({"movie", "plate.toml", "--out", "other", "--no-film"});
+    ASSERT_EQ(meshes.status, 0) << meshes.err;
+    EXPECT_THAT(text_of(here / "other/report.html"), HasSubstr(script));
+    const Ended both = program({"report", "run", "other", "--out", "both.html"});
+    ASSERT_EQ(both.status, 0) << both.err;
+    EXPECT_THAT(text_of(here / "both.html"), HasSubstr(script));
 }
 
 // A film that leaves out what it did not foresee goes with charts and bed all the same.

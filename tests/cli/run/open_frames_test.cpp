@@ -205,7 +205,7 @@ TEST(FrameWriters, ATrajectoryKeepsItsWorld) {
     cell.edges[0] = Vec3(0.5, 0, 0);
     cell.periodic[0] = true;
     world.most_grains = 9;
-    const auto writer = frame_writer("trajectory", here / "moments");
+    const auto writer = frame_writer("netcdf", here / "moments");
     writer->begin(world, {});
     writer->frame(made_frame(9, 1));
     writer->frame(made_frame(9, 2));
@@ -227,7 +227,7 @@ TEST(FrameWriters, ATrajectoryKeepsItsWorld) {
 
 TEST(FrameWriters, AnUnknownFormatIsRefusedWithAList) {
     try {
-        frame_writer("vtk", "x");
+        frame_writer("hologram", "x");
         FAIL();
     } catch (const UserError& mistake) {
         for (const FrameFormat& format : frame_formats()) EXPECT_THAT(mistake.what(), HasSubstr(format.name));

@@ -181,6 +181,10 @@ TEST_F(CheckProgram, TellsWhatEachMeshIsAndWhatWasMended) {
           "ball - plate", "ball - paddle"})
         EXPECT_THAT(ended.out, HasSubstr(line));
     EXPECT_THAT(ended.out, Not(HasSubstr("ball - wall"))) << "there is none";
+    const std::size_t first = ended.out.find("mended: ");
+    ASSERT_NE(first, std::string::npos);
+    const std::string words = ended.out.substr(first + 8, ended.out.find('\n', first) - first - 8);
+    EXPECT_EQ(ended.out.find(words, first + 8 + words.size()), std::string::npos) << ended.out;
 }
 
 // A plate of 200 m beside grains of 10 mm.

@@ -32,7 +32,7 @@ std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
 }  // namespace
 
 FrameFormat grain_table_format() {
-    return {"grain-table", "a table of grains (final.csv), of the last frame", make};
+    return {"grain-table", "a table of grains (final.csv), of the last frame", ".csv", make};
 }
 
 }  // namespace grainreel

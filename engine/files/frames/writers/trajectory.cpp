@@ -39,7 +39,7 @@ std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
 }  // namespace
 
 FrameFormat trajectory_format() {
-    return {"trajectory", "a trajectory.nc, as runs have it", make};
+    return {"netcdf", "a trajectory.nc, as runs have it; OVITO and any AMBER reader open it", ".nc", make};
 }
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-#include "render/picture/grains/colour_map.hpp"
+#include "render/picture/base/colour_map.hpp"
 
 #include <algorithm>
 #include <array>
@@ -65,12 +65,35 @@ constexpr std::array<Colour, 11> vik{rgb(0x001261), rgb(0x023a7b), rgb(0x116496)
                                      rgb(0xa7c9da), rgb(0xece5e0), rgb(0xe1b8a0), rgb(0xcd8961),
                                      rgb(0xb75a26), rgb(0x852206), rgb(0x590008)};
 
+// Likewise: bilbao, from a light grey (its 241st of 256 colours) to dark red (its first), every 15th.
+constexpr std::array<Colour, 17> bilbao{{
+    {0.896900, 0.896462, 0.894410},
+    {0.817076, 0.813079, 0.794420},
+    {0.778869, 0.766425, 0.707465},
+    {0.755564, 0.731793, 0.618437},
+    {0.729308, 0.690226, 0.515344},
+    {0.700009, 0.632449, 0.421261},
+    {0.680660, 0.576514, 0.385570},
+    {0.667900, 0.530350, 0.374203},
+    {0.656223, 0.487239, 0.364841},
+    {0.644613, 0.444345, 0.355565},
+    {0.632457, 0.399424, 0.345790},
+    {0.617797, 0.349190, 0.333637},
+    {0.588592, 0.287186, 0.305597},
+    {0.531968, 0.218597, 0.246306},
+    {0.462612, 0.152543, 0.172633},
+    {0.386025, 0.082853, 0.097458},
+    {0.299144, 0.000324, 0.003027},
+}};
+
 std::span<const Colour> steps_of(ColourMap map) {
     switch (map) {
         case ColourMap::viridis:
             return viridis;
         case ColourMap::cividis:
             return cividis;
+        case ColourMap::bilbao:
+            return bilbao;
         case ColourMap::vik:
             break;
     }

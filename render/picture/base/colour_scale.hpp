@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/scene/text/fitting_unit.hpp"
+#include "render/scene/film_look.hpp"
 #include "render/scene/film_shows.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/grain_values.hpp"
@@ -28,29 +29,39 @@ struct ClippedCount {
 // "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where none does. of: "grains".
 std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of);
 
+// Likewise of meshes: "walls by wear: ...".
+std::string clipped_words(const FilmWalls& walls, const ClippedCount& count);
+
 class ColourScale {
   public:
     explicit ColourScale(const GrainColouring& colouring);
+    explicit ColourScale(const FilmWalls& walls);  // whose colour is not plain
 
     // sRGB; value: SI. Held at the ends beyond the range.
-    Colour at(double value) const;
+    Colour at(double value) const { return at_share(share_of(value)); }
+    // Where in the range it is, 0 to 1 between the ends.
+    double share_of(double value) const;
     // The same by where in the range it is, 0 to 1.
     Colour at_share(double share) const;
 
     // How many bands of one colour each; 0: colours change smoothly.
     int bands() const { return bands_; }
-    double low() const { return colouring_.range[0]; }  // SI
-    double high() const { return colouring_.range[1]; }
+    bool logarithmic() const { return logarithmic_; }
+    double low() const { return range_[0]; }  // SI
+    double high() const { return range_[1]; }
     // Whether there can be values beyond an end, which then stands for all of these.
-    bool open_below() const { return is_signed(colouring_.by) || low() > 0; }
+    bool open_below() const { return signed_ || low() > 0; }
     bool open_above() const { return true; }
-    double unit_size() const { return unit_size_; }  // SI in one of the unit shown
-    std::string title() const;                       // "speed (m/s)"
+    double unit_size() const { return unit_size_; }      // SI in one of the unit shown
+    const std::string& title() const { return title_; }  // "speed (m/s)"
 
   private:
-    GrainColouring colouring_;
-    int bands_;
+    ColourMap map_ = ColourMap::viridis;
+    std::array<double, 2> range_;
+    int bands_ = 0;
+    bool signed_ = false, logarithmic_ = false;
     double unit_size_;
+    std::string title_;
 };
 
 }  // namespace grainreel

@@ -1,0 +1,230 @@
+#include "engine/files/foreign/dumps/index_file.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <system_error>
+
+#include "engine/base/binary.hpp"
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/files/foreign/dumps/growth.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view magic = "grainreel index 1\n";
+constexpr std::size_t hashed = 65536;  // bytes at either end of the file
+
+// Of the file that an index belongs to.
+struct Identity {
+    std::uint64_t inode = 0, size = 0;
+    std::int64_t changed = 0;
+    std::uint64_t head_hash = 0, end_hash = 0;
+};
+
+Identity identity_of(const FileBytes& file, const FileState& state) {
+    const std::uint64_t head = std::min<std::uint64_t>(state.size, hashed);
+    return {state.inode, state.size, state.changed, hash_before(file, head, hashed),
+            hash_before(file, state.size, hashed)};
+}
+
+template <class Way>
+void each_of(Way& way, auto& identity) {
+    way(identity.inode);
+    way(identity.size);
+    way(identity.changed);
+    way(identity.head_hash);
+    way(identity.end_hash);
+}
+
+// Frames as numbers: a vector of structs with holes would write what lies in them.
+void write_frames(std::ostream& out, const TextIndex& index) {
+    std::vector<std::int64_t> numbers;
+    std::vector<double> times;
+    for (const DumpFrame& f : index.frames) {
+        for (const std::uint64_t place : {f.place, f.end})
+            numbers.push_back(static_cast<std::int64_t>(place));
+        for (const std::int64_t number : {f.line, f.step, f.rows, std::int64_t{f.time ? 1 : 0}})
+            numbers.push_back(number);
+        times.push_back(f.time.value_or(0));
+    }
+    write_vector(out, numbers);
+    write_vector(out, times);
+}
+
+bool read_frames(Bytes& in, TextIndex& index) {
+    constexpr std::size_t width = 6;
+    std::vector<std::int64_t> numbers;
+    std::vector<double> times;
+    read_vector(in, numbers);
+    read_vector(in, times);
+    if (in.failed() || numbers.size() != width * times.size()) return false;
+    std::uint64_t before = 0;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        const std::int64_t* const n = numbers.data() + width * k;
+        DumpFrame frame{
+            static_cast<std::uint64_t>(n[0]), static_cast<std::uint64_t>(n[1]), n[2], n[3], {}, n[4]};
+        if (n[5] != 0) frame.time = times[k];
+        if (frame.place < before || frame.end <= frame.place || frame.rows < 0) return false;
+        before = frame.end;
+        index.frames.push_back(frame);
+    }
+    return before <= index.end;
+}
+
+// A frame that is cut, as numbers.
+std::vector<std::int64_t> numbers_of(const std::optional<CutFrame>& cut) {
+    if (!cut) return {};
+    return {cut->line, cut->step ? 1 : 0, cut->step.value_or(0), cut->in_head ? 1 : 0,
+            cut->rows, cut->of,           cut->in_row ? 1 : 0,   cut->in_number ? 1 : 0};
+}
+
+std::optional<CutFrame> cut_of(const std::vector<std::int64_t>& n) {
+    if (n.size() != 8) return std::nullopt;
+    CutFrame cut{n[0], {}, n[3] != 0, n[4], n[5], n[6] != 0, n[7] != 0};
+    if (n[1] != 0) cut.step = n[2];
+    return cut;
+}
+
+void write_text(std::ostream& out, std::string_view text) {
+    write_vector(out, std::vector<char>(text.begin(), text.end()));
+}
+
+std::string read_text(Bytes& in) {
+    std::vector<char> text;
+    read_vector(in, text);
+    return {text.begin(), text.end()};
+}
+
+std::optional<std::string> bytes_of(const fs::path& path) {
+    std::ifstream in = read_plain(path);
+    if (!in) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+// Whether an index made for `then` serves the file as it is now.
+bool serves(const Identity& then, const FileBytes& file, const FileState& now) {
+    if (then.inode != now.inode || then.size > now.size) return false;
+    if (then.size == now.size && then.changed != now.changed) return false;
+    const FileState before{then.size, now.device, then.inode, then.changed};
+    const Identity again = identity_of(file, before);
+    return again.head_hash == then.head_hash && again.end_hash == then.end_hash;
+}
+
+std::optional<KeptIndex> index_in(const fs::path& path, const FileBytes& file, const FileState& now) {
+    const std::optional<std::string> all = bytes_of(path);
+    if (!all) return std::nullopt;
+    Bytes in(*all);
+    Identity then;
+    const Reading read{in};
+    each_of(read, then);
+    if (in.failed() || !serves(then, file, now)) return std::nullopt;
+    std::optional<TextIndex> index = index_of_bytes(std::string_view(*all).substr(all->size() - in.left()));
+    // Behind any packing there may be more than the file has bytes, but not without an end.
+    constexpr std::uint64_t most_packed = 2000;
+    if (index && index->end / most_packed > now.size) return std::nullopt;
+    if (!index) return std::nullopt;
+    return KeptIndex{std::move(*index), then.size == now.size};
+}
+
+fs::path cache_folder() {
+    const char* const cache = std::getenv("XDG_CACHE_HOME");
+    if (cache != nullptr && fs::path(cache).is_absolute()) return fs::path(cache) / "grainreel" / "indices";
+    const char* const home = std::getenv("HOME");
+    if (home != nullptr && fs::path(home).is_absolute())
+        return fs::path(home) / ".cache" / "grainreel" / "indices";
+    return {};
+}
+
+}  // namespace
+
+std::string index_bytes(const TextIndex& index) {
+    std::ostringstream out;
+    out << magic;
+    write_value(out, static_cast<std::uint64_t>(index.names.size()));
+    for (const std::string& name : index.names) write_text(out, name);
+    for (const bool flag : {index.pairs, index.timed, index.unended, index.stream_cut})
+        write_value(out, flag ? 1 : 0);
+    write_text(out, index.units);
+    write_value(out, index.end);
+    write_value(out, index.end_line);
+    write_vector(out, numbers_of(index.cut));
+    write_frames(out, index);
+    std::string bytes = out.str();
+    const std::uint64_t sum = XXH64(bytes.data(), bytes.size(), 0);
+    return bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+}
+
+std::optional<TextIndex> index_of_bytes(std::string_view bytes) {
+    std::uint64_t sum = 0;
+    if (bytes.size() < magic.size() + sizeof sum || !bytes.starts_with(magic)) return std::nullopt;
+    std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
+    bytes.remove_suffix(sizeof sum);
+    if (XXH64(bytes.data(), bytes.size(), 0) != sum) return std::nullopt;
+    Bytes in(bytes.substr(magic.size()));
+    TextIndex index;
+    std::uint64_t names = 0;
+    read_value(in, names);
+    for (std::uint64_t k = 0; k < names && !in.failed(); ++k) index.names.push_back(read_text(in));
+    for (bool* const flag : {&index.pairs, &index.timed, &index.unended, &index.stream_cut}) {
+        int value = 0;
+        read_value(in, value);
+        *flag = value != 0;
+    }
+    index.units = read_text(in);
+    read_value(in, index.end);
+    read_value(in, index.end_line);
+    std::vector<std::int64_t> cut;
+    read_vector(in, cut);
+    index.cut = cut_of(cut);
+    if (in.failed() || !read_frames(in, index) || in.left() != 0) return std::nullopt;
+    return index;
+}
+
+std::vector<fs::path> index_places(const fs::path& file) {
+    std::error_code error;
+    const fs::path whole = fs::canonical(file, error);
+    if (error) return {};
+    std::vector<fs::path> places{whole.parent_path() /
+                                 ("." + whole.filename().string() + ".grainreel-index")};
+    const std::string name = whole.string();
+    if (const fs::path cache = cache_folder(); !cache.empty())
+        places.push_back(cache / fmt::format("{:016x}.grainreel-index", XXH64(name.data(), name.size(), 0)));
+    return places;
+}
+
+std::optional<KeptIndex> kept_index(const fs::path& file, const FileState& state) {
+    const FileBytes bytes(file);
+    for (const fs::path& place : index_places(file))
+        if (std::optional<KeptIndex> kept = index_in(place, bytes, state)) return kept;
+    return std::nullopt;
+}
+
+void keep_index(const fs::path& file, const FileState& state, const TextIndex& index) {
+    std::ostringstream out;
+    const Identity identity = identity_of(FileBytes(file), state);
+    const Writing write{out};
+    each_of(write, identity);
+    const std::string all = out.str() + index_bytes(index);
+    for (const fs::path& place : index_places(file)) {
+        std::error_code ignored;  // the folder of the file is there; that of the cache is made
+        fs::create_directories(place.parent_path(), ignored);
+        try {
+            replace_file(place, all);
+            return;
+        } catch (const RunError&) {  // the next place
+        }
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,208 @@
+// Text dumps of LAMMPS and of LIGGGHTS, which has them from it: dump atom, dump custom, dump local.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+#include "engine/base/error.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/files/foreign/bytes/file_bytes.hpp"
+#include "engine/files/foreign/dumps/grain_checks.hpp"
+#include "engine/files/foreign/dumps/growth.hpp"
+#include "engine/files/foreign/dumps/index_file.hpp"
+#include "engine/files/foreign/dumps/old_columns.hpp"
+#include "engine/files/foreign/dumps/text_index.hpp"
+#include "engine/files/foreign/dumps/text_rows.hpp"
+#include "engine/files/foreign/raw_file.hpp"
+#include "engine/mesh/file/mesh_bytes.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LammpsText : public RawFile {
+  public:
+    explicit LammpsText(const fs::path& file) : file_(file), packing_(packing_of(file)), growth_(file) {
+        refuse_yaml();
+        find_frames();
+        if (index_.frames.empty()) refuse_without_frame();
+        if (index_.names.empty()) name_columns();
+        update();
+    }
+
+    const RawFacts& facts() const override { return facts_; }
+    const std::vector<RawMoment>& moments() const override { return moments_; }
+
+    RawFrame read(std::size_t index) const override {
+        const DumpFrame& frame = index_.frames.at(index);
+        // A packed file is read on from the frame before: it has no other way to a place than through all
+        // bytes before it. Behind the last frame it is closed, so that a series of many files does not keep
+        // them open.
+        const std::lock_guard lock(reading_);
+        std::unique_ptr<LineReader> lines = std::move(kept_);
+        if (!lines) lines = std::make_unique<LineReader>(file_);
+        RawFrame read = read_frame(*lines, frame);
+        if (packing_ != Packing::none && index + 1 < index_.frames.size()) kept_ = std::move(lines);
+        return read;
+    }
+
+    std::vector<std::string> news() const override;
+    bool grow() override;
+
+  private:
+    void refuse_yaml() const;
+    [[noreturn]] void refuse_without_frame() const;
+    void find_frames();
+    void name_columns();
+    void update();
+    RawFrame read_frame(LineReader& lines, const DumpFrame& frame) const;
+    std::string cut_words() const;
+
+    fs::path file_;
+    Packing packing_;
+    Growth growth_;
+    TextIndex index_;
+    OldColumns old_;  // in files without names
+    RawFacts facts_;
+    std::vector<RawMoment> moments_;
+    mutable std::mutex reading_;
+    mutable std::unique_ptr<LineReader> kept_;
+};
+
+void LammpsText::refuse_yaml() const {
+    const FileHead head = unpacked_head(file_);
+    if (head.bytes.starts_with("---"))
+        throw UserError(
+            fmt::format("{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
+                        "write it anew by rerun",
+                        shown(file_)));
+}
+
+void LammpsText::find_frames() {
+    if (std::optional<KeptIndex> kept = kept_index(file_, growth_.state())) {
+        index_ = std::move(kept->index);
+        if (kept->of_now) return;
+    }
+    const std::uint64_t known = index_.end;
+    LineReader lines(file_);
+    index_.go_on(lines, file_);
+    if (index_.end - known >= long_pass) keep_index(file_, growth_.state(), index_);
+}
+
+void LammpsText::refuse_without_frame() const {
+    if (!index_.cut) throw UserError(fmt::format("{}: holds no frame", shown(file_)));
+    refuse_line(
+        file_, index_.cut->line,
+        fmt::format("no frame of this file is whole, neither is the one that begins here: {}", cut_words()));
+}
+
+// Why the frame at the end is not whole.
+std::string LammpsText::cut_words() const {
+    const CutFrame& cut = *index_.cut;
+    if (cut.in_head) return "it is cut within its head";
+    if (cut.in_number) return "its last row is cut or still being written, for no line ends behind it";
+    if (cut.in_row) return fmt::format("it is cut within the row {} of its {}", cut.rows, cut.of);
+    return fmt::format("it is cut after {} of its {} rows", cut.rows, cut.of);
+}
+
+void LammpsText::name_columns() {
+    const auto first = std::find_if(index_.frames.begin(), index_.frames.end(),
+                                    [](const DumpFrame& f) { return f.rows > 0; });
+    if (first == index_.frames.end()) return;
+    LineReader lines(file_);
+    old_ = old_columns(lines, file_, *first);
+}
+
+void LammpsText::update() {
+    facts_.format = index_.pairs ? "LAMMPS text dump of pairs" : "LAMMPS text dump";
+    facts_.units = index_.units;
+    moments_.clear();
+    for (const DumpFrame& frame : index_.frames) {
+        RawMoment moment;
+        moment.step = frame.step;
+        moment.time = frame.time;
+        moment.grains = index_.pairs ? 0 : frame.rows;
+        moment.has_contacts = index_.pairs;
+        moments_.push_back(moment);
+    }
+}
+
+RawFrame LammpsText::read_frame(LineReader& lines, const DumpFrame& frame) const {
+    lines.seek(frame.place, frame.line);
+    DumpHead head;
+    if (read_head(lines, file_, head) != HeadEnd::whole || head.step != frame.step || head.rows != frame.rows)
+        refuse_line(
+            file_, frame.line,
+            fmt::format("the frame of step {} is no longer here; did another program change the file?",
+                        frame.step));
+    RowsToRead wanted;
+    wanted.names = index_.names.empty() ? old_.names : index_.names;
+    wanted.rows = frame.rows;
+    wanted.bytes = frame.end - head.rows_place;
+    wanted.pairs = index_.pairs;
+    RawFrame read;
+    read.step = frame.step;
+    read.time = frame.time;
+    read.box = head.box;
+    (index_.pairs ? read.contacts : read.grains) = read_rows(lines, file_, wanted);
+    if (const std::optional<BadId> bad = bad_id(read.grains))
+        refuse_line(file_, head.rows_line + static_cast<std::int64_t>(bad->row), bad->words());
+    return read;
+}
+
+std::vector<std::string> LammpsText::news() const {
+    std::vector<std::string> news;
+    const std::string name = shown(file_.filename());
+    if (index_.stream_cut)
+        news.push_back(
+            fmt::format("{}: the packed content is cut; what stands before the cut is read", name));
+    if (index_.cut) {
+        const std::size_t whole = index_.frames.size();
+        const std::string which = index_.cut->step ? fmt::format(" (step {})", *index_.cut->step) : "";
+        news.push_back(fmt::format("{}: the last frame{} is left out: {}; {} before it {} whole", name, which,
+                                   cut_words(), whole, whole == 1 ? "is" : "are"));
+    }
+    if (index_.unended)
+        news.push_back(fmt::format("{}: no line ends behind its last row, which is taken as whole", name));
+    if (!old_.words.empty()) news.push_back(fmt::format("{}: {}", name, old_.words));
+    return news;
+}
+
+bool LammpsText::grow() {
+    if (!growth_.look()) return false;
+    const std::size_t had = index_.frames.size();
+    LineReader lines(file_);
+    index_.go_on(lines, file_);
+    if (index_.names.empty() && old_.names.empty()) name_columns();
+    update();
+    kept_.reset();
+    return index_.frames.size() > had;
+}
+
+// The first words of a dump, or those of one whose first line is missing. A dump in YAML is refused by name
+// when it is opened.
+bool takes_text_dump(const FileHead& head) {
+    const std::string_view text = head.bytes;
+    constexpr std::size_t first_items = 2000;  // bytes
+    if (text.starts_with("---") &&
+        text.substr(0, first_items).find("creator: LAMMPS") != std::string_view::npos)
+        return true;
+    const std::size_t item = text.substr(0, first_items).find("ITEM: ");
+    return item != std::string_view::npos && (item == 0 || text[item - 1] == '\n') &&
+           text.substr(0, item).find('\0') == std::string_view::npos;
+}
+
+std::unique_ptr<RawFile> open_text_dump(const fs::path& file) {
+    return std::make_unique<LammpsText>(file);
+}
+
+}  // namespace
+
+RawFormat lammps_text_format() {
+    return {"lammps-dump", "dumps of LAMMPS and LIGGGHTS (text)", takes_text_dump, open_text_dump};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,167 @@
+#include "engine/files/foreign/dumps/text_index.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <string_view>
+
+#include "engine/base/utf8.hpp"
+#include "engine/files/foreign/dumps/last_row.hpp"
+#include "engine/mesh/file/mesh_bytes.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view mark = "ITEM:";
+
+struct PassedRows {
+    std::int64_t rows = 0;
+    bool unended = false;  // the last one has no line feed behind it
+};
+
+// A line is a row if it has words. memchr does most of the work.
+class RowCounter {
+  public:
+    RowCounter(LineReader& lines, const fs::path& file, const DumpHead& head)
+        : lines_(lines), file_(file), head_(head) {}
+
+    PassedRows pass() {
+        while (passed_.rows < head_.rows) {
+            const std::string_view text = lines_.lines();
+            if (text.empty()) break;
+            const bool unended = lines_.unended();
+            const std::int64_t before = passed_.rows;
+            pass_block(text);
+            passed_.unended = unended && passed_.rows > before;
+        }
+        return passed_;
+    }
+
+  private:
+    void pass_block(std::string_view text) {
+        const char* p = text.data();
+        const char* const end = p + text.size();
+        std::int64_t count = 0;
+        while (p < end && passed_.rows < head_.rows) {
+            const auto* const feed =
+                static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+            if (*p == 'I' && std::string_view(p, static_cast<std::size_t>(feed - p)).starts_with(mark))
+                refuse_count(lines_.number() + count);
+            if (*p > ' ' || has_words(p, feed)) ++passed_.rows;
+            ++count;
+            p = feed + 1;
+        }
+        lines_.take(static_cast<std::size_t>(p - text.data()), count);
+    }
+
+    static bool has_words(const char* p, const char* end) {
+        return std::string_view(p, static_cast<std::size_t>(end - p)).find_first_not_of(" \t\r\v\f") !=
+               std::string_view::npos;
+    }
+
+    [[noreturn]] void refuse_count(std::int64_t line) const {
+        refuse_line(
+            file_, line,
+            fmt::format("the frame of step {} ends here after {} rows, and line {} says {}; did a run stop "
+                        "within a frame and go on later? Cut this frame out of the file",
+                        head_.step.value_or(0), passed_.rows, head_.line, head_.rows));
+    }
+
+    LineReader& lines_;
+    const fs::path& file_;
+    const DumpHead& head_;
+    PassedRows passed_;
+};
+
+}  // namespace
+
+void TextIndex::go_on(LineReader& lines, const fs::path& file) {
+    cut.reset();
+    // A last row without a line feed may have become longer.
+    if (unended && !frames.empty()) {
+        end = frames.back().place;
+        end_line = frames.back().line;
+        frames.pop_back();
+        unended = false;
+    }
+    lines.seek(end, end_line);
+    while (take_frame(lines, file)) {
+    }
+    stream_cut = lines.cut_off();
+}
+
+bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {
+    DumpHead head;
+    const HeadEnd found = read_head(lines, file, head);
+    if (found == HeadEnd::nothing) return false;
+    if (found == HeadEnd::cut) {
+        // Behind the last rows a time or units alone belong to a frame to come only where frames have them.
+        if (!frames.empty() && !head.step && (head.time || !head.units.empty()) && !timed)
+            refuse_line(
+                file, head.line,
+                "items stand behind the rows of the last frame, and no frame begins with them; items stand "
+                "before the rows");
+        cut_at(head, {.in_head = true});
+        return false;
+    }
+    if (!head.names_ended && (head.rows > 0 || (!frames.empty() && head.names != names))) {
+        cut_at(head, {.in_head = true});
+        return false;
+    }
+    check(head, file);
+    const PassedRows passed = RowCounter(lines, file, head).pass();
+    if (passed.rows < head.rows) {
+        cut_at(head, {.rows = passed.rows, .in_row = passed.unended});
+        return false;
+    }
+    const std::uint64_t behind = lines.place();
+    const std::int64_t behind_line = lines.number();
+    TextLine next;
+    const bool more = lines.next_with_words(next);
+    if (more && !next.text.starts_with(mark) && !(!next.ended && mark.starts_with(next.text)))
+        refuse_line(file, next.number,
+                    fmt::format("one row more than the {} that line {} says for step {}, or damage",
+                                head.rows, head.line, head.step.value_or(0)));
+    if (more) lines.back(next);
+    const bool open_end = passed.unended || !head.names_ended;
+    if (passed.unended && !last_row_is_whole(lines, file, head, frames)) {
+        cut_at(head, {.rows = passed.rows, .in_number = true});
+        return false;
+    }
+    if (frames.empty()) {
+        names = head.names;
+        pairs = head.pairs;
+    }
+    if (units.empty()) units = head.units;
+    timed = timed || head.time;
+    frames.push_back({head.place, behind, head.line, *head.step, head.time, head.rows});
+    end = behind;
+    end_line = behind_line;
+    unended = open_end;
+    return more;
+}
+
+void TextIndex::check(const DumpHead& head, const fs::path& file) const {
+    if (frames.empty()) return;
+    if (head.names != names || head.pairs != pairs)
+        refuse_line(
+            file, head.names_line,
+            fmt::format("the columns change here: \"{}\", and \"{}\" before; make a file of each part",
+                        excerpt(fmt::format("{}", fmt::join(head.names, " "))),
+                        excerpt(fmt::format("{}", fmt::join(names, " ")))));
+    if (!head.units.empty() && !units.empty() && head.units != units)
+        refuse_line(file, head.line,
+                    fmt::format("the units change from {} to {}; make a file of each part", excerpt(units),
+                                excerpt(head.units)));
+}
+
+void TextIndex::cut_at(const DumpHead& head, const CutFrame& how) {
+    cut = how;
+    cut->line = head.line;
+    cut->step = head.step;
+    cut->of = head.rows;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,56 @@
+// Where the frames of a text dump lie. One pass over the file finds them; it reads the heads and counts the
+// rows.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/files/foreign/dumps/line_reader.hpp"
+#include "engine/files/foreign/dumps/text_head.hpp"
+
+namespace grainreel {
+
+struct DumpFrame {
+    std::uint64_t place = 0, end = 0;  // from the first item to behind the last row, in the unpacked content
+    std::int64_t line = 0;             // of the first item
+    std::int64_t step = 0;
+    std::optional<double> time{};
+    std::int64_t rows = 0;
+};
+
+// A frame at the end of the content that is not whole.
+struct CutFrame {
+    std::int64_t line = 0;  // where it begins
+    std::optional<std::int64_t> step{};
+    bool in_head = false;
+    std::int64_t rows = 0, of = 0;  // how many there are
+    bool in_row = false;            // the last row is not whole
+    bool in_number = false;  // the last row has all its fields, but what the last one is cannot be known
+};
+
+struct TextIndex {
+    std::vector<DumpFrame> frames;
+    std::vector<std::string> names;  // of the columns, as the file says; none in old dumps
+    bool pairs = false;              // a dump local
+    bool timed = false;              // a frame has a time
+    std::string units;
+    // Behind the last whole frame.
+    std::uint64_t end = 0;
+    std::int64_t end_line = 1;
+    bool unended = false;  // the last frame's last row has no line feed behind it
+    std::optional<CutFrame> cut{};
+    bool stream_cut = false;  // the packed stream ends before its end
+
+    // Frames behind those that are known. Throws UserError with the line where the content is none of a dump.
+    void go_on(LineReader& lines, const std::filesystem::path& file);
+
+  private:
+    bool take_frame(LineReader& lines, const std::filesystem::path& file);
+    void check(const DumpHead& head, const std::filesystem::path& file) const;
+    void cut_at(const DumpHead& head, const CutFrame& how);
+};
+
+}  // namespace grainreel

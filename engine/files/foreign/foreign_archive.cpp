@@ -1,0 +1,532 @@
+#include "engine/files/foreign/foreign_archive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/series/file_groups.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What a file holds, by its first frame.
+enum class Holds { nothing, grains, contacts, walls };
+
+Holds what_holds(const fs::path& file) {
+    const RawFormat* format = raw_format_of(file);
+    if (format == nullptr) return Holds::nothing;
+    try {
+        const std::unique_ptr<RawFile> one = format->open(file);
+        for (const RawMoment& moment : one->moments()) {
+            if (moment.grains > 0) return Holds::grains;
+            if (moment.has_walls) return Holds::walls;
+            if (moment.has_contacts) return Holds::contacts;
+        }
+        return one->moments().empty() ? Holds::nothing : Holds::grains;
+    } catch (const UserError&) {
+        return Holds::nothing;
+    }
+}
+
+bool is_passed_over(const fs::path& file) {
+    return file.filename().string().find("_boundingBox") != std::string::npos;
+}
+
+std::vector<fs::path> without_passed_over(std::vector<fs::path> files) {
+    std::erase_if(files, is_passed_over);
+    return files;
+}
+
+std::vector<fs::path> files_named(const std::string& name) {
+    const fs::path path = name;
+    std::error_code ignored;
+    if (is_pattern(path)) return without_passed_over(files_of_pattern(path));
+    if (fs::is_directory(path, ignored)) return without_passed_over(files_in(path));
+    return {path};
+}
+
+}  // namespace
+
+bool is_foreign(const fs::path& path) {
+    std::error_code ignored;
+    if (is_pattern(path)) return true;
+    if (!fs::is_directory(path, ignored)) return fs::exists(path, ignored) && raw_format_of(path) != nullptr;
+    if (fs::exists(path / "scene.toml", ignored)) return false;
+    for (const fs::path& file : files_in(path))
+        if (!is_passed_over(file) && raw_format_of(file) != nullptr) return true;
+    return false;
+}
+
+ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& options)
+    : path_(path), options_(options) {
+    choose_files();
+    for (std::string& line : grains_->news()) news_.push_back(std::move(line));
+    list_moments();
+    survey();
+    read_walls();
+    make_world();
+    match_walls();
+    for (std::size_t w = 0; w < walls_.size(); ++w) world_.bodies[kFirstPlaneBody + w].mesh = walls_[w].shape;
+    decide_velocities();
+}
+
+void ForeignArchive::choose_files() {
+    std::error_code ignored;
+    const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
+    if (many) {
+        choose_from(files_named(path_.string()));
+    } else {
+        const FileGroup series = series_of(path_);
+        if (options_.one || series.files.size() == 1) {
+            grains_ = std::make_unique<RawSeries>(std::vector<fs::path>{path_});
+            if (series.files.size() > 1)
+                news_.push_back(fmt::format("{}: is one of {} numbered files; '{}' is all of them",
+                                            path_.string(), series.files.size(), series.pattern));
+        } else {
+            grains_ = std::make_unique<RawSeries>(series.files);
+            news_.push_back(
+                fmt::format("{}: is one of {} numbered files, and all are read; --one reads it alone",
+                            path_.string(), series.files.size()));
+        }
+        add_companions(path_);
+    }
+    if (!options_.contacts.empty()) {
+        std::vector<fs::path> files;
+        for (const std::string& name : options_.contacts)
+            for (fs::path& file : files_named(name)) files.push_back(std::move(file));
+        contacts_ =
+            std::make_unique<RawSeries>(grouped(files).size() == 1 ? grouped(files).front().files : files);
+    }
+    for (const std::string& name : options_.walls)
+        for (FileGroup& group : grouped(files_named(name))) wall_files_.push_back(std::move(group.files));
+    all_files_ = grains_->files();
+    if (contacts_) all_files_.insert(all_files_.end(), contacts_->files().begin(), contacts_->files().end());
+    for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
+}
+
+// Of several series of grains in one folder the longest is taken: a run is often written in two formats.
+void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
+    const std::vector<FileGroup> groups = grouped(files);
+    const FileGroup* chosen = nullptr;
+    std::vector<const FileGroup*> contacts, walls, others;
+    for (const FileGroup& group : groups) {
+        // The first frames of a series may be empty, so its middle is asked as well.
+        Holds holds = what_holds(group.files.front());
+        if (holds != Holds::walls && group.files.size() > 1) {
+            const Holds middle = what_holds(group.files[group.files.size() / 2]);
+            if (middle != Holds::nothing) holds = middle;
+        }
+        if (holds == Holds::grains) {
+            if (chosen) others.push_back(chosen->files.size() < group.files.size() ? chosen : &group);
+            if (!chosen || chosen->files.size() < group.files.size()) chosen = &group;
+        }
+        if (holds == Holds::contacts) contacts.push_back(&group);
+        if (holds == Holds::walls) walls.push_back(&group);
+    }
+    if (chosen == nullptr)
+        throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at",
+                                    path_.string(), files.size()));
+    grains_ = std::make_unique<RawSeries>(chosen->files);
+    for (const FileGroup* other : others)
+        news_.push_back(
+            fmt::format("{}: holds grains too and is passed over; name it alone to read it", other->pattern));
+    if (options_.contacts.empty() && !contacts.empty())
+        contacts_ = std::make_unique<RawSeries>(contacts.front()->files);
+    if (!options_.walls.empty()) return;
+    // Surfaces that come again at each moment are where they are; a lone file beside them is what they were
+    // made of.
+    const bool moving =
+        std::any_of(walls.begin(), walls.end(), [](const FileGroup* one) { return one->files.size() > 1; });
+    for (const FileGroup* wall : walls) {
+        if (moving && wall->files.size() == 1)
+            news_.push_back(fmt::format(
+                "{}: a single surface beside those of each moment is passed over; --walls takes it",
+                wall->pattern));
+        else
+            wall_files_.push_back(wall->files);
+    }
+}
+
+// MercuryDPM writes NAME.data, NAME.fstat and NAME.restart.
+void ForeignArchive::add_companions(const fs::path& file) {
+    if (grains_->facts().program.find("Mercury") == std::string::npos &&
+        grains_->facts().format.find("Mercury") == std::string::npos)
+        return;
+    std::error_code ignored;
+    fs::path other = file;
+    other.replace_extension(".fstat");
+    if (other != file && options_.contacts.empty() && fs::is_regular_file(other, ignored) &&
+        raw_format_of(other) != nullptr)
+        contacts_ = std::make_unique<RawSeries>(std::vector<fs::path>{other});
+    other.replace_extension(".restart");
+    if (other != file && options_.walls.empty() && fs::is_regular_file(other, ignored) &&
+        what_holds(other) != Holds::nothing)
+        wall_files_.push_back({other});
+}
+
+// Steps and times agree in every moment: where the files' own do not, steps are ticks of a millionth of the
+// shortest interval.
+void ForeignArchive::list_moments() {
+    const std::vector<RawMoment>& raw = grains_->moments();
+    const UnitSystem units = [&] {
+        UnitSystem system;
+        const std::string name = options_.units.empty() ? grains_->facts().units : options_.units;
+        if (const auto known = unit_system(name)) system = *known;
+        if (options_.units.empty() && grains_->facts().time_unit) system.time = *grains_->facts().time_unit;
+        return system;
+    }();
+    const auto all = [&](auto member) {
+        return std::all_of(raw.begin(), raw.end(),
+                           [&](const RawMoment& one) { return (one.*member).has_value(); });
+    };
+    const bool timed = all(&RawMoment::time), stepped = all(&RawMoment::step);
+    std::vector<double> times;
+    for (std::size_t k = 0; k < raw.size(); ++k) {
+        const double step = stepped ? static_cast<double>(*raw[k].step) : static_cast<double>(k);
+        times.push_back(timed                ? *raw[k].time * units.time
+                        : options_.time_step ? step * *options_.time_step
+                                             : step);
+        raw_steps_.push_back(stepped ? *raw[k].step : static_cast<std::int64_t>(k));
+    }
+    world_.time_known = timed || options_.time_step.has_value();
+    std::vector<double> intervals;
+    for (std::size_t k = 1; k < times.size(); ++k) intervals.push_back(times[k] - times[k - 1]);
+    if (!world_.time_known) {
+        std::vector<double> sorted = intervals;
+        std::sort(sorted.begin(), sorted.end());
+        const double median =
+            sorted.empty() || !(sorted[sorted.size() / 2] > 0) ? 1 : sorted[sorted.size() / 2];
+        // Of a single frame nothing can be told.
+        for (double& time : times) time = times.size() == 1 ? 0 : time / (median * kUntimedRate);
+        for (double& interval : intervals) interval /= median * kUntimedRate;
+        news_.push_back(fmt::format("{}: says no times; its frames are taken as {} a second{}",
+                                    path_.string(), kUntimedRate,
+                                    stepped ? "; --time-step 1e-6 (s) gives them" : ""));
+    }
+    // One length of a step for all?
+    double tick = 0;
+    bool even = stepped;
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (raw_steps_[k] != 0) tick = times[k] / static_cast<double>(raw_steps_[k]);
+    for (std::size_t k = 0; k < times.size(); ++k)
+        even = even &&
+               std::abs(times[k] - static_cast<double>(raw_steps_[k]) * tick) <= 1e-9 * std::abs(times[k]);
+    if (times.size() == 1 && !world_.time_known) {
+        Frame& moment = moments_.emplace_back();
+        moment.step = raw_steps_.front();
+        return;
+    }
+    if (!even || !(tick > 0)) {
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const double interval : intervals)
+            if (interval > 0) shortest = std::min(shortest, interval);
+        tick = std::isfinite(shortest) ? 1e-6 * shortest : 1e-6;
+        even = false;
+    }
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        Frame moment;
+        moment.step = even ? raw_steps_[k] : std::llround(times[k] / tick);
+        moment.time = static_cast<double>(moment.step) * tick;
+        moments_.push_back(moment);
+    }
+    for (std::size_t k = 1; k < moments_.size(); ++k)
+        if (moments_[k].time < moments_[k - 1].time)
+            throw UserError(fmt::format("{}: its time falls from {:.6g} to {:.6g} s; is it of two runs?",
+                                        grains_->place(k), moments_[k - 1].time, moments_[k].time));
+}
+
+const RawFrame& ForeignArchive::raw(std::size_t index) const {
+    if (!last_ || last_->first != index) last_.emplace(index, grains_->read(index));
+    return last_->second;
+}
+
+// Which types there are, how many grains, and what the columns mean. Of many frames some are looked at.
+void ForeignArchive::survey() {
+    constexpr std::size_t most_looks = 64;
+    const std::size_t frames = moments_.size();
+    const std::size_t stride = std::max<std::size_t>(1, (frames + most_looks - 1) / most_looks);
+    std::vector<std::size_t> looks;
+    for (std::size_t k = 0; k < frames; k += stride) looks.push_back(k);
+    if (frames > 0 && looks.back() != frames - 1) looks.push_back(frames - 1);
+    for (const std::size_t k : looks) {
+        const RawFrame& frame = raw(k);
+        world_.most_grains = std::max(world_.most_grains, frame.grains.rows);
+        if (frame.grains.rows == 0) continue;
+        if (!meaning_) meaning_.emplace(grains_->facts(), frame, options_, grains_->files().front().string());
+        meaning_->add_types(frame, types_);
+    }
+    for (const auto& [word, name] : options_.species) types_.add(word);
+    if (!meaning_) {
+        // Not one grain: the meaning of no columns is that of a bare table.
+        RawFrame empty;
+        empty.grains.columns = {{"id", {}}, {"x", {}}, {"y", {}}, {"z", {}}, {"radius", {}}};
+        meaning_.emplace(grains_->facts(), empty, ReadingOptions(), path_.string());
+        news_.push_back(fmt::format("{}: has no grain in any frame", path_.string()));
+    }
+    for (const std::string& line : meaning_->guesses()) news_.push_back(line);
+    if (!meaning_->has_ids() && frames > 1)
+        news_.push_back(fmt::format("{}: has no ids; its grains are counted by their rows", path_.string()));
+    for (std::size_t k = 0; k < frames && !has_contacts_; ++k)
+        has_contacts_ = grains_->moments()[k].has_contacts;
+    if (!contacts_) return;
+    const std::vector<RawMoment>& moments = contacts_->moments();
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        std::optional<std::int64_t> step = moments[k].step;
+        if (!step && moments[k].time) {
+            // By time, where both have times alone.
+            for (std::size_t f = 0; f < frames; ++f)
+                if (grains_->moments()[f].time && std::abs(*grains_->moments()[f].time - *moments[k].time) <=
+                                                      1e-6 * std::abs(*moments[k].time) + 1e-12)
+                    step = raw_steps_[f];
+        }
+        if (step) contacts_at_.emplace(*step, k);
+    }
+    has_contacts_ = !contacts_at_.empty();
+}
+
+void ForeignArchive::make_world() {
+    world_.title = path_.filename().string();
+    world_.program_version = grains_->facts().program;
+    for (const std::string& word : types_.words()) {
+        WorldSpecies& species = world_.species.emplace_back();
+        const auto named = options_.species.find(word);
+        const bool number = word.find_first_not_of("0123456789.+-e") == std::string::npos;
+        species.name = named != options_.species.end() ? named->second : number ? "type " + word : word;
+    }
+    if (world_.species.empty()) world_.species.emplace_back().name = "grains";
+    std::size_t first = 0;
+    while (first + 1 < moments_.size() && grains_->moments()[first].grains == 0) ++first;
+    if (!moments_.empty() && types_.words().size() > 0) {
+        const RawFrame& frame = raw(first);
+        const std::vector<double> densities = meaning_->densities(frame, types_);
+        const Frame grains = meaning_->frame(frame, types_, grains_->place(first));
+        std::vector<double> sums(types_.words().size(), 0);
+        for (std::size_t i = 0; i < grains.size(); ++i) {
+            const auto species = static_cast<std::size_t>(grains.species[i]);
+            sums[species] += 2 * grains.radius[i];
+            ++world_.species[species].count;
+        }
+        for (std::size_t s = 0; s < sums.size(); ++s) {
+            if (world_.species[s].count > 0)
+                world_.species[s].diameter = sums[s] / static_cast<double>(world_.species[s].count);
+            world_.species[s].density = densities[s];
+        }
+        world_.cell = meaning_->cell(frame);
+    }
+    for (const RawMoment& moment : grains_->moments())
+        world_.traffic = world_.traffic || moment.grains != grains_->moments().front().grains;
+    world_.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
+    add_box();
+    std::set<std::string> names;
+    for (MovingWall& wall : walls_) {
+        std::string name = wall.name.empty() ? "wall" : wall.name;
+        for (int k = 2; names.count(name) > 0; ++k)
+            name = fmt::format("{} {}", wall.name.empty() ? "wall" : wall.name, k);
+        names.insert(name);
+        wall.name = name;
+        world_.bodies.push_back({name, {}, wall.shape});
+    }
+}
+
+// Where no other walls are known, the sides and the floor of a box that is not periodic stand for them.
+void ForeignArchive::add_box() {
+    if (!walls_.empty() || !world_.cell || !options_.container.empty()) return;
+    const WorldCell& cell = *world_.cell;
+    const auto solid = [&](std::size_t axis) { return !cell.periodic[axis] && cell.edges[axis].norm() > 0; };
+    TriangleMesh mesh;
+    const auto face = [&](const Vec3& corner, const Vec3& a, const Vec3& b) {
+        const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+        for (const Vec3& vertex : {corner, Vec3(corner + a), Vec3(corner + a + b), Vec3(corner + b)})
+            mesh.vertices.push_back(vertex);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first, first + 2, first + 3});
+    };
+    const auto& [x, y, z] = cell.edges;
+    if (!solid(2) || x.norm() == 0 || y.norm() == 0) return;
+    face(cell.origin, x, y);
+    if (solid(0)) face(cell.origin, y, z), face(cell.origin + x, z, y);
+    if (solid(1)) face(cell.origin, z, x), face(cell.origin + y, x, z);
+    MovingWall box;
+    box.name = "box";
+    box.shape = mesh;
+    box.poses = {BodyPose()};
+    walls_.push_back(std::move(box));
+    wall_moments_ = {WallMoment()};
+}
+
+void ForeignArchive::read_walls() {
+    const double unit = options_.walls_scale.value_or(meaning_->units().length);
+    const bool in_frames = std::any_of(grains_->moments().begin(), grains_->moments().end(),
+                                       [](const RawMoment& one) { return one.has_walls; });
+    if (in_frames) {
+        for (std::size_t k = 0; k < moments_.size(); ++k)
+            wall_moments_.push_back({raw_steps_[k], moments_[k].time, raw(k).walls});
+        while (!wall_moments_.empty() && wall_moments_.front().walls.empty())
+            wall_moments_.erase(wall_moments_.begin());
+        walls_ = follow_walls(wall_moments_, unit, path_.string(), news_);
+    }
+    if (!in_frames && wall_files_.size() == 1) {
+        const RawSeries series(wall_files_.front());
+        for (std::size_t k = 0; k < series.moments().size(); ++k) {
+            RawFrame frame = series.read(k);
+            wall_moments_.push_back({frame.step, frame.time, std::move(frame.walls)});
+        }
+        walls_ = follow_walls(wall_moments_, unit, wall_files_.front().front().string(), news_);
+        return;
+    }
+    // Several series: those of one file stand still, and of the others all must have the same moments.
+    for (const std::vector<fs::path>& files : wall_files_) {
+        const RawSeries series(files);
+        std::vector<WallMoment> moments;
+        for (std::size_t k = 0; k < series.moments().size(); ++k) {
+            RawFrame frame = series.read(k);
+            moments.push_back({frame.step, frame.time, std::move(frame.walls)});
+        }
+        std::vector<MovingWall> more = follow_walls(moments, unit, files.front().string(), news_);
+        if (moments.size() > wall_moments_.size()) wall_moments_ = std::move(moments);
+        std::move(more.begin(), more.end(), std::back_inserter(walls_));
+    }
+}
+
+// A wall rests where it is at the first moment of the grains.
+void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
+    const BodyPose rest = wall.poses[first];
+    for (Vec3& vertex : wall.shape.vertices) vertex = rest.moved(vertex);
+    for (BodyPose& pose : wall.poses) {
+        pose.rotation = pose.rotation * rest.rotation.conjugate();
+        pose.place -= pose.rotation * rest.place;
+    }
+}
+
+// The pose of each wall at each moment: the last one that is not later, by step or by time.
+void ForeignArchive::match_walls() {
+    for (std::size_t k = 0; k < moments_.size(); ++k) {
+        std::vector<std::size_t> at;
+        for (const MovingWall& wall : walls_) {
+            std::size_t pose = 0;
+            for (std::size_t m = 1; m < std::min(wall.poses.size(), wall_moments_.size()); ++m) {
+                const WallMoment& moment = wall_moments_[m];
+                const bool reached = moment.step   ? *moment.step <= raw_steps_[k]
+                                     : moment.time ? *moment.time <= moments_[k].time * (1 + 1e-9)
+                                                   : m <= k;
+                if (reached) pose = m;
+            }
+            at.push_back(pose);
+        }
+        if (k == 0)
+            for (std::size_t w = 0; w < walls_.size(); ++w) rest_at_first(walls_[w], at[w]);
+        wall_at_.push_back(std::move(at));
+        Frame& moment = moments_[k];
+        moment.bodies.resize(kFirstPlaneBody + walls_.size());
+        for (std::size_t w = 0; w < walls_.size(); ++w)
+            moment.bodies[kFirstPlaneBody + w] = walls_[w].poses[wall_at_[k][w]];
+    }
+}
+
+Frame ForeignArchive::read(std::size_t index) const {
+    Frame frame = meaning_->frame(raw(index), types_, grains_->place(index));
+    const Frame& moment = moments_.at(index);
+    frame.step = moment.step;
+    frame.time = moment.time;
+    frame.bodies = moment.bodies;
+    return frame;
+}
+
+Frame ForeignArchive::grains(std::size_t index) const {
+    Frame frame = read(index);
+    if (derived_) derive_velocities(index, frame);
+    return frame;
+}
+
+std::optional<std::vector<Touch>> ForeignArchive::touches(std::size_t index) const {
+    if (!has_contacts_) return std::nullopt;
+    if (!contacts_) return touches_of(raw(index), options_, meaning_->units(), grains_->place(index));
+    const auto found = contacts_at_.find(raw_steps_.at(index));
+    if (found == contacts_at_.end()) return std::vector<Touch>();
+    return touches_of(contacts_->read(found->second), options_, meaning_->units(),
+                      contacts_->place(found->second));
+}
+
+FrameSupply ForeignArchive::supply() const {
+    FrameSupply supply;
+    supply.velocities = meaning_->has_velocities() || derived_;
+    supply.orientations = meaning_->has_orientations();
+    supply.contacts = has_contacts_;
+    return supply;
+}
+
+namespace {
+
+// The way of a grain between two frames, through a periodic box the short way round.
+Vec3 way(const Vec3& from, const Vec3& to, const std::optional<WorldCell>& cell) {
+    Vec3 between = to - from;
+    if (!cell) return between;
+    for (std::size_t edge = 3; edge-- > 0;) {
+        const double length = cell->edges[edge].norm();
+        if (!cell->periodic[edge] || !(length > 0)) continue;
+        const auto axis = static_cast<Eigen::Index>(edge);
+        const double turns = std::round(between[axis] / cell->edges[edge][axis]);
+        if (std::isfinite(turns)) between -= turns * cell->edges[edge];
+    }
+    return between;
+}
+
+std::optional<std::size_t> row_of(const Frame& frame, std::int32_t id) {
+    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+    if (found == frame.id.end() || *found != id) return std::nullopt;
+    return static_cast<std::size_t>(found - frame.id.begin());
+}
+
+}  // namespace
+
+// Moments are close enough where nearly all grains move less than their diameter from one to the next.
+void ForeignArchive::decide_velocities() {
+    if (meaning_->has_velocities() || !world_.time_known || !meaning_->has_ids() || moments_.size() < 2)
+        return;
+    const std::size_t middle = (moments_.size() - 1) / 2;
+    const Frame before = read(middle), after = read(middle + 1);
+    std::size_t near = 0, both = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const std::optional<std::size_t> row = row_of(after, before.id[i]);
+        if (!row) continue;
+        ++both;
+        near += way(before.position[i], after.position[*row], world_.cell).norm() < 2 * before.radius[i];
+    }
+    derived_ = both > 0 && static_cast<double>(near) >= 0.95 * static_cast<double>(both);
+    news_.push_back(
+        derived_ ? fmt::format("{}: says no velocities; they come from the places of neighbouring frames",
+                               path_.string())
+                 : fmt::format("{}: says no velocities, and its frames are too far apart for them; all are 0",
+                               path_.string()));
+}
+
+// By central differences; at the ends and where a grain has come or goes, by the one neighbour that it has.
+void ForeignArchive::derive_velocities(std::size_t index, Frame& frame) const {
+    const bool has_before = index > 0, has_after = index + 1 < moments_.size();
+    const Frame before = has_before ? read(index - 1) : Frame(),
+                after = has_after ? read(index + 1) : Frame();
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const std::optional<std::size_t> was = row_of(before, frame.id[i]), will = row_of(after, frame.id[i]);
+        Vec3 ways(0, 0, 0);
+        double time = 0;
+        if (was) {
+            ways += way(before.position[*was], frame.position[i], world_.cell);
+            time += frame.time - before.time;
+        }
+        if (will) {
+            ways += way(frame.position[i], after.position[*will], world_.cell);
+            time += after.time - frame.time;
+        }
+        if (time > 0 && ways.norm() < 4 * frame.radius[i]) frame.velocity[i] = ways / time;
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,251 @@
+// GSD of HOOMD-blue: the schema "hoomd" over the chunks of a GSD file. A chunk that a frame lacks is that of
+// frame 0, or the schema's default where the count of grains is another.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/gsd/gsd_file.hpp"
+#include "engine/files/foreign/raw_file.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::string_view of_particles = "particles/", of_log = "log/";
+constexpr std::uint32_t most_columns = 64;  // of one chunk
+
+// The schema's default of a component; NaN for what it does not know.
+double default_of(const std::string& name, std::size_t component) {
+    static const std::set<std::string> zeros{"typeid", "charge",         "velocity",
+                                             "angmom", "moment_inertia", "image"};
+    if (zeros.count(name) > 0) return 0;
+    if (name == "mass" || name == "diameter") return 1;
+    if (name == "body") return -1;
+    if (name == "orientation") return component == 0 ? 1 : 0;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string column_name(const std::string& name, std::size_t component, std::size_t components) {
+    if (name == "position" && component < 3) return std::string(1, "xyz"[component]);
+    if (name == "typeid") return "type";
+    return components == 1 ? name : fmt::format("{}:{}", name, component);
+}
+
+// The diameter of {"type": "Sphere", "diameter": 2}; NaN for other shapes.
+double diameter_of_shape(const std::string& text) {
+    const nlohmann::json shape = nlohmann::json::parse(text, nullptr, false);
+    if (!shape.is_object() || shape.value("type", nlohmann::json()) != "Sphere")
+        return std::numeric_limits<double>::quiet_NaN();
+    const auto found = shape.find("diameter");
+    if (found == shape.end() || !found->is_number()) return std::numeric_limits<double>::quiet_NaN();
+    return found->get<double>();
+}
+
+class GsdFrames : public RawFile {
+  public:
+    explicit GsdFrames(const std::filesystem::path& path);
+
+    const RawFacts& facts() const override { return facts_; }
+    const std::vector<RawMoment>& moments() const override { return moments_; }
+    RawFrame read(std::size_t index) const override;
+
+  private:
+    // That of the frame, else that of frame 0.
+    const GsdChunk* chunk_of(const std::string& name, std::size_t frame) const;
+    std::optional<double> scalar(const std::string& name, std::size_t frame) const;
+    std::optional<double> time_of(std::size_t frame) const;
+    WorldCell box_of(const GsdChunk& chunk) const;
+    void add_columns(RawTable& grains, const std::string& name, std::size_t frame) const;
+    void add_log(RawTable& grains, const std::string& name, std::size_t frame) const;
+    void name_types(RawTable& grains, std::size_t frame) const;
+    void add_diameters_of_shapes(RawTable& grains, std::size_t frame) const;
+
+    GsdFile file_;
+    RawFacts facts_;
+    std::vector<RawMoment> moments_;
+    std::string time_name_;  // of the chunk that has the time; empty where there is none
+    mutable std::mutex reading_;
+};
+
+GsdFrames::GsdFrames(const std::filesystem::path& path) : file_(path) {
+    if (file_.schema() != "hoomd")
+        throw UserError(fmt::format("{}: a GSD file of the schema \"{}\" is not read; \"hoomd\" is",
+                                    path.string(), file_.schema()));
+    if (file_.frames() == 0) throw UserError(fmt::format("{}: has no frame", path.string()));
+    facts_.format = "GSD";
+    facts_.program = file_.application();
+    for (const std::string& name : file_.names())
+        if (name.starts_with(of_log) && name.ends_with("/time") && time_name_.empty()) time_name_ = name;
+    if (scalar("configuration/dimensions", 0).value_or(3) == 2) facts_.dimensions = 2;
+    const std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    for (std::size_t frame = 0; frame < file_.frames(); ++frame) {
+        RawMoment moment;
+        const double grains = scalar("particles/N", frame).value_or(0);
+        if (!(grains >= 0 && grains <= static_cast<double>(most)))
+            throw UserError(fmt::format("{}: frame {} has {} grains", path.string(), frame, grains));
+        moment.grains = static_cast<std::int64_t>(grains);
+        if (file_.has("configuration/step"))
+            moment.step = static_cast<std::int64_t>(scalar("configuration/step", frame).value_or(0));
+        moment.time = time_of(frame);
+        moments_.push_back(moment);
+    }
+}
+
+const GsdChunk* GsdFrames::chunk_of(const std::string& name, std::size_t frame) const {
+    const GsdChunk* chunk = file_.find(name, frame);
+    return chunk ? chunk : file_.find(name, 0);
+}
+
+std::optional<double> GsdFrames::scalar(const std::string& name, std::size_t frame) const {
+    const GsdChunk* chunk = chunk_of(name, frame);
+    if (!chunk) return std::nullopt;
+    if (chunk->rows != 1 || chunk->columns != 1)
+        file_.fault(chunk->place, fmt::format("{} is not a single number", name));
+    return file_.numbers(*chunk).front();
+}
+
+std::optional<double> GsdFrames::time_of(std::size_t frame) const {
+    if (time_name_.empty()) return std::nullopt;
+    const GsdChunk* chunk = file_.find(time_name_, frame);
+    if (!chunk || chunk->rows != 1 || chunk->columns != 1) return std::nullopt;
+    const double time = file_.numbers(*chunk).front();
+    return std::isfinite(time) ? std::optional(time) : std::nullopt;
+}
+
+// Lengths and tilts, which are ratios to Ly and Lz; the middle is at 0.
+WorldCell GsdFrames::box_of(const GsdChunk& chunk) const {
+    const std::vector<double> n = file_.numbers(chunk);
+    if (n.size() != 6) file_.fault(chunk.place, "configuration/box is not six numbers");
+    for (const double number : n)
+        if (!std::isfinite(number)) file_.fault(chunk.place, "configuration/box has a number that is none");
+    WorldCell box;
+    box.edges = {Vec3(n[0], 0, 0), Vec3(n[3] * n[1], n[1], 0), Vec3(n[4] * n[2], n[5] * n[2], n[2])};
+    box.origin = -0.5 * (box.edges[0] + box.edges[1] + box.edges[2]);
+    box.periodic = {true, true, facts_.dimensions == 3};
+    return box;
+}
+
+void GsdFrames::add_columns(RawTable& grains, const std::string& name, std::size_t frame) const {
+    const std::string full = std::string(of_particles) + name;
+    const GsdChunk* chunk = chunk_of(full, frame);
+    const bool own = file_.find(full, frame) != nullptr;
+    if (chunk && own && chunk->rows != grains.rows)
+        file_.fault(chunk->place, fmt::format("{} has {} rows, and the frame has {} grains", full,
+                                              chunk->rows, grains.rows));
+    const bool there = chunk && chunk->rows == grains.rows;
+    if (!there && name == "position" && grains.rows > 0)
+        file_.fault(0, fmt::format("frame {} has {} grains without places", frame, grains.rows));
+    static const std::map<std::string, std::size_t> widths{{"position", 3},    {"velocity", 3},
+                                                           {"image", 3},       {"angmom", 4},
+                                                           {"orientation", 4}, {"moment_inertia", 3}};
+    const auto known = widths.find(name);
+    const std::size_t width = known != widths.end() ? known->second : there ? chunk->columns : 1;
+    if (there && chunk->columns != width)
+        file_.fault(chunk->place,
+                    fmt::format("{} has {} columns in place of {}", full, chunk->columns, width));
+    if (width > most_columns) return;
+    const std::vector<double> values = there ? file_.numbers(*chunk) : std::vector<double>();
+    for (std::size_t k = 0; k < width; ++k) {
+        RawColumn column{column_name(name, k, width), {}, {}};
+        column.values.reserve(grains.rows);
+        for (std::size_t i = 0; i < grains.rows; ++i) {
+            column.values.push_back(there ? values[i * width + k] : default_of(name, k));
+            if (name == "position" && !std::isfinite(column.values.back()))
+                file_.fault(chunk->place, fmt::format("grain {} of frame {} has no place", i, frame));
+        }
+        grains.columns.push_back(std::move(column));
+    }
+}
+
+void GsdFrames::add_log(RawTable& grains, const std::string& name, std::size_t frame) const {
+    const GsdChunk* chunk = file_.find(name, frame);
+    if (!chunk || chunk->rows != grains.rows || grains.rows < 2 || chunk->columns > most_columns) return;
+    const std::vector<double> values = file_.numbers(*chunk);
+    for (std::size_t k = 0; k < chunk->columns; ++k) {
+        RawColumn column{column_name(name, k, chunk->columns), {}, {}};
+        for (std::size_t i = 0; i < grains.rows; ++i) column.values.push_back(values[i * chunk->columns + k]);
+        grains.columns.push_back(std::move(column));
+    }
+}
+
+void GsdFrames::name_types(RawTable& grains, std::size_t frame) const {
+    const GsdChunk* chunk = chunk_of("particles/types", frame);
+    const std::vector<std::string> words = chunk ? file_.texts(*chunk) : std::vector<std::string>{"A"};
+    for (RawColumn& column : grains.columns) {
+        if (column.name != "type") continue;
+        for (const double type : column.values)
+            if (type >= static_cast<double>(words.size()))
+                file_.fault(chunk ? chunk->place : 0,
+                            fmt::format("frame {} has grains of type {}, and there are "
+                                        "{} types",
+                                        frame, type, words.size()));
+        column.words = words;
+    }
+}
+
+void GsdFrames::add_diameters_of_shapes(RawTable& grains, std::size_t frame) const {
+    const GsdChunk* chunk = chunk_of("particles/type_shapes", frame);
+    if (!chunk || grains.find("diameter")) return;
+    std::vector<double> of_type;
+    bool any = false;
+    for (const std::string& text : file_.texts(*chunk)) {
+        of_type.push_back(diameter_of_shape(text));
+        any = any || !std::isnan(of_type.back());
+    }
+    if (!any) return;
+    const RawColumn* types = grains.find("type");
+    RawColumn column{"diameter", {}, {}};
+    for (std::size_t i = 0; i < grains.rows; ++i) {
+        const auto type = static_cast<std::size_t>(types ? types->values[i] : 0.0);
+        column.values.push_back(type < of_type.size() ? of_type[type]
+                                                      : std::numeric_limits<double>::quiet_NaN());
+    }
+    grains.columns.push_back(std::move(column));
+}
+
+RawFrame GsdFrames::read(std::size_t index) const {
+    const std::lock_guard lock(reading_);
+    RawFrame frame;
+    frame.step = moments_.at(index).step;
+    frame.time = moments_[index].time;
+    frame.grains.rows = static_cast<std::size_t>(moments_[index].grains);
+    if (const GsdChunk* box = chunk_of("configuration/box", index)) frame.box = box_of(*box);
+    const GsdChunk* places = chunk_of("particles/position", index);
+    if (frame.grains.rows > 0 && (!places || places->rows != frame.grains.rows))
+        file_.fault(places ? places->place : 0,
+                    fmt::format("frame {} has {} grains and no places for them", index, frame.grains.rows));
+    for (const std::string& name : file_.names()) {
+        if (name.starts_with(of_log)) add_log(frame.grains, name, index);
+        if (!name.starts_with(of_particles) || !file_.has(name)) continue;
+        const std::string own = name.substr(of_particles.size());
+        if (own != "N" && own != "types" && own != "type_shapes") add_columns(frame.grains, own, index);
+    }
+    if (!frame.grains.find("type") && file_.has("particles/types"))
+        frame.grains.columns.push_back({"type", std::vector<double>(frame.grains.rows, 0.0), {}});
+    name_types(frame.grains, index);
+    add_diameters_of_shapes(frame.grains, index);
+    return frame;
+}
+
+bool takes_gsd(const FileHead& head) {
+    constexpr std::string_view magic = "\xdf\x65\xdf\x65\xdf\x65\xdf\x65";
+    return std::string_view(head.bytes).starts_with(magic);
+}
+
+std::unique_ptr<RawFile> open_gsd(const std::filesystem::path& file) {
+    return std::make_unique<GsdFrames>(file);
+}
+
+}  // namespace
+
+RawFormat gsd_format() {
+    return {"gsd", "GSD of HOOMD-blue", takes_gsd, open_gsd};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,94 @@
+// Which columns of a file say what of its grains, and how they become SI. Found once for a file's names, and
+// used for all its frames.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/files/foreign/meaning/units.hpp"
+#include "engine/files/foreign/raw_file.hpp"
+#include "engine/files/frames/reading_options.hpp"
+#include "engine/frame.hpp"
+
+namespace grainreel {
+
+// Types of a record by the words that the files have for them ("1", "big"), in the order of the species.
+class TypeList {
+  public:
+    // Adds a word where it is new, so that numbers come before words, by rising value.
+    void add(const std::string& word);
+    // Where a word stands; none where it is unknown.
+    std::optional<std::size_t> place(const std::string& word) const;
+    const std::vector<std::string>& words() const { return words_; }
+
+  private:
+    std::vector<std::string> words_;
+};
+
+// The word of a value in a column of types: "1" for 1.0, the column's word where it has words.
+std::string type_word(const RawColumn& column, double value);
+
+class GrainMeaning {
+  public:
+    // file: for messages. Throws UserError where the file has no places, where no radius is known, and for
+    // what the options say wrongly. `frame`: the first of the file that has rows; its columns are those of
+    // all.
+    GrainMeaning(const RawFacts& facts, const RawFrame& frame, const ReadingOptions& options,
+                 std::string file);
+
+    bool has_ids() const { return id_.has_value(); }
+    bool has_types() const { return type_.has_value(); }
+    bool has_velocities() const { return velocity_[0] && velocity_[1]; }
+    bool has_orientations() const {
+        return quaternion_[0] && quaternion_[1] && quaternion_[2] && quaternion_[3];
+    }
+    const UnitSystem& units() const { return units_; }
+    // What was guessed, a line each.
+    const std::vector<std::string>& guesses() const { return guesses_; }
+
+    // Words of the types in a frame.
+    void add_types(const RawFrame& raw, TypeList& types) const;
+    // Grains by rising id, in SI. place: "run.dump: frame 3", for messages. Throws UserError for a radius
+    // that is not positive, an id that comes twice or is no whole number, and a type that is not in the list.
+    Frame frame(const RawFrame& raw, const TypeList& types, const std::string& place) const;
+    // Mean density of each type in kg/m3, from columns of density or mass; NaN where that is not known.
+    std::vector<double> densities(const RawFrame& raw, const TypeList& types) const;
+    // The same box in m.
+    std::optional<WorldCell> cell(const RawFrame& raw) const;
+
+  private:
+    void find_places(const RawTable& table);
+    void find_radius(const RawTable& table);
+    Vec3 place_of(const RawFrame& raw, std::size_t row) const;
+    double radius_of(const RawFrame& raw, std::size_t row, const std::string& place) const;
+    std::string type_of(const RawFrame& raw, std::size_t row) const;
+    void check_flat(const RawFrame& frame) const;
+
+    using Column = std::optional<std::size_t>;
+    double value(const RawTable& table, Column column, std::size_t row) const {
+        return table.columns[*column].values[row];
+    }
+
+    std::string file_;
+    ReadingOptions options_;
+    RawFacts facts_;
+    UnitSystem units_;
+    Column id_, type_, radius_, density_, mass_;
+    bool is_diameter_ = false;
+    double radius_unit_ = 1, place_unit_ = 1;  // m
+    std::array<Column, 3> place_{}, velocity_{}, spin_{};
+    std::array<bool, 3> scaled_{};
+    bool flat_ = false;                   // there is no z
+    std::array<Column, 4> quaternion_{};  // w x y z
+    std::vector<std::string> guesses_;
+};
+
+// Contacts of a frame by ids, in N; walls are -1 - wall. Null where the table has no pairs of ids.
+std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingOptions& options,
+                                             const UnitSystem& units, const std::string& file);
+
+}  // namespace grainreel

@@ -1,0 +1,142 @@
+#include "engine/files/foreign/meaning/names.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+// In lower case. Sources: LAMMPS (dump custom), LIGGGHTS (dump custom/vtk, atom/vtk), YADE (VTKRecorder,
+// export.text), MercuryDPM (.data, .vtu), Lethe and MFIX (.vtu), ASE, QUIP and OVITO (extended XYZ), GSD,
+// AMBER, DEM-Engine and ParaView (CSV).
+const std::vector<std::pair<std::string, Names>>& all() {
+    static const std::vector<std::pair<std::string, Names>> list{
+        {"id",
+         {"id", "log/particles/id", "identifier", "particle identifier", "global_id", "globalid",
+          "particle_id", "particleid", "tag"}},
+        {"type",
+         {"type", "atom_types", "atom_type", "particle type", "typeid", "species", "element", "info",
+          "material", "materialtype", "material_type", "matid", "mat"}},
+        {"x",
+         {"x", "position.x", "position:0", "points:0", "coordinates:0", "positions:0", "p_x", "pos:0",
+          "x_pos", "position x", "center:0", "px"}},
+        {"y",
+         {"y", "position.y", "position:1", "points:1", "coordinates:1", "positions:1", "p_y", "pos:1",
+          "y_pos", "position y", "center:1", "py"}},
+        {"z",
+         {"z", "position.z", "position:2", "points:2", "coordinates:2", "positions:2", "p_z", "pos:2",
+          "z_pos", "position z", "center:2", "pz"}},
+        {"xu", {"xu", "unwrapped_coordinates:0"}},
+        {"yu", {"yu", "unwrapped_coordinates:1"}},
+        {"zu", {"zu", "unwrapped_coordinates:2"}},
+        {"xs", {"xs"}},
+        {"ys", {"ys"}},
+        {"zs", {"zs"}},
+        {"xsu", {"xsu"}},
+        {"ysu", {"ysu"}},
+        {"zsu", {"zsu"}},
+        {"vx",
+         {"vx", "v:0", "velo:0", "velocity:0", "velocities:0", "linvelvec:0", "velocity_lin:0", "v_x",
+          "velocity.x", "velocity x", "vel:0"}},
+        {"vy",
+         {"vy", "v:1", "velo:1", "velocity:1", "velocities:1", "linvelvec:1", "velocity_lin:1", "v_y",
+          "velocity.y", "velocity y", "vel:1"}},
+        {"vz",
+         {"vz", "v:2", "velo:2", "velocity:2", "velocities:2", "linvelvec:2", "velocity_lin:2", "v_z",
+          "velocity.z", "velocity z", "vel:2"}},
+        {"wx",
+         {"wx", "omegax", "omega:0", "angvelvec:0", "angularvelocity:0", "angular_velocity:0",
+          "angular_velocities:0", "velocity_ang:0", "w_x", "omega_x", "omega.x", "angular velocity.x"}},
+        {"wy",
+         {"wy", "omegay", "omega:1", "angvelvec:1", "angularvelocity:1", "angular_velocity:1",
+          "angular_velocities:1", "velocity_ang:1", "w_y", "omega_y", "omega.y", "angular velocity.y"}},
+        {"wz",
+         {"wz", "omegaz", "omega:2", "angvelvec:2", "angularvelocity:2", "angular_velocity:2",
+          "angular_velocities:2", "velocity_ang:2", "w_z", "omega_z", "omega.z", "angular velocity.z"}},
+        {"radius",
+         {"radius", "radii", "rad", "r", "particle_radius", "asphericalshapex", "asphericalshape.x"}},
+        {"diameter", {"diameter", "diameters", "diam", "d", "shapex", "c_diameter", "particle_diameter"}},
+        {"density", {"density", "rho", "densities", "c_density"}},
+        {"mass", {"mass", "masses", "m"}},
+        {"qw", {"qw", "quatw", "orientation:0", "orientation.w"}},
+        {"qx", {"qx", "quati", "orientation:1", "orientation.x"}},
+        {"qy", {"qy", "quatj", "orientation:2", "orientation.y"}},
+        {"qz", {"qz", "quatk", "orientation:3", "orientation.z"}},
+        {"id1", {"id1", "c_id1", "i", "particle1", "pid1"}},
+        {"id2", {"id2", "c_id2", "j", "particle2", "pid2"}},
+        {"force", {"fn", "normal_force", "normalforce", "force_normal", "f_n"}},
+        {"fx", {"force:0", "fx", "force_x", "c_force:0"}},
+        {"fy", {"force:1", "fy", "force_y", "c_force:1"}},
+        {"fz", {"force:2", "fz", "force_z", "c_force:2"}},
+        {"step", {"step", "timestep", "iteration"}},
+        {"time", {"time", "t"}},
+    };
+    return list;
+}
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+// "Radius [mm]" and "x (m)" end before their unit.
+std::string without_unit(const std::string& name) {
+    const std::size_t at = name.find_first_of("[(");
+    if (at == std::string::npos || at == 0) return name;
+    std::string bare = name.substr(0, at);
+    while (!bare.empty() && bare.back() == ' ') bare.pop_back();
+    return bare.empty() ? name : bare;
+}
+
+std::optional<std::size_t> place_of(const std::string& wanted, const RawTable& table) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const std::string name = lower(table.columns[i].name);
+        if (name == wanted || without_unit(name) == wanted) return i;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<std::string>& names_of(const std::string& meaning) {
+    static const Names none;
+    for (const auto& [name, known] : all())
+        if (name == meaning) return known;
+    return none;
+}
+
+std::vector<std::string> all_meanings() {
+    std::vector<std::string> names;
+    for (const auto& [name, known] : all()) names.push_back(name);
+    return names;
+}
+
+std::optional<std::size_t> column_for(const std::string& meaning, const RawTable& table,
+                                      const ReadingOptions& options, const std::string& file) {
+    if (const auto said = options.columns.find(meaning); said != options.columns.end()) {
+        for (std::size_t i = 0; i < table.columns.size(); ++i)
+            if (table.columns[i].name == said->second) return i;
+        if (const auto place = place_of(lower(said->second), table)) return place;
+        throw UserError(fmt::format("--columns {}={}: {} has no such column; it has {}", meaning,
+                                    said->second, file, names_in(table)));
+    }
+    for (const std::string& name : names_of(meaning))
+        if (const auto place = place_of(name, table)) return place;
+    return std::nullopt;
+}
+
+std::string names_in(const RawTable& table) {
+    std::string text;
+    for (const RawColumn& column : table.columns) text += (text.empty() ? "" : ", ") + column.name;
+    return text.empty() ? "no columns" : text;
+}
+
+}  // namespace grainreel

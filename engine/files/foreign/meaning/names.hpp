@@ -1,0 +1,29 @@
+// What the columns of other programs are called. One name may mean one thing in one program and another in
+// the next; the list is asked in its order, and case does not count.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/files/foreign/raw_frame.hpp"
+#include "engine/files/frames/reading_options.hpp"
+
+namespace grainreel {
+
+// Names for one meaning, the best known first. "v:0" is the first component of the vector v.
+const std::vector<std::string>& names_of(const std::string& meaning);
+
+// All meanings that --columns takes.
+std::vector<std::string> all_meanings();
+
+// The place of the column with that meaning in the table; none where there is none. What the user says by
+// --columns counts before the list. Throws UserError where the user names a column that the file lacks.
+// file: for the message.
+std::optional<std::size_t> column_for(const std::string& meaning, const RawTable& table,
+                                      const ReadingOptions& options, const std::string& file);
+
+// "id, type, x, y, z, c_rad": what a file has, for messages.
+std::string names_in(const RawTable& table);
+
+}  // namespace grainreel

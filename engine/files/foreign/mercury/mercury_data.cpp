@@ -1,0 +1,149 @@
+// MercuryDPM's .data: a line of count, time and box before the rows of each frame. In three dimensions it has
+// 8 numbers and rows 14, in two dimensions 6 and 8 (the formats 14 and 8 of its xballs files).
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/tables/number_words.hpp"
+#include "engine/files/foreign/tables/text_frames.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Numbers = std::vector<double>;
+
+constexpr std::array<const char*, 14> names_3d{"x",     "y",    "z",     "vx", "vy", "vz", "radius",
+                                               "alpha", "beta", "gamma", "wx", "wy", "wz", "info"};
+constexpr std::array<const char*, 8> names_2d{"x", "y", "vx", "vy", "radius", "gamma", "wz", "info"};
+
+// The line before a frame: N, t, lower corner, upper corner.
+struct Header {
+    std::int64_t grains = 0;
+    double time = 0;
+    Numbers corners;
+    std::size_t dimensions = 3;
+};
+
+std::optional<Header> header_of(std::string_view line) {
+    Header header;
+    const std::optional<std::int64_t> grains = whole_number_of(take_word(line));
+    const std::optional<double> time = number_of(take_word(line));
+    const std::optional<Numbers> corners = numbers_of(line);
+    if (!grains || *grains < 0 || !time || !std::isfinite(*time) || !corners) return std::nullopt;
+    if (corners->size() != 4 && corners->size() != 6) return std::nullopt;
+    for (const double corner : *corners)
+        if (!std::isfinite(corner)) return std::nullopt;
+    return Header{*grains, *time, *corners, corners->size() / 2};
+}
+
+std::optional<WorldCell> box_of(const Header& header) {
+    WorldCell box;
+    for (std::size_t axis = 0; axis < header.dimensions; ++axis) {
+        const double from = header.corners[axis], to = header.corners[header.dimensions + axis];
+        if (to < from) return std::nullopt;
+        box.origin[static_cast<int>(axis)] = from;
+        box.edges[axis][static_cast<int>(axis)] = to - from;
+    }
+    return box;
+}
+
+class MercuryData : public TextFrames {
+  public:
+    explicit MercuryData(const std::filesystem::path& file) : TextFrames(file) {
+        facts_.format = "MercuryDPM data";
+        facts_.program = "MercuryDPM";
+    }
+
+  protected:
+    Passed pass_over(TextLines& lines, RawMoment& moment) override;
+    RawFrame read_frame(TextLines& lines, const RawMoment& moment) const override;
+
+  private:
+    std::size_t columns() const { return dimensions_ == 2 ? names_2d.size() : names_3d.size(); }
+    const char* name(std::size_t i) const { return dimensions_ == 2 ? names_2d[i] : names_3d[i]; }
+    void add_row(const TextLines& lines, RawTable& grains) const;
+
+    std::size_t dimensions_ = 0;  // 0 before the first frame
+};
+
+TextFrames::Passed MercuryData::pass_over(TextLines& lines, RawMoment& moment) {
+    if (!lines.next_filled()) return Passed::end;
+    const std::optional<Header> header = header_of(lines.text());
+    if (!lines.ended()) return Passed::cut;
+    const std::uint64_t first = lines.number();
+    if (!header)
+        lines.fault(
+            "the line of a frame must stand here: count, time and the box's corners; is the count of the "
+            "frame before right?");
+    if (dimensions_ == 0) dimensions_ = header->dimensions;
+    if (dimensions_ != header->dimensions)
+        lines.fault(
+            fmt::format("this frame has {} dimensions, those before {}", header->dimensions, dimensions_));
+    facts_.dimensions = static_cast<int>(dimensions_);
+    for (std::int64_t i = 0; i < header->grains; ++i) {
+        if (!lines.next()) return Passed::cut;
+        const std::size_t words = count_words(lines.text(), columns() + 1);
+        if (words < columns() && !lines.ended()) return Passed::cut;
+        if (words != columns())
+            lines.fault(
+                fmt::format("row {} of {} has {} numbers in place of {}; line {} says {} grains: is that "
+                            "right?",
+                            i + 1, header->grains, words > columns() ? "more" : std::to_string(words),
+                            columns(), first, header->grains));
+    }
+    moment.grains = header->grains;
+    moment.time = header->time;
+    return Passed::frame;
+}
+
+void MercuryData::add_row(const TextLines& lines, RawTable& grains) const {
+    std::string_view rest = lines.text();
+    for (std::size_t i = 0; i < columns(); ++i) {
+        const std::string_view word = take_word(rest);
+        const std::optional<double> number = number_of(word);
+        if (!number)
+            lines.fault(
+                fmt::format("column {} ({}) has {}, which is no number", i + 1, name(i), in_quotes(word)));
+        if (i < dimensions_ && !std::isfinite(*number))
+            lines.fault(fmt::format("the grain has no place: its {} is {}", name(i), in_quotes(word)));
+        grains.columns[i].values.push_back(*number);
+    }
+}
+
+RawFrame MercuryData::read_frame(TextLines& lines, const RawMoment& moment) const {
+    RawFrame frame;
+    frame.time = moment.time;
+    lines.next_filled();
+    if (const std::optional<Header> header = header_of(lines.text())) frame.box = box_of(*header);
+    for (std::size_t i = 0; i < columns(); ++i) frame.grains.columns.push_back({name(i), {}, {}});
+    for (std::int64_t i = 0; i < moment.grains; ++i) {
+        if (!lines.next()) lines.fault("the file has become shorter while it was read");
+        add_row(lines, frame.grains);
+    }
+    frame.grains.rows = static_cast<std::size_t>(moment.grains);
+    return frame;
+}
+
+bool takes_mercury_data(const FileHead& head) {
+    if (head.folder) return false;
+    const std::vector<std::string_view> lines = lines_of(head, 2);
+    if (lines.empty()) return false;
+    const std::optional<Header> header = header_of(lines[0]);
+    if (!header) return false;
+    if (lines.size() < 2) return header->grains == 0 || head.bytes.size() < kHeadBytes;
+    if (header->grains == 0) return header_of(lines[1]).has_value();
+    const std::optional<Numbers> row = numbers_of(lines[1]);
+    return row && row->size() == (header->dimensions == 2 ? names_2d.size() : names_3d.size());
+}
+
+}  // namespace
+
+RawFormat mercury_data_format() {
+    return {"mercury-data", "grains of MercuryDPM (.data)", takes_mercury_data,
+            open_text_frames<MercuryData>};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,283 @@
+// MercuryDPM's .restart: one moment as text of keys and values, "MercuryDPM 1.0" and "restart_version 1.0",
+// and the rows of plain numbers of restart_version 3 ("TSP BP x y z vx vy vz r angles w 1/m 1/I species").
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/mercury/restart_line.hpp"
+#include "engine/files/foreign/mercury/wall_rectangles.hpp"
+#include "engine/files/foreign/raw_file.hpp"
+#include "engine/files/foreign/tables/number_words.hpp"
+#include "engine/files/foreign/tables/text_lines.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+struct Field {
+    const char* key;
+    std::vector<const char*> columns;
+};
+// Of a grain with keys.
+const std::vector<Field>& fields_of_keys() {
+    static const std::vector<Field> fields{
+        {"id", {"id"}},
+        {"indSpecies", {"species"}},
+        {"position", {"x", "y", "z"}},
+        {"velocity", {"vx", "vy", "vz"}},
+        {"angularVelocity", {"wx", "wy", "wz"}},
+        {"orientation", {"orientation:0", "orientation:1", "orientation:2", "orientation:3"}},
+        {"radius", {"radius"}},
+        {"invMass", {"invMass"}},
+    };
+    return fields;
+}
+// Of a grain of plain numbers, in their order; the empty one is the inverse moment of inertia.
+constexpr std::array<const char*, 16> plain_columns{"x",      "y",       "z",    "vx",     "vy", "vz",
+                                                    "radius", "alpha",   "beta", "gamma",  "wx", "wy",
+                                                    "wz",     "invMass", "",     "species"};
+
+class MercuryRestart : public RawFile {
+  public:
+    explicit MercuryRestart(const std::filesystem::path& file);
+
+    const RawFacts& facts() const override { return facts_; }
+    const std::vector<RawMoment>& moments() const override { return moments_; }
+    std::vector<std::string> news() const override { return news_; }
+    RawFrame read(std::size_t) const override { return frame_; }
+
+  private:
+    enum class Part { head, species, walls, boundaries, grains, rest };
+
+    // Whether the line begins a part.
+    bool begins_part(std::string_view line);
+    void take_line(std::string_view line);
+    void take_head(const RestartLine& line);
+    void take_species(const RestartLine& line);
+    void take_wall(const RestartLine& line);
+    void take_boundary(const RestartLine& line);
+    void take_grain(const RestartLine& line);
+    void take_plain_grain(const std::vector<double>& numbers);
+    void add(const char* column, double value);
+    void finish();
+
+    TextLines lines_;
+    Part part_ = Part::head;
+    std::int64_t grains_left_ = 0;
+    std::size_t next_column_ = 0;  // of the grain that is taken
+    bool grains_seen_ = false;
+    std::vector<double> densities_;        // of the species
+    std::map<std::string, int> left_out_;  // kinds of walls, and how many
+    RawFacts facts_;
+    RawFrame frame_;
+    WorldCell box_;
+    std::vector<RawMoment> moments_;
+    std::vector<std::string> news_;
+};
+
+MercuryRestart::MercuryRestart(const std::filesystem::path& file) : lines_(file) {
+    facts_.format = "MercuryDPM restart";
+    facts_.program = "MercuryDPM";
+    while (lines_.next_filled())
+        if (!begins_part(lines_.text())) take_line(lines_.text());
+    if (!grains_seen_)
+        lines_.fault("the file ends before its Particles; was it copied or written to the end?");
+    if (grains_left_ > 0)
+        lines_.fault(fmt::format("the file ends {} grains too early; was it copied or written to the end?",
+                                 grains_left_));
+    finish();
+}
+
+bool MercuryRestart::begins_part(std::string_view line) {
+    const std::string_view word = take_word(line);
+    const std::optional<std::int64_t> count = whole_number_of(take_word(line));
+    if (grains_left_ > 0 || !count || !trimmed(line).empty()) return false;
+    if (word == "Species")
+        part_ = Part::species;
+    else if (word == "Walls")
+        part_ = Part::walls;
+    else if (word == "Boundaries")
+        part_ = Part::boundaries;
+    else if (word == "Particles")
+        part_ = Part::grains;
+    else if (word == "Interactions")
+        part_ = Part::rest;
+    else
+        return false;
+    if (part_ != Part::grains) return true;
+    if (*count < 0) lines_.fault("the count of grains is negative");
+    grains_left_ = *count;
+    grains_seen_ = true;
+    return true;
+}
+
+void MercuryRestart::take_line(std::string_view text) {
+    if (part_ == Part::rest || (part_ == Part::grains && grains_left_ == 0)) return;
+    if (part_ == Part::grains && !lines_.ended())
+        lines_.fault("the file ends within a grain; was it copied or written to the end?");
+    const RestartLine line(text);
+    switch (part_) {
+        case Part::head:
+            take_head(line);
+            break;
+        case Part::species:
+            take_species(line);
+            break;
+        case Part::walls:
+            take_wall(line);
+            break;
+        case Part::boundaries:
+            take_boundary(line);
+            break;
+        case Part::grains:
+            take_grain(line);
+            break;
+        case Part::rest:
+            break;
+    }
+}
+
+void MercuryRestart::take_head(const RestartLine& line) {
+    const std::array<std::array<const char*, 2>, 3> ends{
+        {{"xMin", "xMax"}, {"yMin", "yMax"}, {"zMin", "zMax"}}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int i = static_cast<int>(axis);
+        const std::optional<double> low = line.number(ends[axis][0]), high = line.number(ends[axis][1]);
+        if (!low || !high || !(*high >= *low)) continue;
+        box_.origin[i] = *low;
+        box_.edges[axis][i] = *high - *low;
+    }
+    if (line.first_word() == "timeStep" || line.first_word() == "dt") {
+        frame_.time = line.number("time");
+        if (!frame_.time) frame_.time = line.number("t");
+        if (const std::optional<double> step = line.number("ntimeSteps"); step && std::abs(*step) < 9e18)
+            frame_.step = static_cast<std::int64_t>(*step);
+    }
+    for (const char* key : {"systemDimensions", "dim"})
+        if (line.number(key) == 2.0) facts_.dimensions = 2;
+    if (const std::optional<Vec3> gravity = line.vector("gravity")) facts_.gravity = *gravity;
+}
+
+// Those of one species alone: what stands between two of them has no density.
+void MercuryRestart::take_species(const RestartLine& line) {
+    std::optional<double> density = line.number("density");
+    if (!density) density = line.number("rho");
+    if (density) densities_.push_back(*density);
+}
+
+void MercuryRestart::take_wall(const RestartLine& line) {
+    const Quaternion still(1, 0, 0, 0);
+    const std::vector<double>* q = line.find("orientation", 4);
+    const Quaternion turn = q ? Quaternion((*q)[0], (*q)[1], (*q)[2], (*q)[3]) : still;
+    const std::optional<Vec3> position = line.vector("position"), normal = line.vector("normal");
+    const std::optional<double> along = line.number("position");
+    const std::vector<double>* corners = line.find("vertexInLabFrame", 9);
+    RawWall wall{line.first_word(), {}, {}};
+    if (wall.name == "InfiniteWall" && normal && along) {
+        wall.mesh = plane_in_box(*normal * *along, *normal, box_);
+    } else if (wall.name == "InfiniteWall" && position && (normal || q)) {
+        wall.mesh = plane_in_box(*position, normal ? *normal : turn * Vec3::UnitX(), box_);
+    } else if (wall.name == "TriangleWall" && position && corners) {
+        for (std::size_t i = 0; i < 9; i += 3)
+            wall.mesh.vertices.push_back(*position +
+                                         turn * Vec3((*corners)[i], (*corners)[i + 1], (*corners)[i + 2]));
+        wall.mesh.triangles.push_back({0, 1, 2});
+    }
+    if (wall.mesh.empty()) {
+        ++left_out_[wall.name];
+        return;
+    }
+    wall.name = fmt::format("wall {}", frame_.walls.size());
+    frame_.walls.push_back(std::move(wall));
+}
+
+void MercuryRestart::take_boundary(const RestartLine& line) {
+    if (line.first_word().find("PeriodicBoundary") == std::string::npos) return;
+    const std::optional<Vec3> normal = line.vector("normal");
+    if (!normal) return;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (std::abs((*normal)[static_cast<int>(axis)]) > 1 - 1e-9) box_.periodic[axis] = true;
+}
+
+void MercuryRestart::add(const char* name, double value) {
+    RawTable& grains = frame_.grains;
+    if (next_column_ == grains.columns.size()) {
+        if (grains.rows > 0)
+            lines_.fault(fmt::format("this grain has a value more than those before: {}", name));
+        grains.columns.push_back({name, {}, {}});
+    }
+    const bool place = std::string_view(name).size() == 1;
+    if (place && !std::isfinite(value))
+        lines_.fault(fmt::format("the grain has no place: its {} is none", name));
+    grains.columns[next_column_++].values.push_back(value);
+}
+
+void MercuryRestart::take_plain_grain(const std::vector<double>& numbers) {
+    if (numbers.size() < plain_columns.size())
+        lines_.fault(fmt::format("this grain has {} numbers; of restart_version 3 they are {} at least",
+                                 numbers.size(), plain_columns.size()));
+    for (std::size_t i = 0; i < plain_columns.size(); ++i)
+        if (*plain_columns[i] != '\0') add(plain_columns[i], numbers[i]);
+}
+
+void MercuryRestart::take_grain(const RestartLine& line) {
+    --grains_left_;
+    next_column_ = 0;
+    if (!line.find("position", 3)) {
+        take_plain_grain(line.first_numbers());
+    } else {
+        for (const Field& field : fields_of_keys()) {
+            const std::vector<double>* numbers = line.find(field.key, field.columns.size());
+            for (std::size_t i = 0; i < field.columns.size(); ++i)
+                add(field.columns[i], numbers ? (*numbers)[i] : nothing);
+        }
+    }
+    ++frame_.grains.rows;
+}
+
+void MercuryRestart::finish() {
+    RawTable& grains = frame_.grains;
+    if (const RawColumn* species = grains.find("species"); species && !densities_.empty()) {
+        RawColumn density{"density", {}, {}};
+        for (const double one : species->values) {
+            const bool known = one >= 0 && one < static_cast<double>(densities_.size());
+            density.values.push_back(known ? densities_[static_cast<std::size_t>(one)] : nothing);
+        }
+        grains.columns.push_back(std::move(density));
+    }
+    frame_.box = box_;
+    for (const auto& [kind, count] : left_out_)
+        news_.push_back(fmt::format("{}: {} wall{} of the kind {} cannot be drawn and {} left out",
+                                    lines_.file().string(), count, count == 1 ? "" : "s", kind,
+                                    count == 1 ? "is" : "are"));
+    RawMoment moment;
+    moment.time = frame_.time;
+    moment.step = frame_.step;
+    moment.grains = static_cast<std::int64_t>(grains.rows);
+    moment.has_walls = !frame_.walls.empty();
+    moments_.push_back(moment);
+}
+
+bool takes_mercury_restart(const FileHead& head) {
+    const std::string_view bytes = head.bytes;
+    return !head.folder && (bytes.starts_with("MercuryDPM ") || bytes.starts_with("restart_version "));
+}
+
+std::unique_ptr<RawFile> open_mercury_restart(const std::filesystem::path& file) {
+    return std::make_unique<MercuryRestart>(file);
+}
+
+}  // namespace
+
+RawFormat mercury_restart_format() {
+    return {"mercury-restart", "state and walls of MercuryDPM (.restart)", takes_mercury_restart,
+            open_mercury_restart};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,161 @@
+// Decimal numbers of text files, fast, each the double that is nearest to what stands there (ties to even),
+// as strtod gives it.
+//
+// A plain decimal of at most 19 digits is w 10^e with a whole w < 2^64. Where w < 2^53 and |e| <= 22, w and
+// 10^|e| are doubles without error, so that one multiplication or division of doubles rounds once, correctly
+// (W. D. Clinger, How to read floating point numbers accurately, PLDI 1990). Where |e| <= 27, 5^|e| < 2^63 is
+// whole, and scale_exactly() knows w 5^e well enough to round it. All others go to std::from_chars.
+#pragma once
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+namespace grainreel {
+
+// w 10^e, rounded once. w > 0, |e| <= 27.
+double scale_exactly(std::uint64_t w, int e);
+
+// The number that all of `word` is. "+1.5", 1e-400 (0), 1e400 (infinity), "nan", "-inf" and "1.#QNAN" of
+// Windows are numbers here; whoever needs finite ones looks. Returns false where it is none.
+bool any_number(std::string_view word, double& value);
+
+namespace decimal_detail {
+
+// 10^k and -10^k: a number takes its sign from what it is multiplied or divided by, also a zero.
+inline constexpr double powers[2][23] = {
+    {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22},
+    {-1e0,  -1e1,  -1e2,  -1e3,  -1e4,  -1e5,  -1e6,  -1e7,  -1e8,  -1e9,  -1e10, -1e11,
+     -1e12, -1e13, -1e14, -1e15, -1e16, -1e17, -1e18, -1e19, -1e20, -1e21, -1e22}};
+inline constexpr int most_digits = 19;     // 10^19 - 1 < 2^64
+inline constexpr int most_clinger = 22;    // 10^22 = 2^22 5^22, 5^22 < 2^53
+inline constexpr int most_exact = 27;      // 5^27 < 2^63
+inline constexpr int most_exponent = 999;  // that is read here
+
+inline bool digit_at(const char* p) {
+    return static_cast<unsigned char>(*p - '0') < 10;
+}
+
+// The next eight characters, the first one in the lowest byte.
+inline std::uint64_t eight_at(const char* p) {
+    std::uint64_t v;
+    std::memcpy(&v, p, sizeof v);
+    if constexpr (std::endian::native == std::endian::big) v = __builtin_bswap64(v);
+    return v;
+}
+
+// How many of eight characters are digits, from the first one on. A digit xor '0' is at most 9; what is more
+// sets the highest bit of its byte, and no byte carries into the next.
+inline int digits_of(std::uint64_t v) {
+    const std::uint64_t x = v ^ 0x3030303030303030u;
+    const std::uint64_t others =
+        (((x & 0x7F7F7F7F7F7F7F7Fu) + 0x7676767676767676u) | x) & 0x8080808080808080u;
+    return std::countr_zero(others) / 8;
+}
+
+// The number that eight digits make; bytes of 0 count as digits 0. Pairs of digits, then of pairs, then of
+// fours.
+inline std::uint64_t number_of(std::uint64_t v) {
+    v = (v & 0x0F0F0F0F0F0F0F0Fu) * (10 * 256 + 1) >> 8;
+    v = (v & 0x00FF00FF00FF00FFu) * (100 * 65536 + 1) >> 16;
+    return (v & 0x0000FFFF0000FFFFu) * ((std::uint64_t{10000} << 32) + 1) >> 32;
+}
+
+// Zeros before the first other digit, a point between them passed over.
+inline int leading_zeros(const char* p) {
+    int zeros = 0;
+    for (; *p == '0' || *p == '.'; ++p) zeros += *p == '0' ? 1 : 0;
+    return zeros;
+}
+
+inline constexpr std::uint64_t whole_powers[9] = {1,      10,      100,      1000,     10000,
+                                                  100000, 1000000, 10000000, 100000000};
+
+// Behind the last digit.
+inline const char* take_digits(const char* p, std::uint64_t& w) {
+    while (true) {
+        const std::uint64_t v = eight_at(p);
+        const int count = digits_of(v);
+        // The digits go up to the end of the eight, zeros before them; two shifts, for one of 64 bits is
+        // none.
+        w = w * whole_powers[count] + number_of(v << (56 - 7 * count) << (8 - count));
+        p += count;
+        if (count < 8) return p;
+    }
+}
+
+// "e-05" behind a mantissa; null where no exponent stands there.
+inline const char* take_exponent(const char* p, int& e) {
+    ++p;
+    const bool negative = *p == '-';
+    if (negative || *p == '+') ++p;
+    if (!digit_at(p)) return nullptr;
+    int size = 0;
+    while (digit_at(p)) {
+        size = 10 * size + (*p++ - '0');
+        if (size > most_exponent) return nullptr;
+    }
+    e += negative ? -size : size;
+    return p;
+}
+
+}  // namespace decimal_detail
+
+// A plain decimal that begins at p. Returns the place behind it, or null where any_number() must look; it
+// must look too where a character stands at that place that cannot follow a number ("1.#IND", "1.5d0").
+// Behind the number must stand a character that belongs to none, such as the end of a line, and 8 more bytes.
+inline const char* plain_decimal(const char* p, double& value) {
+    using namespace decimal_detail;
+    const std::uint64_t negative = *p == '-' ? 1 : 0;
+    p += negative;
+    std::uint64_t w = 0;
+    const char* const first = p;
+    p = take_digits(p, w);
+    auto digits = p - first;
+    int e = 0;
+    if (*p == '.') {
+        const char* const fraction = ++p;
+        p = take_digits(p, w);
+        e = static_cast<int>(fraction - p);
+        digits += p - fraction;
+    }
+    if (digits > most_digits) digits -= leading_zeros(first);  // they have made nothing of w
+    if (digits == 0 || digits > most_digits) return nullptr;
+    if ((*p | 0x20) == 'e') {
+        p = take_exponent(p, e);
+        if (p == nullptr) return nullptr;
+    }
+    if (w < (std::uint64_t{1} << 53) && e <= most_clinger && e >= -most_clinger) {
+        const auto whole = static_cast<double>(static_cast<std::int64_t>(w));
+        value = e < 0 ? whole / powers[negative][-e] : whole * powers[negative][e];
+    } else if (w != 0 && e <= most_exact && e >= -most_exact) {
+        value = scale_exactly(w, e) * powers[negative][0];
+    } else {
+        return nullptr;
+    }
+    return p;
+}
+
+// Behind the word that begins at p: at the first character up to a blank. 16 bytes behind it are read.
+inline const char* word_end(const char* p) {
+#ifdef __SSE2__
+    const __m128i blank = _mm_set1_epi8(' ');
+    while (true) {
+        const __m128i v = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+        const int ends = _mm_movemask_epi8(_mm_cmpeq_epi8(_mm_min_epu8(v, blank), v));
+        if (ends != 0) return p + std::countr_zero(static_cast<unsigned>(ends));
+        p += sizeof v;
+    }
+#else
+    while (static_cast<unsigned char>(*p) > ' ') ++p;
+    return p;
+#endif
+}
+
+}  // namespace grainreel

@@ -1,0 +1,271 @@
+// Tables of numbers, a row a grain: CSV of ParaView, DEM-Engine, Lethe, pandas and spreadsheets, and columns
+// between blanks, as YADE and numpy write them. A column of time makes frames of the rows of one time.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/raw_file.hpp"
+#include "engine/files/foreign/tables/column_filler.hpp"
+#include "engine/files/foreign/tables/number_words.hpp"
+#include "engine/files/foreign/tables/table_layout.hpp"
+#include "engine/files/foreign/tables/text_lines.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Cells = std::vector<std::string_view>;
+
+// Rows that follow each other in the file.
+struct Run {
+    std::uint64_t byte = 0, lines = 0;  // lines before them
+    std::uint64_t rows = 0, last_line = 0;
+};
+
+struct FrameRows {
+    RawMoment moment;
+    std::vector<Run> runs;
+};
+
+// The least and the greatest number of each of four columns.
+struct Ranges {
+    double least[4]{INFINITY, INFINITY, INFINITY, INFINITY},
+        most[4]{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+
+    void add(const Cells& cells, bool decimal_comma) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double value = cell_number(cells[i], decimal_comma).value_or(NAN);
+            least[i] = std::min(least[i], value);
+            most[i] = std::max(most[i], value);
+        }
+    }
+    // Whether the fourth can be the radius of grains whose places are the others.
+    bool are_spheres() const {
+        double extent = 0;
+        for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, most[i] - least[i]);
+        return least[3] > 0 && most[3] < 0.5 * extent;
+    }
+};
+
+std::optional<TableLayout> layout_at(const FileHead& head) {
+    return layout_of(head.bytes, head.bytes.size() < kHeadBytes);
+}
+
+// s in the unit that stands behind the name of a time.
+double seconds_in(const std::string& unit) {
+    static const std::map<std::string, double> units{{"ms", 1e-3},      {"us", 1e-6}, {"\u00b5s", 1e-6},
+                                                     {"\u03bcs", 1e-6}, {"ns", 1e-9}, {"min", 60},
+                                                     {"h", 3600}};
+    const auto found = units.find(unit);
+    return found == units.end() ? 1.0 : found->second;
+}
+
+class NumberTable : public RawFile {
+  public:
+    explicit NumberTable(const std::filesystem::path& file);
+
+    const RawFacts& facts() const override { return facts_; }
+    const std::vector<RawMoment>& moments() const override { return moments_; }
+    std::vector<std::string> news() const override { return news_; }
+    RawFrame read(std::size_t index) const override;
+
+  private:
+    void find_clocks();
+    void find_frames();
+    bool take_row(std::map<double, FrameRows>& frames);
+    double clock_of(std::size_t column) const;
+    void add_rows(std::vector<ColumnFiller>& columns, const Run& run) const;
+    void add_row(std::vector<ColumnFiller>& columns) const;
+    void name_nameless();
+
+    TableLayout layout_;
+    RawFacts facts_;
+    std::vector<RawMoment> moments_;
+    std::vector<std::vector<Run>> runs_;  // of each moment
+    std::vector<std::string> news_;
+    std::optional<std::size_t> time_, step_;  // columns
+    double time_unit_ = 1;                    // s
+    double last_ = 0;                         // time or step of the last row
+    Ranges ranges_;
+    mutable std::mutex reading_;
+    mutable TextLines lines_;
+    mutable Cells cells_;  // of the present row
+};
+
+NumberTable::NumberTable(const std::filesystem::path& file) : lines_(file) {
+    const std::optional<TableLayout> layout = layout_at(unpacked_head(file));
+    if (!layout) throw UserError(fmt::format("{}:1: is no table of numbers", file.string()));
+    layout_ = *layout;
+    facts_.format = "table of numbers";
+    facts_.program = layout_.program;
+    find_clocks();
+    find_frames();
+    name_nameless();
+}
+
+// Which columns tell when: of two names for one thing the first.
+void NumberTable::find_clocks() {
+    constexpr std::array<const char*, 5> times{"time", "timevalue", "time value", "simulation time", "zeit"};
+    constexpr std::array<const char*, 5> steps{"step", "timestep", "time step", "frame", "iteration"};
+    if (!layout_.named) return;
+    for (std::size_t i = 0; i < layout_.names.size(); ++i) {
+        const std::string& name = layout_.names[i];
+        const std::string bare = bare_name(name);
+        const bool small_t = bare == "t" && name.starts_with('t');  // T is a temperature
+        if (layout_.is_word[i]) continue;
+        if (!time_ && (small_t || std::find(times.begin(), times.end(), bare) != times.end())) {
+            time_ = i;
+            time_unit_ = seconds_in(unit_of_name(name));
+        }
+        if (!step_ && std::find(steps.begin(), steps.end(), bare) != steps.end()) step_ = i;
+    }
+}
+
+double NumberTable::clock_of(std::size_t column) const {
+    const std::optional<double> value = cell_number(cells_[column], layout_.decimal_comma);
+    if (!value || !std::isfinite(*value))
+        lines_.fault(fmt::format("column {} ({}) has {}, which is no time", column + 1, layout_.names[column],
+                                 in_quotes(cells_[column])));
+    return *value;
+}
+
+// Whether the row is whole.
+bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
+    split_cells(lines_.text(), layout_.separator, layout_.closed, cells_);
+    const std::optional<std::size_t> clock = time_ ? time_ : step_;
+    if (cells_.size() < layout_.names.size() && !lines_.ended()) {
+        if (clock && *clock + 1 < cells_.size()) last_ = clock_of(*clock);
+        return false;
+    }
+    if (cells_.size() != layout_.names.size())
+        lines_.fault(
+            fmt::format("this row has {} columns in place of {}", cells_.size(), layout_.names.size()));
+    last_ = clock ? clock_of(*clock) : 0.0;
+    FrameRows& frame = frames[last_];
+    RawMoment& moment = frame.moment;
+    if (moment.grains == 0) {
+        if (time_) moment.time = last_ * time_unit_;
+        if (step_) {
+            const double step = clock_of(*step_);
+            if (std::abs(step) < 9e18) moment.step = static_cast<std::int64_t>(std::llround(step));
+        }
+    }
+    ++moment.grains;
+    if (frame.runs.empty() || frame.runs.back().last_line + 1 != lines_.number())
+        frame.runs.push_back({lines_.begin(), lines_.number() - 1, 0, 0});
+    ++frame.runs.back().rows;
+    frame.runs.back().last_line = lines_.number();
+    if (!layout_.named && cells_.size() == 4) ranges_.add(cells_, layout_.decimal_comma);
+    return true;
+}
+
+void NumberTable::find_frames() {
+    std::map<double, FrameRows> frames;
+    while (lines_.number() < layout_.head_lines && lines_.next()) continue;
+    bool whole = true;
+    while (whole && lines_.next_filled()) {
+        if (is_remark(lines_.text())) continue;
+        whole = take_row(frames);
+    }
+    const std::string name = lines_.file().string();
+    const bool shut =
+        lines_.ended() || (layout_.closed && trimmed(lines_.text()).ends_with(layout_.separator));
+    const bool many = frames.size() > 1;
+    if (!whole && !many)
+        throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?",
+                                    name, lines_.number()));
+    if (many && (!whole || !shut)) {
+        news_.push_back(
+            fmt::format("{}: its last frame is cut off in line {} and is left out", name, lines_.number()));
+        frames.erase(last_);
+    } else if (!shut) {
+        news_.push_back(fmt::format("{}: its last line has no end; its last number may be cut", name));
+    }
+    if (lines_.cut_off()) news_.push_back(fmt::format("{}: its packed bytes end too early", name));
+    if (frames.empty()) frames[0] = {};
+    for (auto& [key, frame] : frames) {
+        moments_.push_back(frame.moment);
+        runs_.push_back(std::move(frame.runs));
+    }
+}
+
+void NumberTable::name_nameless() {
+    if (layout_.named) return;
+    const std::string name = lines_.file().string();
+    if (layout_.names.size() == 4 && ranges_.are_spheres()) {
+        layout_.names = {"x", "y", "z", "radius"};
+        facts_.format = "table of numbers without names";
+        news_.push_back(name + ": its columns have no names; the four are taken as x, y, z, radius");
+        return;
+    }
+    news_.push_back(
+        fmt::format("{}: its columns have no names; they are called c1 to c{}, and --columns "
+                    "\"x=c1,y=c2,z=c3\" says what they are",
+                    name, layout_.names.size()));
+}
+
+bool is_place(const std::string& name) {
+    const std::string bare = bare_name(name);
+    return bare == "x" || bare == "y" || bare == "z" || bare == "p_x" || bare == "p_y" || bare == "p_z";
+}
+
+void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
+    split_cells(lines_.text(), layout_.separator, layout_.closed, cells_);
+    if (cells_.size() != columns.size()) lines_.fault("the file has changed while it was read");
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (columns[i].kind() == CellKind::word) {
+            columns[i].add(cells_[i]);
+            continue;
+        }
+        const std::optional<double> value = cell_number(cells_[i], layout_.decimal_comma);
+        if (!value)
+            lines_.fault(fmt::format("column {} ({}) has {}, which is no number", i + 1, columns[i].name(),
+                                     in_quotes(cells_[i])));
+        if (!std::isfinite(*value) && is_place(columns[i].name()))
+            lines_.fault(
+                fmt::format("the grain has no place: its {} is {}", columns[i].name(), in_quotes(cells_[i])));
+        columns[i].add_number(*value);
+    }
+}
+
+void NumberTable::add_rows(std::vector<ColumnFiller>& columns, const Run& run) const {
+    lines_.go_to(run.byte, run.lines);
+    for (std::uint64_t row = 0; row < run.rows; ++row) {
+        if (!lines_.next()) lines_.fault("the file has become shorter while it was read");
+        add_row(columns);
+    }
+}
+
+RawFrame NumberTable::read(std::size_t index) const {
+    const std::lock_guard lock(reading_);
+    std::vector<ColumnFiller> columns;
+    for (std::size_t i = 0; i < layout_.names.size(); ++i)
+        columns.emplace_back(layout_.names[i], layout_.is_word[i] ? CellKind::word : CellKind::number);
+    for (const Run& run : runs_.at(index)) add_rows(columns, run);
+    RawFrame frame;
+    frame.time = moments_[index].time;
+    frame.step = moments_[index].step;
+    frame.grains.rows = static_cast<std::size_t>(moments_[index].grains);
+    for (ColumnFiller& column : columns) frame.grains.columns.push_back(column.finish());
+    return frame;
+}
+
+bool takes_table(const FileHead& head) {
+    return !head.folder && layout_at(head).has_value();
+}
+
+std::unique_ptr<RawFile> open_table(const std::filesystem::path& file) {
+    return std::make_unique<NumberTable>(file);
+}
+
+}  // namespace
+
+RawFormat number_table_format() {
+    return {"table", "tables of numbers (CSV, tabs, blanks), a row a grain", takes_table, open_table};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,122 @@
+#include "engine/files/foreign/tables/number_words.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace grainreel {
+
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+// Of a number that no double holds: too small ones are 0, too large ones infinite.
+double beyond_range(std::string_view word) {
+    const bool negative = word.front() == '-';
+    const std::size_t exponent = word.find_first_of("eE");
+    const bool small = exponent != std::string_view::npos ? word.substr(exponent + 1).starts_with('-')
+                                                          : word.find_first_of("123456789") > word.find('.');
+    const double size = small ? 0.0 : std::numeric_limits<double>::infinity();
+    return negative ? -size : size;
+}
+
+// What is left of a word behind the number that std::from_chars found in it.
+std::optional<double> with_rest(std::string_view word, double value, std::string_view rest) {
+    if (rest.empty()) return value;
+    if (rest.front() == '#') return std::numeric_limits<double>::quiet_NaN();
+    if (rest.front() != 'd' && rest.front() != 'D') return std::nullopt;
+    std::string with_e(word);
+    with_e[word.size() - rest.size()] = 'e';
+    if (with_e.find_first_of("dD") != std::string::npos) return std::nullopt;
+    return number_of(with_e);
+}
+
+}  // namespace
+
+std::optional<double> number_of(std::string_view word) {
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+        if (word.starts_with('-') || word.starts_with('+')) return std::nullopt;
+    }
+    double value = 0;
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    if (error == std::errc::invalid_argument) return std::nullopt;
+    if (error == std::errc::result_out_of_range) value = beyond_range(word);
+    if (stop == end) return value;
+    return with_rest(word, value, {stop, static_cast<std::size_t>(end - stop)});
+}
+
+std::optional<std::int64_t> whole_number_of(std::string_view word) {
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+        if (word.starts_with('-')) return std::nullopt;
+    }
+    std::int64_t value = 0;
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc{} || stop != end) return std::nullopt;
+    return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view take_word(std::string_view& text) {
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
+    std::size_t first = 0;
+    while (first < text.size() && is_blank(text[first])) ++first;
+    std::size_t last = first;
+    while (last < text.size() && !is_blank(text[last])) ++last;
+    const std::string_view word = text.substr(first, last - first);
+    text.remove_prefix(last);
+    return word;
+}
+
+void split_words(std::string_view line, std::vector<std::string_view>& words) {
+    words.clear();
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
+        words.push_back(word);
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+    std::vector<std::string_view> words;
+    split_words(line, words);
+    return words;
+}
+
+std::size_t count_words(std::string_view line, std::size_t most) {
+    std::size_t count = 0;
+    while (count < most && !take_word(line).empty()) ++count;
+    return count;
+}
+
+std::optional<std::vector<double>> numbers_of(std::string_view line) {
+    std::vector<double> numbers;
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
+        const std::optional<double> number = number_of(word);
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return lower;
+}
+
+std::string in_quotes(std::string_view word) {
+    constexpr std::size_t most = 40;
+    std::string text = "\"";
+    for (const char c : word.substr(0, most)) text += (c >= 0 && c < ' ') || c == 127 ? '?' : c;
+    return text + (word.size() > most ? "...\"" : "\"");
+}
+
+}  // namespace grainreel

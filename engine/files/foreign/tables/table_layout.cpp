@@ -1,0 +1,254 @@
+#include "engine/files/foreign/tables/table_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "engine/files/foreign/tables/number_words.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Cells = std::vector<std::string_view>;
+
+constexpr std::size_t most_rows = 40;  // that are tried
+
+struct Writing {
+    char separator;
+    bool decimal_comma;
+};
+
+// The first lines of a file.
+struct Sample {
+    std::vector<std::string_view> remarks, filled;
+    std::vector<std::uint64_t> numbers;  // of the filled ones, from 1
+};
+
+// Without blanks at both ends, but with tabs.
+std::string_view trimmed_blanks(std::string_view line) {
+    while (line.starts_with(' ')) line.remove_prefix(1);
+    while (line.ends_with(' ') || line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+std::string_view without_return(std::string_view line) {
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+std::optional<Sample> sample_of(std::string_view text, bool whole) {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    if (text.starts_with(mark)) text.remove_prefix(mark.size());
+    Sample sample;
+    for (std::uint64_t number = 1; !text.empty() && sample.filled.size() < most_rows; ++number) {
+        const std::size_t length = text.find('\n');
+        if (length == std::string_view::npos && !whole) break;
+        const std::string_view line = without_return(text.substr(0, length));
+        if (line.find('\0') != std::string_view::npos) return std::nullopt;
+        text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
+        if (trimmed(line).empty()) continue;
+        if (is_remark(line)) {
+            if (sample.filled.empty()) sample.remarks.push_back(line);
+            continue;
+        }
+        sample.filled.push_back(line);
+        sample.numbers.push_back(number);
+    }
+    return sample;
+}
+
+bool is_number(std::string_view cell, bool decimal_comma) {
+    return !cell.empty() && cell_number(cell, decimal_comma).has_value();
+}
+
+// Whether the cells can be names: none of them is a number, and not all are empty.
+bool are_names(const Cells& cells, bool decimal_comma) {
+    const bool number = std::any_of(cells.begin(), cells.end(),
+                                    [&](std::string_view cell) { return is_number(cell, decimal_comma); });
+    const bool any =
+        std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
+    return any && !number;
+}
+
+// ParaView writes a vector as "Points:0", newer ones as "Points_0".
+std::string name_of(std::string_view cell, std::size_t column) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (cell == fmt::format("Points:{}", axis) || cell == fmt::format("Points_{}", axis))
+            return std::string(1, "xyz"[axis]);
+    std::string name(cell);
+    for (std::size_t at = name.find("\"\""); at != std::string::npos; at = name.find("\"\"", at + 1))
+        name.erase(at, 1);
+    return name.empty() ? fmt::format("c{}", column + 1) : name;
+}
+
+void name_columns(TableLayout& layout, const Cells& cells) {
+    layout.named = true;
+    for (std::size_t i = 0; i < layout.names.size(); ++i)
+        layout.names[i] = name_of(i < cells.size() ? cells[i] : std::string_view{}, i);
+}
+
+// YADE's "#format x_y_z_r_matId".
+std::optional<Cells> format_of_yade(const Sample& sample) {
+    for (std::string_view line : sample.remarks) {
+        if (take_word(line) != "#format") continue;
+        std::string_view rest = trimmed(line);
+        Cells names;
+        for (std::size_t at = rest.find('_');; at = rest.find('_')) {
+            names.push_back(rest.substr(0, at));
+            if (at == std::string_view::npos) return names;
+            rest.remove_prefix(at + 1);
+        }
+    }
+    return std::nullopt;
+}
+
+// Names that stand in a remark before the rows, as numpy and gnuplot have them: "# x y z radius".
+void name_by_remarks(TableLayout& layout, const Sample& sample) {
+    if (const std::optional<Cells> names = format_of_yade(sample)) {
+        layout.program = "YADE";
+        if (names->size() <= layout.names.size()) name_columns(layout, *names);
+        return;
+    }
+    if (sample.remarks.empty()) return;
+    std::string_view line = sample.remarks.back();
+    line.remove_prefix(std::min(line.find_first_not_of("#%/ \t"), line.size()));
+    for (const char separator : {layout.separator, ' '}) {
+        Cells cells;
+        split_cells(line, separator, layout.closed, cells);
+        if (cells.size() != layout.names.size() || !are_names(cells, layout.decimal_comma)) continue;
+        name_columns(layout, cells);
+        return;
+    }
+}
+
+std::string program_of(const TableLayout& layout) {
+    const auto has = [&](const char* name) {
+        return std::find(layout.names.begin(), layout.names.end(), name) != layout.names.end();
+    };
+    if (!layout.program.empty()) return layout.program;
+    if (has("X") && has("Y") && has("Z") && has("r")) return "DEM-Engine";
+    if (has("p_x") && has("p_y") && has("diameters")) return "Lethe";
+    return {};
+}
+
+// Of each column whether it holds words; none where a row has another number of cells.
+std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
+                                          std::size_t columns, bool closed, bool last_may_be_cut) {
+    std::vector<bool> is_word(columns, false);
+    Cells cells;
+    for (std::size_t i = first; i < sample.filled.size(); ++i) {
+        split_cells(sample.filled[i], writing.separator, closed, cells);
+        if (cells.size() < columns && last_may_be_cut && i + 1 == sample.filled.size() && i > first) break;
+        if (cells.size() != columns) return std::nullopt;
+        for (std::size_t k = 0; k < columns; ++k)
+            if (!cell_number(cells[k], writing.decimal_comma)) is_word[k] = true;
+    }
+    return is_word;
+}
+
+bool names_places(const std::vector<std::string>& names) {
+    const auto has = [&](const char* wanted) {
+        return std::any_of(names.begin(), names.end(),
+                           [&](const std::string& name) { return bare_name(name) == wanted; });
+    };
+    return has("x") && has("y");
+}
+
+std::optional<TableLayout> layout_by(const Sample& sample, const Writing& writing, bool whole) {
+    Cells first;
+    const bool closed =
+        writing.separator != ' ' && trimmed_blanks(sample.filled.front()).ends_with(writing.separator);
+    split_cells(sample.filled.front(), writing.separator, closed, first);
+    if (first.size() < 2) return std::nullopt;
+    TableLayout layout{writing.separator, writing.decimal_comma, closed, false, {}, {}, 0, {}};
+    layout.names.resize(first.size());
+    for (std::size_t i = 0; i < first.size(); ++i) layout.names[i] = fmt::format("c{}", i + 1);
+    const bool header = are_names(first, writing.decimal_comma);
+    if (header) {
+        name_columns(layout, first);
+    } else {
+        name_by_remarks(layout, sample);
+    }
+    const auto words = words_in(sample, header ? 1 : 0, writing, first.size(), closed, whole);
+    if (!words) return std::nullopt;
+    layout.is_word = *words;
+    layout.head_lines = header ? sample.numbers.front() : sample.numbers.front() - 1;
+    layout.program = program_of(layout);
+    const auto numbers = static_cast<std::size_t>(std::count(words->begin(), words->end(), false));
+    if (header && sample.filled.size() == 1)
+        return names_places(layout.names) ? std::optional(layout) : std::nullopt;
+    if (!layout.named && (numbers < first.size() || numbers < 3)) return std::nullopt;
+    return numbers >= 2 ? std::optional(layout) : std::nullopt;
+}
+
+std::ptrdiff_t word_columns(const TableLayout& layout) {
+    return std::count(layout.is_word.begin(), layout.is_word.end(), true);
+}
+
+}  // namespace
+
+std::optional<TableLayout> layout_of(std::string_view text, bool whole) {
+    const std::optional<Sample> sample = sample_of(text, whole);
+    if (!sample || sample->filled.empty()) return std::nullopt;
+    for (const char separator : {';', '\t', ',', ' '}) {
+        const std::optional<TableLayout> point = layout_by(*sample, {separator, false}, whole);
+        const std::optional<TableLayout> comma =
+            separator == ',' ? std::nullopt : layout_by(*sample, {separator, true}, whole);
+        if (comma && (!point || word_columns(*comma) < word_columns(*point))) return comma;
+        if (point) return point;
+    }
+    return std::nullopt;
+}
+
+void split_cells(std::string_view line, char separator, bool closed, std::vector<std::string_view>& cells) {
+    cells.clear();
+    const bool blanks = separator == ' ';
+    const auto ends = [&](char c) { return blanks ? c == ' ' || c == '\t' : c == separator; };
+    line = blanks ? trimmed(line) : trimmed_blanks(line);
+    for (bool more = !line.empty(); more;) {
+        while (line.starts_with(' ') || (separator != '\t' && line.starts_with('\t'))) line.remove_prefix(1);
+        const bool quote = line.starts_with('"') || line.starts_with('\'');
+        std::size_t close = quote ? line.find(line.front(), 1) : std::string_view::npos;
+        while (close != std::string_view::npos && close + 1 < line.size() && line[close + 1] == line[close])
+            close = line.find(line.front(), close + 2);  // a doubled quote stands for one
+        std::size_t end = close == std::string_view::npos ? 0 : close + 1;
+        while (end < line.size() && !ends(line[end])) ++end;
+        cells.push_back(close == std::string_view::npos ? trimmed(line.substr(0, end))
+                                                        : line.substr(1, close - 1));
+        more = end < line.size();
+        line.remove_prefix(std::min(end + 1, line.size()));
+    }
+    if (closed && cells.size() > 1 && cells.back().empty()) cells.pop_back();
+}
+
+std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
+    if (cell.empty() || cell == "NA" || cell == "N/A" || cell == "null" || cell == "NULL")
+        return std::numeric_limits<double>::quiet_NaN();
+    if (!decimal_comma || cell.find(',') == std::string_view::npos) return number_of(cell);
+    std::string with_point(cell);
+    if (with_point.find('.') != std::string::npos) return std::nullopt;
+    with_point[with_point.find(',')] = '.';
+    return number_of(with_point);
+}
+
+bool is_remark(std::string_view line) {
+    line = trimmed(line);
+    return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+}
+
+std::string bare_name(std::string_view name) {
+    return lower_case(trimmed(name.substr(0, name.find_first_of("[("))));
+}
+
+std::string unit_of_name(std::string_view name) {
+    const std::size_t open = name.find_first_of("[(");
+    if (open == std::string_view::npos) return {};
+    const std::size_t close = name.find_first_of("])", open);
+    return std::string(
+        trimmed(name.substr(open + 1, close == std::string_view::npos ? close : close - open - 1)));
+}
+
+}  // namespace grainreel

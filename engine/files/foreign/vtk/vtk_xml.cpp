@@ -1,0 +1,151 @@
+#include "engine/files/foreign/vtk/vtk_xml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "engine/base/plain_file.hpp"
+#include "engine/base/utf8.hpp"
+#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
+#include "engine/files/foreign/vtk/xml_piece.hpp"
+#include "engine/mesh/file/words.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_list(std::string_view type) {
+    return type == "PPolyData" || type == "PUnstructuredGrid";
+}
+
+[[noreturn]] void refuse_type(const fs::path& file, const XmlElement& root, std::string_view type) {
+    constexpr std::string_view grids[] = {"ImageData",       "RectilinearGrid", "StructuredGrid",
+                                          "UniformGrid",     "PImageData",      "PRectilinearGrid",
+                                          "PStructuredGrid", "HyperTreeGrid"};
+    if (std::find(std::begin(grids), std::end(grids), type) != std::end(grids))
+        refuse_vtk_line(file, root.line,
+                        fmt::format("holds a grid, not grains (VTK's {}); give a file of PolyData or "
+                                    "UnstructuredGrid",
+                                    type));
+    refuse_vtk_line(
+        file, root.line,
+        fmt::format("holds VTK's \"{}\", which is not read; give a file of PolyData or UnstructuredGrid",
+                    excerpt(type)));
+}
+
+// Of FieldData, wherever it stands.
+void read_field(const XmlArrays& arrays, const XmlElement& field, VtkContents& contents) {
+    for (const XmlElement& array : field.children) {
+        const std::string_view name = array.attribute("Name");
+        const bool time = name == "TimeValue" || name == "TIME";
+        if (array.name != "DataArray" || (!time && name != "CYCLE") || !vtk_xml_type(array.attribute("type")))
+            continue;
+        const std::vector<double> values = arrays.numbers(array, std::nullopt, false);
+        if (values.size() != 1 || !std::isfinite(values[0])) continue;
+        if (time)
+            contents.time = values[0];
+        else
+            contents.step = static_cast<std::int64_t>(std::clamp(values[0], -9e15, 9e15));
+    }
+}
+
+void read_words(const XmlTree& tree, VtkContents& contents) {
+    for (const std::string& comment : tree.comments) {
+        if (!contents.time) contents.time = time_in_words(comment);
+        if (comment.find("deal.II") != std::string::npos) contents.program = "deal.II";
+    }
+}
+
+// The file of a piece. Throws UserError where it is not there.
+fs::path file_of_piece(const fs::path& file, const XmlElement& piece) {
+    const std::string source(piece.attribute("Source"));
+    if (source.empty()) refuse_vtk_line(file, piece.line, "a piece without a file: its Source is missing");
+    const fs::path path = file.parent_path() / source;
+    if (!is_plain(path))
+        refuse_vtk_line(
+            file, piece.line,
+            fmt::format("its piece \"{}\" is not there; copy it beside this file", excerpt(source, 200)));
+    return path;
+}
+
+void add_pieces_of(const fs::path& file, const XmlElement& piece, VtkPart part, VtkContents& contents) {
+    const fs::path path = file_of_piece(file, piece);
+    const std::string bytes = all_bytes(path);
+    const std::string type = vtk_file_type(bytes);
+    if (is_list(type))
+        refuse_vtk_line(file, piece.line,
+                        fmt::format("its piece \"{}\" is a list of pieces itself",
+                                    excerpt(piece.attribute("Source"), 200)));
+    if (type.empty()) refuse_vtk_file(path, fmt::format("is no file of VTK in XML, as a piece must be"));
+    VtkContents more = read_vtk_xml(path, part);
+    if (!contents.time) contents.time = more.time;
+    if (!contents.step) contents.step = more.step;
+    if (contents.program.empty()) contents.program = more.program;
+    std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(contents.pieces));
+}
+
+bool takes_vtk_xml(const FileHead& head) {
+    const std::string type = vtk_file_type(head.bytes);
+    return !type.empty() && type != "Collection" && type != "vtkMultiBlockDataSet" &&
+           type != "vtkPartitionedDataSetCollection" && type != "vtkPartitionedDataSet";
+}
+
+std::unique_ptr<RawFile> open_vtk_xml(const fs::path& file) {
+    return open_vtk_file(file, &read_vtk_xml);
+}
+
+}  // namespace
+
+RawFormat vtk_xml_format() {
+    return {"vtk-xml", "VTK files in XML (.vtp, .vtu, .pvtp, .pvtu)", &takes_vtk_xml, &open_vtk_xml};
+}
+
+std::optional<double> time_in_words(std::string_view words) {
+    for (std::size_t at = 0; at + 4 <= words.size(); ++at) {
+        if (!same_word(words.substr(at, 4), "time") ||
+            (at > 0 && std::isalnum(static_cast<unsigned char>(words[at - 1]))))
+            continue;
+        std::size_t next = at + 4;
+        while (next < words.size() && std::string_view(" \t=:").find(words[next]) != std::string_view::npos)
+            ++next;
+        std::size_t end = next;
+        while (end < words.size() &&
+               std::string_view("0123456789+-.eE").find(words[end]) != std::string_view::npos)
+            ++end;
+        while (end > next && std::string_view("+-eE").find(words[end - 1]) != std::string_view::npos) --end;
+        if (const auto time = number_in(words.substr(next, end - next)); time && next > at + 4) return time;
+    }
+    return std::nullopt;
+}
+
+VtkContents read_vtk_xml(const fs::path& file, VtkPart part) {
+    const std::string bytes = all_bytes(file);
+    const XmlTree tree = xml_tree(file, bytes);
+    const std::string_view type = tree.root.attribute("type");
+    if (type != "PolyData" && type != "UnstructuredGrid" && !is_list(type))
+        refuse_type(file, tree.root, type);
+    const XmlElement* set = tree.root.child(type);
+    if (set == nullptr)
+        refuse_vtk_line(file, tree.root.line,
+                        fmt::format("its element {} is missing; {}", type, kWriteAgain));
+    const XmlArrays arrays(file, bytes, tree);
+    VtkContents contents;
+    contents.format = fmt::format("VTK XML, {}", type);
+    read_words(tree, contents);
+    for (const XmlElement* field : {tree.root.child("FieldData"), set->child("FieldData")})
+        if (field != nullptr) read_field(arrays, *field, contents);
+    for (const XmlElement& piece : set->children) {
+        if (piece.name != "Piece") continue;
+        if (is_list(type))
+            add_pieces_of(file, piece, part, contents);
+        else
+            contents.pieces.push_back(xml_piece(arrays, piece, type == "PolyData", part));
+    }
+    return contents;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,56 @@
+// Arrays of numbers in VTK's XML files: as text, as base64, or appended behind the XML.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/files/foreign/vtk/stored_bytes.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
+#include "engine/files/foreign/vtk/xml_tree.hpp"
+
+namespace grainreel {
+
+class XmlArrays {
+  public:
+    // All of them must live as long as this does. Throws UserError for a head that is not understood.
+    XmlArrays(const std::filesystem::path& file, std::string_view bytes, const XmlTree& tree);
+
+    // The numbers of a DataArray. `count`: how many there must be; none: as many as there are. `finite`: NaN
+    // and infinity are refused. Throws UserError with the line.
+    std::vector<double> numbers(const XmlElement& array, std::optional<std::uint64_t> count,
+                                bool finite) const;
+    std::vector<std::int64_t> whole(const XmlElement& array, std::optional<std::uint64_t> count) const;
+    // By the lengths alone that so many numbers can be there.
+    void check(const XmlElement& array, std::uint64_t count) const;
+
+    VtkPlace place_of(const XmlElement& array) const;
+    // Of an attribute, 0 where it is missing. Throws UserError for what is no count.
+    std::uint64_t count_in(const XmlElement& element, std::string_view attribute) const;
+    const std::filesystem::path& file() const { return file_; }
+
+  private:
+    struct Stored {
+        std::string_view text;
+        bool base64;
+    };
+    VtkType type_of(const XmlElement& array) const;
+    bool is_text(const XmlElement& array) const;
+    Stored stored(const XmlElement& array) const;
+    std::string_view text_of_array(const XmlElement& array) const;
+    template <class T>
+    void read(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
+              std::vector<T>& values) const;
+    template <class T>
+    void read_text(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
+                   std::vector<T>& values) const;
+
+    const std::filesystem::path& file_;
+    std::string_view bytes_;
+    const XmlTree& tree_;
+    VtkCoding coding_;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,43 @@
+// The elements of a VTK file in XML, with the places of their texts. The texts stay in the file's bytes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace grainreel {
+
+struct XmlElement {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> attributes;
+    std::int64_t line = 0;
+    std::size_t begin = 0, end = 0;  // bytes of the text before its first child
+    std::vector<XmlElement> children;
+
+    // Empty where there is none.
+    std::string_view attribute(std::string_view name) const;
+    bool has(std::string_view name) const;
+    // The first child of that name; null where there is none.
+    const XmlElement* child(std::string_view name) const;
+};
+
+struct XmlTree {
+    XmlElement root;
+    std::vector<std::string> comments;  // the first few of them
+    // What stands behind the "_" of AppendedData: bytes of the file. Equal where there is nothing.
+    std::size_t appended_begin = 0, appended_end = 0;
+    bool appended_base64 = false;
+    bool cut_off = false;  // ends before its last element is closed
+};
+
+// Raw appended data are no XML: the file is cut there before it is parsed. Throws UserError with the line
+// where the XML is damaged. `may_end_early`: a file that ends within an element is taken as far as it goes.
+XmlTree xml_tree(const std::filesystem::path& file, std::string_view bytes, bool may_end_early = false);
+
+// The type attribute of VTKFile near the beginning of a file, "PolyData"; empty where it is no such file.
+std::string vtk_file_type(std::string_view head);
+
+}  // namespace grainreel

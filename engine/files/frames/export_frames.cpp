@@ -1,0 +1,94 @@
+#include "engine/files/frames/export_frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frames/write_frames.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::size_t> chosen(const FrameArchive& frames, const ExportChoice& choice) {
+    const std::vector<Frame>& moments = frames.moments();
+    if (choice.at) return {frames.nearest(*choice.at)};
+    const double hair = 1e-9;
+    std::vector<std::size_t> all;
+    std::int64_t count = 0;
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        const double time = moments[k].time;
+        if (time < choice.from.value_or(time) - hair || time > choice.until.value_or(time) + hair) continue;
+        if (count++ % choice.every == 0) all.push_back(k);
+    }
+    if (all.empty())
+        throw UserError(fmt::format("{}: no frame lies there; they go from {:.6g} to {:.6g} s",
+                                    frames.path().string(), moments.front().time, moments.back().time));
+    return all;
+}
+
+std::uintmax_t bytes_of(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_regular_file(path, error)) return fs::file_size(path, error);
+    std::uintmax_t bytes = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path, error))
+        if (entry.is_regular_file(error)) bytes += entry.file_size(error);
+    return bytes;
+}
+
+// A name beside the wanted one, which goes away again unless it was renamed.
+class PartName {
+  public:
+    explicit PartName(const fs::path& path)
+        : path_(path.parent_path() /
+                fmt::format(".{}.{}.part{}", path.stem().string(), ::getpid(), path.extension().string())) {}
+    ~PartName() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    PartName(const PartName&) = delete;
+    PartName& operator=(const PartName&) = delete;
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+}  // namespace
+
+Exported export_frames(const FrameArchive& frames, const std::string& format, const fs::path& path,
+                       const ExportChoice& choice, bool replace, const std::function<bool(double)>& watcher) {
+    std::error_code error;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, error))
+        throw UserError(
+            fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
+    if (fs::exists(path, error) && !replace)
+        throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
+                                    path.string()));
+    const std::vector<std::size_t> wanted = chosen(frames, choice);
+    const PartName part(path);
+    const std::unique_ptr<FrameWriter> writer = frame_writer(format, part.path());
+    writer->begin(frames.world(), frames.supply());
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        Frame frame = frames.grains(wanted[k]);
+        if (std::optional<std::vector<Touch>> touches = frames.touches(wanted[k]))
+            frame.touches = std::move(*touches);
+        writer->frame(frame);
+        if (!watcher(static_cast<double>(k + 1) / static_cast<double>(wanted.size())))
+            throw RunError("stopped while frames were written; nothing is left of them");
+    }
+    writer->end();
+    fs::remove_all(path, error);
+    fs::rename(part.path(), path, error);
+    if (error) throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
+    return {path, static_cast<std::int64_t>(wanted.size()), bytes_of(path)};
+}
+
+}  // namespace grainreel

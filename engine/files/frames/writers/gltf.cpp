@@ -1,0 +1,235 @@
+// glTF 2.0 binary (.glb): one sphere mesh for each species, drawn by instances (EXT_mesh_gpu_instancing), and
+// the walls. The last of the frames; lengths in m, y points up as glTF asks.
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/files/frames/frame_writer.hpp"
+#include "engine/files/frames/world_surfaces.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// From z up to y up.
+Vec3 turned(const Vec3& v) {
+    return {v.x(), v.z(), -v.y()};
+}
+
+// The palette of the films' species (Okabe and Ito 2008), linear light.
+constexpr double kColours[][3] = {{0.094, 0.456, 0.807}, {0.665, 0.112, 0.0},   {0.0, 0.342, 0.171},
+                                  {0.604, 0.191, 0.386}, {0.871, 0.776, 0.055}, {0.0, 0.168, 0.445},
+                                  {0.791, 0.347, 0.0}};
+
+class Glb {
+  public:
+    Glb() {
+        json_["asset"] = {{"version", "2.0"}, {"generator", "grainreel"}};
+        json_["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+        for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews"})
+            json_[list] = Json::array();
+    }
+    // Numbers as float vectors of `width`; returns the accessor.
+    std::size_t floats(const std::vector<float>& values, std::size_t width, bool bounds) {
+        Json accessor = {{"bufferView", view(values.data(), values.size() * sizeof(float))},
+                         {"componentType", 5126},
+                         {"count", values.size() / width},
+                         {"type", width == 4   ? "VEC4"
+                                  : width == 3 ? "VEC3"
+                                               : "SCALAR"}};
+        if (bounds) {
+            std::vector<float> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width)),
+                high = low;
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                low[i % width] = std::min(low[i % width], values[i]);
+                high[i % width] = std::max(high[i % width], values[i]);
+            }
+            accessor["min"] = low;
+            accessor["max"] = high;
+        }
+        json_["accessors"].push_back(accessor);
+        return json_["accessors"].size() - 1;
+    }
+    std::size_t indices(const std::vector<std::uint32_t>& values) {
+        json_["accessors"].push_back(
+            {{"bufferView", view(values.data(), values.size() * sizeof(std::uint32_t))},
+             {"componentType", 5125},
+             {"count", values.size()},
+             {"type", "SCALAR"}});
+        return json_["accessors"].size() - 1;
+    }
+    std::size_t material(const std::string& name, const double (&rgb)[3], double alpha) {
+        Json one = {{"name", name},
+                    {"pbrMetallicRoughness",
+                     {{"baseColorFactor", {rgb[0], rgb[1], rgb[2], alpha}},
+                      {"metallicFactor", 0},
+                      {"roughnessFactor", 0.6}}},
+                    {"doubleSided", true}};
+        if (alpha < 1) one["alphaMode"] = "BLEND";
+        json_["materials"].push_back(one);
+        return json_["materials"].size() - 1;
+    }
+    std::size_t mesh(const std::string& name, const std::vector<float>& places,
+                     const std::vector<float>& normals, const std::vector<std::uint32_t>& corners,
+                     std::size_t material_number) {
+        Json attributes = {{"POSITION", floats(places, 3, true)}};
+        if (!normals.empty()) attributes["NORMAL"] = floats(normals, 3, false);
+        json_["meshes"].push_back(
+            {{"name", name},
+             {"primitives",
+              {{{"attributes", attributes}, {"indices", indices(corners)}, {"material", material_number}}}}});
+        return json_["meshes"].size() - 1;
+    }
+    void node(Json one) { json_["nodes"].push_back(std::move(one)); }
+
+    std::string bytes() {
+        Json all = Json::array();
+        for (std::size_t k = 0; k < json_["nodes"].size(); ++k) all.push_back(k);
+        json_["scenes"] = {{{"nodes", all}}};
+        json_["scene"] = 0;
+        json_["buffers"] = {{{"byteLength", buffer_.size()}}};
+        std::string text = json_.dump();
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        std::string out;
+        const auto add = [&](std::size_t value) {
+            const auto number = static_cast<std::uint32_t>(value);
+            out.append(reinterpret_cast<const char*>(&number), sizeof(number));
+        };
+        add(0x46546C67);
+        add(2);
+        add(12 + 8 + text.size() + 8 + buffer_.size());
+        add(text.size());
+        add(0x4E4F534A);
+        out += text;
+        add(buffer_.size());
+        add(0x004E4942);
+        return out + buffer_;
+    }
+
+  private:
+    std::size_t view(const void* data, std::size_t size) {
+        json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", size}});
+        buffer_.append(static_cast<const char*>(data), size);
+        buffer_.resize((buffer_.size() + 3) / 4 * 4, '\0');
+        return json_["bufferViews"].size() - 1;
+    }
+
+    Json json_;
+    std::string buffer_;
+};
+
+struct Sphere {
+    std::vector<float> places;
+    std::vector<std::uint32_t> corners;
+};
+
+// An icosahedron whose triangles were parted twice: 320 of them.
+Sphere unit_sphere() {
+    const double g = (1 + std::sqrt(5.0)) / 2;
+    std::vector<Vec3> points;
+    for (const Vec3& v :
+         {Vec3(-1, g, 0), Vec3(1, g, 0), Vec3(-1, -g, 0), Vec3(1, -g, 0), Vec3(0, -1, g), Vec3(0, 1, g),
+          Vec3(0, -1, -g), Vec3(0, 1, -g), Vec3(g, 0, -1), Vec3(g, 0, 1), Vec3(-g, 0, -1), Vec3(-g, 0, 1)})
+        points.push_back(v.normalized());
+    std::vector<std::uint32_t> faces{0, 11, 5,  0, 5,  1, 0, 1, 7, 0, 7,  10, 0, 10, 11, 1, 5, 9, 5, 11,
+                                     4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3,  9,  4, 3,  4,  2, 3, 2, 6, 3,
+                                     6, 8,  3,  8, 9,  4, 9, 5, 2, 4, 11, 6,  2, 10, 8,  6, 7, 9, 8, 1};
+    for (int parting = 0; parting < 2; ++parting) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> between;
+        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [found, is_new] =
+                between.emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
+            if (is_new) points.push_back((points[a] + points[b]).normalized());
+            return found->second;
+        };
+        std::vector<std::uint32_t> smaller;
+        for (std::size_t k = 0; k < faces.size(); k += 3) {
+            const std::uint32_t a = faces[k], b = faces[k + 1], c = faces[k + 2];
+            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            smaller.insert(smaller.end(), {a, ab, ca, b, bc, ab, c, ca, bc, ab, bc, ca});
+        }
+        faces = std::move(smaller);
+    }
+    Sphere sphere;
+    for (const Vec3& p : points)
+        for (int axis = 0; axis < 3; ++axis) sphere.places.push_back(static_cast<float>(p[axis]));
+    sphere.corners = std::move(faces);
+    return sphere;
+}
+
+class Gltf final : public FrameWriter {
+  public:
+    explicit Gltf(std::filesystem::path path) : path_(std::move(path)) {}
+
+    void begin(const World& world, const FrameSupply&) override { world_ = world; }
+    void frame(const Frame& frame) override { last_ = frame; }
+    void end() override {
+        if (!last_) throw RunError(path_.string() + ": there is no frame");
+        Glb glb;
+        const Sphere sphere = unit_sphere();
+        for (std::size_t s = 0; s < world_.species.size(); ++s) add_species(s, sphere, glb);
+        const double glass[3] = {0.75, 0.8, 0.85};
+        for (const WorldSurface& surface : surfaces_of(world_)) {
+            const TriangleMesh mesh = moved(surface, *last_);
+            std::vector<float> places;
+            std::vector<std::uint32_t> corners;
+            for (const Vec3& vertex : mesh.vertices)
+                for (int axis = 0; axis < 3; ++axis)
+                    places.push_back(static_cast<float>(turned(vertex)[axis]));
+            for (const TriangleMesh::Triangle& t : mesh.triangles)
+                for (const std::int32_t v : t) corners.push_back(static_cast<std::uint32_t>(v));
+            const std::size_t number =
+                glb.mesh(surface.name, places, {}, corners, glb.material(surface.name, glass, 0.3));
+            glb.node({{"name", surface.name}, {"mesh", number}});
+        }
+        TextFile(path_).write(glb.bytes());
+    }
+
+  private:
+    void add_species(std::size_t s, const Sphere& sphere, Glb& glb) const {
+        std::vector<float> places, sizes;
+        for (std::size_t i = 0; i < last_->size(); ++i) {
+            if (static_cast<std::size_t>(last_->species[i]) != s) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                places.push_back(static_cast<float>(turned(last_->position[i])[axis]));
+                sizes.push_back(static_cast<float>(last_->radius[i]));
+            }
+        }
+        if (places.empty()) return;
+        const std::string& name = world_.species[s].name;
+        const std::size_t colour = glb.material(name, kColours[s % std::size(kColours)], 1);
+        const std::size_t mesh = glb.mesh(name, sphere.places, sphere.places, sphere.corners, colour);
+        glb.node({{"name", name},
+                  {"mesh", mesh},
+                  {"extensions",
+                   {{"EXT_mesh_gpu_instancing",
+                     {{"attributes",
+                       {{"TRANSLATION", glb.floats(places, 3, false)},
+                        {"SCALE", glb.floats(sizes, 3, false)}}}}}}}});
+    }
+
+    std::filesystem::path path_;
+    World world_;
+    std::optional<Frame> last_;
+};
+
+std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
+    return std::make_unique<Gltf>(path);
+}
+
+}  // namespace
+
+FrameFormat gltf_format() {
+    return {"gltf", "glTF 2.0 (.glb) of the last frame: instanced spheres and walls", ".glb", make};
+}
+
+}  // namespace grainreel

@@ -1,0 +1,93 @@
+// A data file of LAMMPS with atom_style sphere (manual, command read_data): the last of the frames.
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frames/frame_writer.hpp"
+#include "engine/files/frames/writers/text_frames.hpp"
+
+namespace grainreel {
+
+namespace {
+
+constexpr double kDensity = 2500;  // kg/m3, where nobody says another
+
+class LammpsData final : public FrameWriter {
+  public:
+    explicit LammpsData(const std::filesystem::path& path) : path_(path) {}
+
+    void begin(const World& world, const FrameSupply&) override { world_ = world; }
+    void frame(const Frame& frame) override { last_ = frame; }
+    void end() override {
+        if (!last_) throw RunError(path_.string() + ": there is no frame to make a data file of");
+        const Frame& frame = *last_;
+        TextPieces out(path_);
+        std::string& text = out.text();
+        const WorldCell box = box_of(world_, frame);
+        text += fmt::format(
+            "LAMMPS data file by grainreel: {} at {} s; units si, atom_style sphere\n\n{} atoms\n{} atom "
+            "types\n\n",
+            one_word(world_.title), frame.time, frame.size(),
+            std::max<std::size_t>(1, world_.species.size()));
+        const char* names[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
+        for (int axis = 0; axis < 3; ++axis)
+            text +=
+                fmt::format("{} {} {}\n", box.origin[axis],
+                            box.origin[axis] + box.edges[static_cast<std::size_t>(axis)][axis], names[axis]);
+        const double xy = box.edges[1].x(), xz = box.edges[2].x(), yz = box.edges[2].y();
+        if (xy != 0 || xz != 0 || yz != 0) text += fmt::format("{} {} {} xy xz yz\n", xy, xz, yz);
+        // Ids of LAMMPS begin at 1.
+        const int shift = frame.size() > 0 && frame.id.front() == 0 ? 1 : 0;
+        text += "\nAtoms # sphere\n\n";
+        for (std::size_t i = 0; i < frame.size(); ++i) {
+            const Vec3 x = inside(frame.position[i], box);
+            text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, frame.species[i] + 1,
+                                2 * frame.radius[i], density(frame.species[i]), x.x(), x.y(), x.z());
+            out.pass();
+        }
+        text += "\nVelocities\n\n";
+        for (std::size_t i = 0; i < frame.size(); ++i) {
+            const Vec3 &v = frame.velocity[i], &w = frame.spin[i];
+            text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, v.x(), v.y(), v.z(), w.x(),
+                                w.y(), w.z());
+            out.pass();
+        }
+        out.flush();
+    }
+
+  private:
+    // read_data refuses atoms outside a box.
+    static Vec3 inside(Vec3 place, const WorldCell& box) {
+        for (std::size_t edge = 3; edge-- > 0;) {
+            const auto axis = static_cast<Eigen::Index>(edge);
+            const double length = box.edges[edge][axis];
+            if (!box.periodic[edge] || !(length > 0)) continue;
+            place -= std::floor((place[axis] - box.origin[axis]) / length) * box.edges[edge];
+        }
+        return place;
+    }
+    double density(std::int32_t species) const {
+        const auto s = static_cast<std::size_t>(species);
+        return s < world_.species.size() && world_.species[s].density > 0 ? world_.species[s].density
+                                                                          : kDensity;
+    }
+
+    std::filesystem::path path_;
+    World world_;
+    std::optional<Frame> last_;
+};
+
+std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
+    return std::make_unique<LammpsData>(path);
+}
+
+}  // namespace
+
+FrameFormat lammps_data_format() {
+    return {"lammps-data", "data file of LAMMPS (read_data, atom_style sphere), of the last frame", ".data",
+            make};
+}
+
+}  // namespace grainreel

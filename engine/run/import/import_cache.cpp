@@ -1,0 +1,182 @@
+// Imports that are kept in the user's cache folder and found again.
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/series/file_groups.hpp"
+#include "engine/run/import/import_run.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // of all imports together
+constexpr const char* kNews = "import_news.txt";
+
+fs::path cache_folder() {
+    const auto folder = [](const char* variable) -> fs::path {
+        const char* value = std::getenv(variable);
+        const fs::path path = value == nullptr ? "" : value;
+        return path.is_absolute() ? path : fs::path();
+    };
+    fs::path base = folder("XDG_CACHE_HOME");
+    if (base.empty())
+        if (const fs::path home = folder("HOME"); !home.empty()) base = home / ".cache";
+    std::error_code error;
+    const fs::path imports = base / "grainreel" / "imports";
+    if (!base.empty() && (fs::create_directories(imports, error), !error) &&
+        ::access(imports.c_str(), W_OK) == 0)
+        return imports;
+    return fs::temp_directory_path() / fmt::format("grainreel-imports-{}", ::getuid());
+}
+
+// All files that may have a say in what is imported.
+std::vector<fs::path> files_behind(const fs::path& from, const ReadingOptions& options) {
+    std::vector<fs::path> files;
+    const auto add = [&](const fs::path& path) {
+        std::error_code ignored;
+        std::vector<fs::path> more{path};
+        if (is_pattern(path))
+            more = files_of_pattern(path);
+        else if (fs::is_directory(path, ignored))
+            more = files_in(path);
+        files.insert(files.end(), more.begin(), more.end());
+    };
+    add(from);
+    std::error_code ignored;
+    if (!is_pattern(from) && fs::is_regular_file(from, ignored)) {
+        if (!options.one) files = series_of(from).files;
+        for (const char* suffix : {".fstat", ".restart"}) {
+            fs::path beside = from;
+            files.push_back(beside.replace_extension(suffix));
+        }
+    }
+    for (const std::string& one : options.walls) add(one);
+    for (const std::string& one : options.contacts) add(one);
+    if (!options.container.empty()) files.push_back(options.container);
+    return files;
+}
+
+std::string text_of(const ReadingOptions& o) {
+    std::string text = fmt::format("{} {} {} {} {} {} {} {}", o.one, o.units, o.radius.value_or(0),
+                                   o.time_step.value_or(0), o.density.value_or(0), o.walls_scale.value_or(0),
+                                   o.container.string(), o.moves_with_container);
+    for (const auto& [name, value] : o.columns) text += fmt::format("|c {}={}", name, value);
+    for (const auto& [name, value] : o.radius_of_type) text += fmt::format("|r {}={}", name, value);
+    for (const auto& [name, value] : o.species) text += fmt::format("|s {}={}", name, value);
+    for (const std::string& one : o.walls) text += "|w " + one;
+    for (const std::string& one : o.contacts) text += "|k " + one;
+    return text;
+}
+
+// A file by what changes when somebody writes it.
+std::string key_of(const ImportRequest& request) {
+    std::string text = request.program_version + "\n" + fs::absolute(request.from).string() + "\n" +
+                       text_of(request.reading);
+    for (const fs::path& file : files_behind(request.from, request.reading)) {
+        struct stat facts {};
+        if (::stat(file.c_str(), &facts) != 0) continue;
+        text += fmt::format("\n{} {} {} {}.{}", fs::absolute(file).string(), facts.st_size, facts.st_ino,
+                            facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec);
+    }
+    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::uintmax_t size_of(const fs::path& folder) {
+    std::uintmax_t bytes = 0;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+        if (entry.is_regular_file(error)) bytes += entry.file_size(error);
+    return bytes;
+}
+
+// Removes what was not used for longest.
+void make_room(const fs::path& imports, const fs::path& keep) {
+    struct One {
+        fs::path folder;
+        fs::file_time_type used;
+        std::uintmax_t bytes;
+    };
+    std::vector<One> all;
+    std::uintmax_t bytes = 0;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(imports, error)) {
+        if (!entry.is_directory(error)) continue;
+        all.push_back({entry.path(), entry.last_write_time(error), size_of(entry.path())});
+        bytes += all.back().bytes;
+    }
+    std::sort(all.begin(), all.end(), [](const One& a, const One& b) { return a.used < b.used; });
+    for (const One& one : all) {
+        if (bytes <= kMostBytes) return;
+        if (one.folder == keep) continue;
+        fs::remove_all(one.folder, error);
+        bytes -= one.bytes;
+    }
+}
+
+ImportedRun found(const fs::path& folder) {
+    ImportedRun run;
+    run.folder = folder;
+    std::ifstream news(folder / kNews);
+    for (std::string line; std::getline(news, line);)
+        if (!line.empty()) run.news.push_back(line);
+    std::error_code ignored;
+    fs::last_write_time(folder, fs::file_time_type::clock::now(), ignored);
+    return run;
+}
+
+}  // namespace
+
+ImportedRun cached_import(ImportRequest request) {
+    const fs::path imports = cache_folder();
+    std::string name = request.from.filename().string();
+    if (name.empty() || name == "." || name == "..")
+        name = fs::absolute(request.from).lexically_normal().parent_path().filename().string();
+    for (char& c : name)
+        if (std::string("*?[]").find(c) != std::string::npos) c = '_';
+    const fs::path place = imports / key_of(request);
+    std::error_code error;
+    if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kNews, error))
+        return found(place / name);
+    // Each process makes its own, and the first that is done gives it the name.
+    const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
+    fs::remove_all(part, error);
+    request.folder = part / name;
+    try {
+        const ImportedRun made = import_run(request);
+        std::ofstream news(request.folder / kNews);
+        for (const std::string& line : made.news) news << line << "\n";
+        news.close();
+        if (!news)
+            throw RunError(fmt::format("{}: cannot be written; is the disk full?", (part / kNews).string()));
+        fs::remove_all(place, error);
+        fs::rename(part, place, error);
+        if (error && !fs::exists(place / name / "scene.toml"))
+            throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
+        fs::remove_all(part, error);
+        make_room(imports, place);
+        ImportedRun run = made;
+        run.folder = place / name;
+        return run;
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(part, ignored);
+        throw;
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,44 @@
+// Makes a run's folder of frames that another program wrote: scene.toml, trajectory.nc, contacts.nc where
+// contacts are known, measures.csv. From then on everything that draws, asks, compares or reports a run does
+// so with it.
+//
+// The copy costs disk space as large as the frames. In return no verb needs a second way for foreign files,
+// any moment is found at once, and the places of damaged or odd frames are found before the first picture.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/files/frames/reading_options.hpp"
+
+namespace grainreel {
+
+struct ImportRequest {
+    std::filesystem::path from;  // a file, a pattern, a folder
+    ReadingOptions reading{};
+    std::filesystem::path folder;  // that is made; must not be there
+    std::string program_version{};
+    // Called with the share that is done; false stops, and nothing is left.
+    std::function<bool(double)> watcher{};
+};
+
+struct ImportedRun {
+    std::filesystem::path folder;
+    std::int64_t frames = 0, most_grains = 0;
+    std::vector<std::string> news;  // what was guessed, left out or derived, a line each
+};
+
+// Throws UserError for what is wrong with the files, RunError where the folder cannot be written. Nothing
+// half-written stays.
+ImportedRun import_run(const ImportRequest& request);
+
+// The same in the user's cache folder ($XDG_CACHE_HOME/grainreel/imports), where a later call with the same
+// files and options finds it again: files are known by name, size, time and inode. Imports that were not used
+// for longest are removed while all together are larger than 4 GB. Without a cache folder it is made in the
+// temporary folder.
+ImportedRun cached_import(ImportRequest request);
+
+}  // namespace grainreel

@@ -1,0 +1,208 @@
+#include "engine/run/import/import_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "engine/scene/file/writer.hpp"
+#include "engine/scene/motion/path.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kDensity = 2500;  // kg/m3, of glass, where nobody says another
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') out += '\\';
+        if (byte >= 0x20 && byte != 0x7f) out += c;
+    }
+    return out + "\"";
+}
+
+std::string number(double value) {
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+std::string triple(const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw RunError(fmt::format("{}: cannot be written; is the disk full?", file.string()));
+}
+
+std::string species_text(const ForeignArchive& archive, const ImportSurvey& survey,
+                         std::vector<std::string>& news) {
+    std::string text;
+    bool guessed = false;
+    for (std::size_t s = 0; s < archive.world().species.size(); ++s) {
+        const WorldSpecies& species = archive.world().species[s];
+        const bool known = std::isfinite(species.density) && species.density > 0;
+        guessed = guessed || !known;
+        const double small = survey.smallest[s] > 0 ? survey.smallest[s] : 1e-3;
+        const double large = survey.largest[s] > 0 ? survey.largest[s] : 1e-3;
+        text += fmt::format("\n[[species]]\nname = {}\ncount = {}\n", quoted(species.name),
+                            std::max<std::int64_t>(1, survey.most[s]));
+        text += large - small <= 1e-9 * large
+                    ? fmt::format("diameter = {}\n", number(large))
+                    : fmt::format("diameter = {{ min = {}, max = {} }}\n", number(small), number(large));
+        text += fmt::format("density = {}\n", number(known ? species.density : kDensity));
+    }
+    if (guessed)
+        news.push_back(
+            fmt::format("{}: says no density; {} kg/m3 is taken where masses matter, --density says another",
+                        archive.path().string(), kDensity));
+    return text;
+}
+
+// ASCII STL with all digits: the shape must come back as it is in the trajectory.
+void write_ply(const fs::path& file, const TriangleMesh& mesh) {
+    std::string text = fmt::format(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        mesh.vertices.size(), mesh.triangles.size());
+    for (const Vec3& v : mesh.vertices) text += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+    for (const auto& t : mesh.triangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+    write_text(file, text);
+}
+
+void add_row(std::string& text, double time, const BodyPose& pose) {
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", time, pose.place.x(), pose.place.y(), pose.place.z(),
+                        pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
+}
+
+// Rows of a motion's file: the pose of each moment, and between moments so many that no turn from row to row
+// is larger than a radian. Before the first moment the wall stands.
+std::string path_text(const ForeignArchive& archive, std::size_t wall) {
+    constexpr double largest = 1;  // rad
+    const std::vector<Frame>& moments = archive.moments();
+    std::string text = "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
+    const BodyPose first = moments.front().body(kFirstPlaneBody + wall);
+    if (moments.front().time > 0) add_row(text, 0, first);
+    add_row(text, moments.front().time, first);
+    for (std::size_t k = 1; k < moments.size(); ++k) {
+        const BodyPose from = moments[k - 1].body(kFirstPlaneBody + wall),
+                       to = moments[k].body(kFirstPlaneBody + wall);
+        const double begin = moments[k - 1].time, end = moments[k].time;
+        if (!(end > begin)) continue;
+        const auto parts = static_cast<int>(1 + from.rotation.angularDistance(to.rotation) / largest);
+        for (int part = 1; part < parts; ++part) {
+            const double share = static_cast<double>(part) / parts;
+            BodyPose between;
+            between.rotation = from.rotation.slerp(share, to.rotation);
+            between.place = from.place + share * (to.place - from.place);
+            add_row(text, begin + share * (end - begin), between);
+        }
+        add_row(text, end, to);
+    }
+    return text;
+}
+
+// Whether the motion's file can be read back; news: why not.
+bool is_smooth(const fs::path& file, const std::string& wall, std::vector<std::string>& news) {
+    try {
+        MotionPath::read(file);
+        return true;
+    } catch (const UserError& why) {
+        news.push_back(fmt::format(
+            "{}: its motion cannot be followed, and it stands where it was at first ({})", wall, why.what()));
+        return false;
+    }
+}
+
+// Tables of a scene's text that say what its walls are and how they move.
+std::string walls_and_drive(const std::string& text) {
+    std::string kept;
+    bool keep = false;
+    std::size_t from = 0;
+    while (from < text.size()) {
+        const std::size_t to = std::min(text.find('\n', from), text.size() - 1);
+        const std::string line = text.substr(from, to - from + 1);
+        from = to + 1;
+        if (line.front() == '[') {
+            const std::size_t name = line.find_first_not_of('[');
+            const std::string table = line.substr(name, line.find(']') - name);
+            const std::string head = table.substr(0, table.find('.'));
+            keep = head == "container" || head == "drive" || head == "wall" || head == "mesh";
+        } else if (line.rfind("gravity", 0) == 0 && kept.find("gravity") == std::string::npos) {
+            kept = line + kept;
+            continue;
+        }
+        if (keep) kept += line;
+    }
+    return kept;
+}
+
+std::string film_text(const ForeignArchive& archive) {
+    const std::vector<Frame>& moments = archive.moments();
+    const double span = moments.back().time - moments.front().time;
+    const double interval =
+        moments.size() > 1 ? span / static_cast<double>(moments.size() - 1) : 1 / kUntimedRate;
+    std::string text = fmt::format("\n[film]\nrate = {}\n", kUntimedRate);
+    if (!archive.world().time_known)
+        text += "show = [\"title\", \"legend\", \"scale\", \"arrows\", \"counts\", \"captions\"]\n";
+    text += fmt::format("\n[[film.segment]]\nplayback = {}\n", number(interval * kUntimedRate));
+    return text;
+}
+
+}  // namespace
+
+void write_import_scene(const fs::path& folder, const ForeignArchive& archive, const ImportSurvey& survey,
+                        const ReadingOptions& options, std::vector<std::string>& news) {
+    const std::vector<Frame>& moments = archive.moments();
+    std::string top =
+        fmt::format("# Made of {} ({}): what its files say, and nothing that could be run.\ntitle = {}\n",
+                    archive.path().string(), archive.format(), quoted(archive.world().title));
+    std::string walls;
+    if (!options.container.empty()) {
+        const Scene scene = read_scene(options.container, {}, measurable_in);
+        const std::string kept = walls_and_drive(written_scene(scene));
+        const std::size_t tables = kept.find('[');
+        top += kept.substr(0, std::min(tables, kept.size()));
+        walls = tables == std::string::npos ? "" : "\n" + kept.substr(tables);
+    } else {
+        walls = "\n[container]\nshape = \"none\"\n";
+    }
+    for (std::size_t w = 0; w < archive.walls().size(); ++w) {
+        const MovingWall& wall = archive.walls()[w];
+        const std::string file = fmt::format("wall_{}.ply", w), path = fmt::format("wall_{}_path.csv", w);
+        write_ply(folder / file, wall.shape);
+        walls += fmt::format("\n[[mesh]]\nname = {}\nfile = {}\n", quoted(wall.name), quoted(file));
+        bool moves = wall.moves && moments.size() > 1;
+        if (moves) {
+            write_text(folder / path, path_text(archive, w));
+            moves = is_smooth(folder / path, wall.name, news);
+        }
+        if (moves) walls += fmt::format("path = {}\n", quoted(path));
+    }
+    const Frame& one = moments.back().step != 0 ? moments.back() : moments.front();
+    const double step = one.step != 0 && one.time != 0 ? one.time / static_cast<double>(one.step) : 1e-6;
+    const Vec3 margin = 1e-9 * (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
+    const std::string start =
+        fmt::format("\n[start]\nregion = {{ low = {}, high = {} }}\n\n[run]\nduration = {}\nstep = {}\n",
+                    triple(survey.low - margin), triple(survey.high + margin),
+                    number(std::max(moments.back().time, step)), number(step));
+    const std::string begin = options.container.empty()
+                                  ? start
+                                  : fmt::format("\n[run]\nduration = {}\nstep = {}\n",
+                                                number(std::max(moments.back().time, step)), number(step));
+    write_text(folder / "scene.toml",
+               top + species_text(archive, survey, news) + walls + begin + film_text(archive));
+}
+
+}  // namespace grainreel

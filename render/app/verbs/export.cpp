@@ -1,0 +1,124 @@
+// The verb `export`: frames of a run, of ours or of another program, in another program's format.
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/foreign/series/file_groups.hpp"
+#include "engine/files/frames/export_frames.hpp"
+#include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/write_frames.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/app/foreign/run_to_read.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/report/share_watcher.hpp"
+#include "render/app/verbs/verb.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string about_formats() {
+    std::string text = "Formats:\n";
+    for (const FrameFormat& format : frame_formats())
+        text += fmt::format("  {:<14}{}\n", format.name, format.about);
+    return text;
+}
+
+class Export final : public Verb {
+  public:
+    Export()
+        : Verb("export", "Write a run's frames for another program",
+               "RUN is a run of ours, or files of another program, so this is a converter too. The file or "
+               "folder that "
+               "was made goes to stdout.\n\n" +
+                   about_formats() + exit_statuses) {}
+
+    void add_options(CLI::App& parser) override {
+        parser
+            .add_option("RUN", run_,
+                        "Folder of a run, or files of another program: a file, a quoted pattern, a folder")
+            ->required()
+            ->type_name("PATH");
+        std::vector<std::string> names;
+        for (const FrameFormat& format : frame_formats()) names.emplace_back(format.name);
+        parser.add_option("--to", format_, "Format, one of those above")
+            ->required()
+            ->type_name("FORMAT")
+            ->check(CLI::IsMember(names));
+        parser
+            .add_option("--out", out_,
+                        "File or folder that is made [beside RUN, its name with the format's ending]")
+            ->type_name("PATH")
+            ->check(not_empty());
+        parser.add_flag("--force", force_, "Replace what has that name");
+        CLI::Option* at = add_time(parser, "--at", choice_.at, "This moment alone");
+        CLI::Option* from = add_time(parser, "--from", choice_.from, "First moment [the run's first]");
+        CLI::Option* until = add_time(parser, "--until", choice_.until, "Last moment [the run's last]");
+        CLI::Option* every = parser.add_option("--every", choice_.every, "One of so many frames [1]")
+                                 ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}))
+                                 ->type_name("N");
+        for (CLI::Option* other : {from, until, every}) at->excludes(other);
+        add_reading(parser, reading_);
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        if (const std::string option = given_reading(reading_); !option.empty() && !is_foreign(run_))
+            throw UserError(
+                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
+                            option, run_.string()));
+        FrameRequest request;
+        request.reading = reading_;
+        const std::unique_ptr<FrameArchive> frames = open_frames(run_, request);
+        for (const std::string& line : frames->news()) reporter.info(line);
+        const ShareWatcher watcher(reporter, Progress::Stage::paging);
+        const Exported made =
+            export_frames(*frames, format_, out_.empty() ? usual_name() : out_, choice_, force_,
+                          [&](double done) { return watcher("writing frames", done); });
+        reporter.info(fmt::format("wrote {}: {} frames, {}", made.path.string(), made.frames,
+                                  data_size_text(static_cast<double>(made.bytes))));
+        print_exact(made.path.string() + "\n");
+        return 0;
+    }
+
+    bool ends_in_good_order() const override { return false; }
+
+  private:
+    // "run.dump" and vtk: "run-vtk", a folder; xyz: "run.xyz", or "run-2.xyz" where that is taken.
+    fs::path usual_name() const {
+        std::string ending;
+        for (const FrameFormat& format : frame_formats())
+            if (format_ == format.name) ending = format.ending;
+        fs::path base = fs::absolute(run_).lexically_normal();
+        if (!base.has_filename()) base = base.parent_path();
+        std::string stem = base.stem().string();
+        std::erase_if(stem, [](char c) { return c == '*' || c == '?' || c == '[' || c == ']'; });
+        const fs::path beside =
+            run_.has_parent_path() && run_.has_filename() ? run_.parent_path() : base.parent_path();
+        fs::path name = beside / (stem + ending);
+        std::error_code ignored;
+        for (int number = 2; fs::exists(name, ignored) && !force_; ++number)
+            name = beside / fmt::format("{}-{}{}", stem, number, ending);
+        return name;
+    }
+
+    fs::path run_, out_;
+    std::string format_;
+    ExportChoice choice_;
+    ReadingOptions reading_;
+    bool force_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> export_verb() {
+    return std::make_unique<Export>();
+}
+
+}  // namespace grainreel

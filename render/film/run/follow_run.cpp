@@ -1,0 +1,165 @@
+#include "render/film/run/follow_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/run/import/import_run.hpp"
+#include "render/film/request/thread_plan.hpp"
+#include "render/film/sources/recorded_scene.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Steady = std::chrono::steady_clock;
+
+double seconds_since(Steady::time_point begin) {
+    return std::chrono::duration<double>(Steady::now() - begin).count();
+}
+
+// Short naps, so that Ctrl-C is noticed.
+void nap(double seconds, const RunListener& listener) {
+    const Steady::time_point begin = Steady::now();
+    while (seconds_since(begin) < seconds && listener.stop_signal() == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+// The files as they are now; null while they hold no whole frame.
+std::unique_ptr<ForeignArchive> opened(const FollowRequest& what) {
+    std::error_code ignored;
+    if (!is_foreign(what.from)) return nullptr;
+    auto frames = std::make_unique<ForeignArchive>(what.from, what.reading);
+    return frames->moments().empty() ? nullptr : std::move(frames);
+}
+
+std::unique_ptr<ForeignArchive> first_frames(const FollowRequest& what, RunListener& listener) {
+    const Steady::time_point begin = Steady::now();
+    std::string why = what.from.string() + ": is not there, or holds no frame yet";
+    while (seconds_since(begin) < what.idle && listener.stop_signal() == 0) {
+        try {
+            if (auto frames = opened(what)) return frames;
+        } catch (const UserError& not_yet) {
+            why = not_yet.what();  // a head that is half written looks like a mistake
+        }
+        nap(0.5, listener);
+    }
+    throw UserError(fmt::format("{} (--follow waited {:.3g} s)", why, what.idle));
+}
+
+// The scene that an import of these frames would have.
+FilmedScene scene_of(const FollowRequest& what, const FilmRequest& request) {
+    ImportRequest import;
+    import.from = what.from;
+    import.reading = what.reading;
+    import.program_version = request.program.version;
+    return scene_of_run(cached_import(import).folder, what.sets);
+}
+
+std::vector<std::string> species_of(const ForeignArchive& frames) {
+    std::vector<std::string> names;
+    for (const WorldSpecies& species : frames.world().species) names.push_back(species.name);
+    return names;
+}
+
+void check_options(const FollowRequest& what, const FilmRequest& request) {
+    if (!what.reading.container.empty())
+        throw UserError(
+            "--container: its walls move with the drive, which --follow does not do; leave one out");
+    if (!request.film && !request.frames)
+        throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
+}
+
+}  // namespace
+
+FollowRun::FollowRun(const FilmRequest& request, const FollowRequest& what, RunListener& listener)
+    : FilmRun(request, listener),
+      what_(what),
+      frames_((check_options(what, request), first_frames(what, listener))),
+      scene_(scene_of(what, request)) {
+    film_.check(scene_, static_cast<std::int64_t>(frames_->moments().size()));
+    film_.use_threads(drawing_threads(scene_.run.threads));
+    make_folder({scene_.name + "-render", what.beside, request.out, request.force});
+}
+
+bool FollowRun::draw_new() {
+    for (; drawn_ < frames_->moments().size(); ++drawn_) {
+        if (desk_.listener.stop_signal() != 0) return false;
+        desk_.folder->lock().check_there();
+        Frame frame = frames_->grains(drawn_);
+        if (needs_touches(scene_.film.shows))
+            frame.touches = frames_->touches(drawn_).value_or(std::vector<Touch>());
+        film_.maker().take(std::make_shared<const Frame>(std::move(frame)), "");
+        show_progress();
+    }
+    return true;
+}
+
+// Of those that are known so far.
+void FollowRun::show_progress() {
+    Progress progress;
+    progress.stage = Progress::Stage::drawing;
+    progress.frames = film_.frames_done();
+    progress.frames_planned = static_cast<std::int64_t>(frames_->moments().size());
+    progress.done = static_cast<double>(progress.frames) / static_cast<double>(progress.frames_planned);
+    progress.elapsed = desk_.watch.seconds();
+    desk_.listener.progress(progress);
+}
+
+void FollowRun::look_again() {
+    std::unique_ptr<ForeignArchive> now;
+    try {
+        now = opened(what_);
+    } catch (const UserError&) {
+        return;  // half written; the next look sees more
+    }
+    if (!now) return;
+    if (now->moments().size() < drawn_)
+        throw RunError(fmt::format("{}: has {} frames, but {} were drawn; it was truncated or replaced",
+                                   what_.from.string(), now->moments().size(), drawn_));
+    if (species_of(*now) != species_of(*frames_))
+        throw RunError(
+            fmt::format("{}: has a type that the frames before lacked; name all types by --species",
+                        what_.from.string()));
+    frames_ = std::move(now);
+}
+
+bool FollowRun::work() {
+    mark_begun();
+    desk_.record.scene_file = what_.from.string();
+    begin_record(frames_->news());
+    desk_.listener.info(
+        fmt::format("{}: {} frames so far; the film ends {:.3g} s after the last one, or with Ctrl-C",
+                    what_.from.string(), frames_->moments().size(), what_.idle));
+    film_.open(scene_, static_cast<std::int64_t>(frames_->moments().size()),
+               std::make_shared<const Frame>(frames_->first_whole()));
+    Steady::time_point last = Steady::now();
+    while (true) {
+        const std::size_t before = drawn_;
+        if (!draw_new()) return false;
+        if (drawn_ > before) last = Steady::now();
+        if (seconds_since(last) >= what_.idle) break;
+        const Steady::time_point begin = Steady::now();
+        look_again();
+        // Looking takes long where there are many files, and must not be all that is done.
+        nap(std::clamp(5 * seconds_since(begin), 0.5, 0.25 * what_.idle + 0.5), desk_.listener);
+        if (desk_.listener.stop_signal() != 0) return false;
+    }
+    desk_.record.drawn = {{what_.from.string(), static_cast<std::int64_t>(drawn_),
+                           frames_->moments().front().time, frames_->moments().back().time}};
+    return true;
+}
+
+std::string FollowRun::stopped_text() const {
+    return fmt::format("stopped after {} frames", film_.report().frames);
+}
+
+void FollowRun::report_written() {
+    desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,47 @@
+// A film of files that another program is still writing: each frame is drawn once it is whole. The film ends
+// when nothing new has come for a while, or with Ctrl-C.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/frames/reading_options.hpp"
+#include "engine/scene/text/assignment.hpp"
+#include "render/film/run/film_run.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+struct FollowRequest {
+    std::filesystem::path from;  // a file, a pattern, a folder
+    ReadingOptions reading{};
+    Assignments sets{};            // other values for keys of the film
+    std::filesystem::path beside;  // where the film goes without --out
+    double idle = 60;              // s without a new frame, after which the film ends
+};
+
+class FollowRun final : public FilmRun {
+  public:
+    // Waits for the first frame, as long as `idle` allows. Throws UserError where none comes, and for what is
+    // wrong with files and options; nothing is on disk then.
+    FollowRun(const FilmRequest& request, const FollowRequest& what, RunListener& listener);
+
+  private:
+    bool work() override;
+    std::string stopped_text() const override;
+    void report_written() override;
+    // Draws all frames that have come. False when told to stop.
+    bool draw_new();
+    void show_progress();
+    // Looks for more; throws RunError where files were truncated or replaced.
+    void look_again();
+
+    FollowRequest what_;
+    std::unique_ptr<ForeignArchive> frames_;
+    FilmedScene scene_;
+    std::size_t drawn_ = 0;
+};
+
+}  // namespace grainreel

@@ -1,0 +1,243 @@
+// Frames of other programs as a record: what columns mean, series, boxes, velocities from places, walls that
+// move.
+#include "engine/files/foreign/foreign_archive.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frames/export_frames.hpp"
+#include "engine/files/frames/open_frames.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+void write(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+// One frame of a dump in a box from 0 to 2 m.
+std::string dump(int step, const std::string& columns, const std::vector<std::string>& rows,
+                 const std::string& bounds = "0 2\n0 2\n0 2\n", const std::string& flags = "ff ff ff") {
+    std::string text =
+        fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}\n{}ITEM: ATOMS {}\n",
+                    step, rows.size(), flags, bounds, columns);
+    for (const std::string& row : rows) text += row + "\n";
+    return text;
+}
+
+std::string message_of(const fs::path& file, const ReadingOptions& options = {}) {
+    try {
+        const ForeignArchive archive(file, options);
+        for (std::size_t k = 0; k < archive.moments().size(); ++k) archive.grains(k);
+    } catch (const UserError& mistake) {
+        return mistake.what();
+    }
+    return "";
+}
+
+class Foreign : public testing::Test {
+  protected:
+    TemporaryFolder folder_;
+    fs::path file(const std::string& name) const { return fs::path(folder_.path()) / name; }
+};
+
+TEST_F(Foreign, RowsComeByTheirIdsWhateverTheirOrder) {
+    write(file("a.dump"), dump(0, "id type x y z radius", {"7 2 1 1 1 0.1", "3 1 0.5 0.5 0.5 0.2"}));
+    const ForeignArchive archive(file("a.dump"), {});
+    const Frame frame = archive.grains(0);
+    EXPECT_THAT(frame.id, testing::ElementsAre(3, 7));
+    EXPECT_THAT(frame.species, testing::ElementsAre(0, 1));
+    EXPECT_EQ(frame.position[1], Vec3(1, 1, 1));
+    EXPECT_THAT(frame.radius, testing::ElementsAre(0.2, 0.1));
+    EXPECT_EQ(archive.world().species[1].name, "type 2");
+}
+
+TEST_F(Foreign, SharesOfATiltedBoxBecomePlaces) {
+    // Edges (2 0 0), (0.5 2 0), (0.25 0.1 2) from the origin: x = sx a + sy b + sz c. The bounds are those of
+    // the box around it: x from 0 to 2 + 0.75, y from 0 to 2.1.
+    write(file("t.dump"), dump(0, "id type xs ys zs radius", {"1 1 0.5 0.25 0.5 0.1"},
+                               "0 2.75 0.5\n0 2.1 0.25\n0 2 0.1\n", "xy xz yz pp pp pp"));
+    const ForeignArchive archive(file("t.dump"), {});
+    const Vec3 wanted = 0.5 * Vec3(2, 0, 0) + 0.25 * Vec3(0.5, 2, 0) + 0.5 * Vec3(0.25, 0.1, 2);
+    EXPECT_NEAR((archive.grains(0).position[0] - wanted).norm(), 0, 1e-14);
+}
+
+TEST_F(Foreign, ADiameterIsHalvedAndARadiusOfATypeIsTaken) {
+    write(file("d.dump"), dump(0, "id type x y z diameter", {"1 1 1 1 1 0.3"}));
+    EXPECT_EQ(ForeignArchive(file("d.dump"), {}).grains(0).radius[0], 0.15);
+    write(file("r.dump"), dump(0, "id type x y z", {"1 1 1 1 1", "2 5 1 1 1.5"}));
+    ReadingOptions options;
+    options.radius_of_type = {{"1", 0.1}, {"5", 0.2}};
+    EXPECT_THAT(ForeignArchive(file("r.dump"), options).grains(0).radius, testing::ElementsAre(0.1, 0.2));
+    EXPECT_THAT(message_of(file("r.dump")), HasSubstr("--radius"));
+    options.radius_of_type.erase("5");
+    EXPECT_THAT(message_of(file("r.dump"), options), HasSubstr("5=2mm"));
+}
+
+TEST_F(Foreign, UnitsBecomeSi) {
+    // cgs: 1 cm = 0.01 m, 1 cm/s = 0.01 m/s, 1 g/cm3 = 1000 kg/m3 (LAMMPS manual, command units).
+    write(file("c.dump"), dump(10, "id type x y z radius vx vy vz density", {"1 1 1 2 3 0.1 5 0 0 2.5"}));
+    ReadingOptions options;
+    options.units = "cgs";
+    options.time_step = 1e-3;
+    const ForeignArchive archive(file("c.dump"), options);
+    const Frame frame = archive.grains(0);
+    EXPECT_NEAR((frame.position[0] - Vec3(0.01, 0.02, 0.03)).norm(), 0, 1e-16);
+    EXPECT_DOUBLE_EQ(frame.radius[0], 0.001);
+    EXPECT_DOUBLE_EQ(frame.velocity[0].x(), 0.05);
+    EXPECT_DOUBLE_EQ(archive.world().species[0].density, 2500);
+    EXPECT_NEAR(frame.time, 0.01, 1e-15);
+}
+
+TEST_F(Foreign, ANumberedSeriesIsReadByItsNumbers) {
+    for (const int step : {0, 500, 10000})
+        write(file(fmt::format("s.{}.dump", step)),
+              dump(step, "id type x y z radius", {fmt::format("1 1 1 1 {} 0.1", 1 + step * 1e-5)}));
+    const ForeignArchive series(file("s.500.dump"), {});
+    ASSERT_EQ(series.moments().size(), 3u);
+    EXPECT_NEAR(series.grains(2).position[0].z(), 1.1, 1e-12);
+    ReadingOptions alone;
+    alone.one = true;
+    const ForeignArchive one(file("s.500.dump"), alone);
+    EXPECT_EQ(one.moments().size(), 1u);
+    EXPECT_THAT(one.news().front(), HasSubstr("one of 3 numbered files"));
+    const ForeignArchive pattern(file("s.*.dump"), {});
+    EXPECT_EQ(pattern.moments().size(), 3u);
+}
+
+TEST_F(Foreign, FilesOfProcessesAreOneFrameAndALaterFrameOfAStepCounts) {
+    write(file("p.0"), dump(0, "id type x y z radius", {"1 1 1 1 1 0.1"}));
+    write(file("p.1"), dump(0, "id type x y z radius", {"2 1 1 1 1.5 0.1"}));
+    EXPECT_THAT(ForeignArchive(file("p.0"), {}).grains(0).id, testing::ElementsAre(1, 2));
+    write(file("twice.dump"), dump(0, "id type x y z radius", {"1 1 1 1 1 0.1"}) +
+                                  dump(100, "id type x y z radius", {"1 1 1 1 1.1 0.1"}) +
+                                  dump(100, "id type x y z radius", {"1 1 1 1 1.2 0.1"}));
+    const ForeignArchive twice(file("twice.dump"), {});
+    ASSERT_EQ(twice.moments().size(), 2u);
+    EXPECT_EQ(twice.grains(1).position[0].z(), 1.2);
+}
+
+TEST_F(Foreign, VelocitiesComeFromPlacesWhereMomentsAreNear) {
+    // A fall: central differences of z = -g t^2 / 2 are exact.
+    std::string text;
+    for (int k = 0; k < 5; ++k) {
+        const double t = 1e-3 * k;
+        text += dump(k, "id type x y z radius", {fmt::format("1 1 1 1 {} 0.1", 1 - 0.5 * 9.81 * t * t)});
+    }
+    write(file("v.dump"), text);
+    ReadingOptions options;
+    options.time_step = 1e-3;
+    const ForeignArchive archive(file("v.dump"), options);
+    EXPECT_TRUE(archive.derived_velocities());
+    EXPECT_NEAR(archive.grains(2).velocity[0].z(), -9.81 * 2e-3, 1e-9);
+    // Frames that are a second apart say nothing of velocities.
+    write(file("far.dump"), dump(0, "id type x y z radius", {"1 1 1 1 0.2 0.1"}) +
+                                dump(1000, "id type x y z radius", {"1 1 1 1 1.9 0.1"}));
+    const ForeignArchive far(file("far.dump"), options);
+    EXPECT_FALSE(far.derived_velocities());
+    EXPECT_FALSE(far.supply().velocities);
+}
+
+TEST_F(Foreign, WrongRowsAreRefusedWithWhatToDo) {
+    write(file("two.dump"), dump(0, "id type x y z radius", {"1 1 1 1 1 0.1", "2 1 1 1 1 0"}));
+    EXPECT_THAT(message_of(file("two.dump")), HasSubstr("--radius"));
+    write(file("id.dump"), dump(0, "id type x y z radius", {"1.5 1 1 1 1 0.1"}));
+    EXPECT_THAT(message_of(file("id.dump")), HasSubstr("whole number"));
+    write(file("flat.dump"), dump(0, "id type x y radius", {"1 1 1 1 0.1"}));
+    EXPECT_THAT(message_of(file("flat.dump")), HasSubstr("--columns z="));
+    ReadingOptions options;
+    options.columns = {{"radius", "c_rad"}};
+    write(file("ok.dump"), dump(0, "id type x y z radius", {"1 1 1 1 1 0.1"}));
+    EXPECT_THAT(message_of(file("ok.dump"), options), HasSubstr("id, type, x, y, z, radius"));
+}
+
+TEST(RigidMotion, ATurnAndAShiftAreFound) {
+    const Quaternion turn(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    const Vec3 shift(0.1, -0.2, 0.3);
+    std::vector<Vec3> from{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, to;
+    for (const Vec3& point : from) to.push_back(shift + turn * point);
+    const RigidMotion motion = rigid_motion(from, to);
+    EXPECT_LT(motion.residual, 1e-14);
+    EXPECT_LT(motion.pose.rotation.angularDistance(turn), 1e-12);
+    EXPECT_LT((motion.pose.place - shift).norm(), 1e-14);
+    to[3] += Vec3(0.5, 0, 0);
+    EXPECT_GT(rigid_motion(from, to).residual, 0.05);
+}
+
+TEST(WallMotion, PartsOfOneSolidMoveEachOnItsOwn) {
+    const auto triangle = [](const Vec3& at) {
+        TriangleMesh mesh;
+        mesh.vertices = {at, at + Vec3(1, 0, 0), at + Vec3(0, 1, 0)};
+        mesh.triangles = {{0, 1, 2}};
+        return mesh;
+    };
+    const auto both = [&](double shift) {
+        RawWall wall;
+        wall.mesh = triangle(Vec3(0, 0, 0));
+        const TriangleMesh other = triangle(Vec3(5, 0, shift));
+        for (const Vec3& vertex : other.vertices) wall.mesh.vertices.push_back(vertex);
+        wall.mesh.triangles.push_back({3, 4, 5});
+        return wall;
+    };
+    std::vector<std::string> news;
+    const std::vector<MovingWall> walls =
+        follow_walls({{0, {}, {both(0)}}, {1, {}, {both(2)}}}, 0.5, "w.stl", news);
+    ASSERT_EQ(walls.size(), 2u);
+    EXPECT_FALSE(walls[0].moves);
+    EXPECT_TRUE(walls[1].moves);
+    EXPECT_NEAR((walls[1].poses[1].moved(Vec3(2.5, 0, 0)) - Vec3(2.5, 0, 1)).norm(), 0, 1e-12);
+    EXPECT_TRUE(news.empty());
+}
+
+// What an exporter writes comes back: places exactly where the format has doubles, to a float's last place
+// else.
+class RoundTrip : public Foreign,
+                  public testing::WithParamInterface<std::tuple<const char*, const char*, double>> {};
+
+TEST_P(RoundTrip, IdsTypesAndPlacesComeBack) {
+    const auto [format, name, precision] = GetParam();
+    write(file("o.dump"), dump(0, "id type x y z radius vx vy vz",
+                               {"9 2 0.1 0.2 0.3 0.05 1 2 3", "4 1 1.123456789 0.3 1.7 0.07 0 0 -1"}) +
+                              dump(100, "id type x y z radius vx vy vz",
+                                   {"9 2 0.15 0.2 0.3 0.05 1 2 3", "4 1 1.1 0.3 1.6 0.07 0 0 -1"}));
+    ReadingOptions options;
+    options.time_step = 1e-4;
+    const ForeignArchive first(file("o.dump"), options);
+    export_frames(first, format, file(name), {}, false, [](double) { return true; });
+    const fs::path back = std::string(format) == "vtk" ? file(name) / "grains.pvd" : file(name);
+    const std::unique_ptr<FrameArchive> again = open_frames(back);
+    const std::size_t last = again->moments().size() - 1;
+    const Frame is = again->grains(last), wanted = first.grains(1);
+    EXPECT_EQ(is.id, wanted.id);
+    EXPECT_EQ(is.species, wanted.species);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        EXPECT_LE((is.position[i] - wanted.position[i]).norm(), precision) << format;
+        EXPECT_LE(std::abs(is.radius[i] - wanted.radius[i]), precision) << format;
+        EXPECT_LE((is.velocity[i] - wanted.velocity[i]).norm(), 10 * precision) << format;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
+                         testing::Values(std::tuple("lammps-dump", "a.dump", 1e-15),
+                                         std::tuple("xyz", "a.xyz", 1e-15), std::tuple("csv", "a.csv", 1e-15),
+                                         std::tuple("vtk", "a-vtk", 1e-15), std::tuple("gsd", "a.gsd", 2e-7)),
+                         [](const auto& of) {
+                             std::string text = std::get<0>(of.param);
+                             std::erase(text, '-');
+                             return text;
+                         });
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,113 @@
+// Files for the tests of readers of dumps, in a folder of their own, and what goes wrong with them.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+#include <zlib.h>
+#include <zstd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/raw_file.hpp"
+
+namespace grainreel {
+
+RawFormat lammps_text_format();
+RawFormat lammps_binary_format();
+
+class DumpFolder {
+  public:
+    DumpFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "dumps-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no folder " << name;
+        path_ = name;
+    }
+    ~DumpFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    DumpFolder(const DumpFolder&) = delete;
+    DumpFolder& operator=(const DumpFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+        std::ofstream(path_ / name, std::ios::binary) << bytes;
+        return path_ / name;
+    }
+    std::filesystem::path append(const std::string& name, std::string_view bytes) const {
+        std::ofstream(path_ / name, std::ios::binary | std::ios::app) << bytes;
+        return path_ / name;
+    }
+
+  private:
+    std::filesystem::path path_;
+};
+
+// What UserError says, without the path before it.
+inline std::string complaint_about(const std::filesystem::path& file, const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const UserError& error) {
+        const std::string message = error.what();
+        EXPECT_TRUE(message.starts_with(file.string() + ":")) << message;
+        return message.substr(std::min(message.size(), file.string().size()));
+    }
+    return "no complaint";
+}
+
+inline std::unique_ptr<RawFile> open_text(const std::filesystem::path& file) {
+    EXPECT_TRUE(lammps_text_format().takes(unpacked_head(file))) << file;
+    return lammps_text_format().open(file);
+}
+
+// Of opening the text and reading all its frames.
+inline std::string text_complaint(const DumpFolder& folder, std::string_view text) {
+    const std::filesystem::path file = folder.write("a.dump", text);
+    return complaint_about(file, [&] {
+        const std::unique_ptr<RawFile> dump = lammps_text_format().open(file);
+        for (std::size_t k = 0; k < dump->moments().size(); ++k) dump->read(k);
+    });
+}
+
+inline std::vector<double> column_of(const RawTable& table, const std::string& name) {
+    const RawColumn* const column = table.find(name);
+    if (column == nullptr) ADD_FAILURE() << "no column " << name;
+    return column == nullptr ? std::vector<double>{} : column->values;
+}
+
+// A frame with a box of 0 to 1 along each axis.
+inline std::string frame_text(const std::string& step, const std::string& count, const std::string& names,
+                              const std::string& rows) {
+    return "ITEM: TIMESTEP\n" + step + "\nITEM: NUMBER OF ATOMS\n" + count +
+           "\nITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\nITEM: ATOMS " + names + "\n" + rows;
+}
+
+inline std::string gzip_of(std::string_view bytes) {
+    z_stream stream{};
+    EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    std::string packed(deflateBound(&stream, bytes.size()) + 32, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    packed.resize(stream.total_out);
+    deflateEnd(&stream);
+    return packed;
+}
+
+inline std::string zstd_of(std::string_view bytes) {
+    std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+    packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
+    return packed;
+}
+
+}  // namespace grainreel

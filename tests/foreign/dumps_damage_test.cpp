@@ -1,0 +1,210 @@
+// Text dumps that are damaged or cut.
+#include <gmock/gmock.h>
+
+#include "engine/files/foreign/dumps/last_row.hpp"
+#include "tests/foreign/dump_files.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr const char* names = "id type x";
+
+TEST(DamagedTextDump, RowsAreRefusedWithTheirLine) {
+    const DumpFolder folder;
+    const auto complaint = [&](const std::string& count, const std::string& rows) {
+        return text_complaint(folder, frame_text("7", count, names, rows));
+    };
+    EXPECT_THAT(complaint("2", "1 1 0\n2 1\n"),
+                HasSubstr(":11: this row has 2 fields and 3 columns have names"));
+    EXPECT_THAT(complaint("2", "1 1 0 5\n2 1 0\n"),
+                HasSubstr(":10: this row has 4 fields and 3 columns have names"));
+    EXPECT_THAT(complaint("2", "1 1 0\n\n2 x 0\n"),
+                HasSubstr(":12: \"x\" is no number; one is expected in the column type"));
+    EXPECT_THAT(complaint("2", "1 1 0\n2 1 0.5x\n"), HasSubstr(":11: \"0.5x\" is no number"));
+    EXPECT_THAT(complaint("2", "1 1 0\n2 1 -nan\n"),
+                HasSubstr(":11: x is \"-nan\", which is no finite number"));
+    EXPECT_THAT(complaint("2", "1 1 1e999\n2 1 0\n"),
+                HasSubstr(":10: x is \"1e999\", which is no finite number"));
+    EXPECT_THAT(complaint("3", "5 1 0\n6 1 0\n5 1 1\n"),
+                HasSubstr(":12: the id 5 stands in this frame for the second time"));
+    EXPECT_THAT(complaint("3", "5 1 0\n600000000000 1 0\n5 1 1\n"),
+                HasSubstr(":12: the id 5 stands in this frame"));
+    EXPECT_THAT(complaint("1", "5.5 1 0\n"), HasSubstr(":10: the id 5.5 is no whole number"));
+}
+
+TEST(DamagedTextDump, WrongCounts) {
+    const DumpFolder folder;
+    const std::string good = frame_text("8", "1", names, "1 1 0\n");
+    EXPECT_THAT(text_complaint(folder, frame_text("7", "2", names, "1 1 0\n") + good),
+                HasSubstr(":11: the frame of step 7 ends here after 1 rows, and line 1 says 2"));
+    EXPECT_THAT(text_complaint(folder, frame_text("7", "1", names, "1 1 0\n2 1 0\n") + good),
+                HasSubstr(":11: one row more than the 1 that line 1 says for step 7"));
+    EXPECT_THAT(text_complaint(folder, frame_text("7", "-1", names, "")),
+                HasSubstr(":4: \"-1\" is no number of grains"));
+    EXPECT_THAT(text_complaint(folder, frame_text("7", "1000000000", names, "1 1 0\n")),
+                HasSubstr(":1: no frame of this file is whole"));
+    EXPECT_THAT(text_complaint(folder, frame_text("7", "1000000000", names, "1 1 0\n") + good),
+                HasSubstr(":11: the frame of step 7 ends here after 1 rows, and line 1 says 1000000000"));
+}
+
+TEST(DamagedTextDump, Heads) {
+    const DumpFolder folder;
+    const std::string good = frame_text("7", "1", names, "1 1 0\n");
+    EXPECT_THAT(text_complaint(folder, "DUMMY\n" + good.substr(15)),
+                HasSubstr(":1: \"DUMMY\" stands where an \"ITEM: TIMESTEP\""));
+    EXPECT_THAT(text_complaint(folder, "ITEM: TIMESTEP\n7.5\n" + good),
+                HasSubstr(":2: \"7.5\" is no number of a step"));
+    EXPECT_THAT(text_complaint(folder, "ITEM: TIMESTEP\n7\n" + good),
+                HasSubstr(":3: a new frame begins, but the frame of step 7 has no rows"));
+    EXPECT_THAT(text_complaint(folder, "ITEM: TIMESTEP\n7\nITEM: ATOMS id x\n1 0\n"),
+                HasSubstr(":3: rows without their number"));
+    EXPECT_THAT(text_complaint(folder, "ITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x\n1 0\n"),
+                HasSubstr(":3: rows without a step"));
+    std::string no_item = good;
+    no_item.replace(no_item.find("ITEM: ATOMS"), 11, "DUMMY");
+    EXPECT_THAT(text_complaint(folder, no_item),
+                HasSubstr(":9: \"DUMMY id type x\" stands where an \"ITEM: ATOMS\""));
+    EXPECT_THAT(text_complaint(folder, good + "ITEM: UNITS\nlj\nITEM: TIME\n250\n"),
+                HasSubstr(":11: items stand behind the rows"));
+    EXPECT_THAT(text_complaint(folder, good + frame_text("8", "1", "id type y", "1 1 0\n")),
+                HasSubstr(":19: the columns change here: \"id type y\", and \"id type x\" before"));
+    EXPECT_THAT(text_complaint(folder, "ITEM: UNITS\nsi\n" + good + "ITEM: UNITS\nlj\n" + good),
+                HasSubstr(":13: the units change from si to lj"));
+    EXPECT_THAT(text_complaint(folder, "---\ncreator: LAMMPS\ntimestep: 0\n"),
+                HasSubstr(": a dump in YAML (dump yaml), which is not read"));
+    EXPECT_THAT(text_complaint(folder, "ITEM: TIMESTEP\n0\nITEM: GRID SIZE nx ny nz\n1 1 1\n"),
+                HasSubstr(":3: a dump of a grid"));
+}
+
+// A line without an end within the buffer's growth is refused, not kept.
+TEST(DamagedTextDump, EndlessLine) {
+    const DumpFolder folder;
+    EXPECT_THAT(text_complaint(folder, frame_text("7", "1", names, std::string(40 << 20, '1'))),
+                HasSubstr(":10: this line is longer than 16 MB"));
+}
+
+TEST(CutTextDump, WholeFramesAreReadAndTheLastIsLeftOut) {
+    const DumpFolder folder;
+    const std::string whole = frame_text("0", "2", names, "1 1 0.5\n2 1 0.25\n") +
+                              frame_text("1", "2", names, "1 1 0.5\n2 1 0.125\n");
+    const std::string last = frame_text("2", "2", names, "1 1 0.5\n2 1 0.375\n");
+    for (std::size_t kept = 1; kept < last.size(); ++kept) {
+        // "0.375" without its line feed is cut or not: nobody knows. So it is for each number before it.
+        const auto dump = open_text(folder.write("a", whole + last.substr(0, kept)));
+        const bool only_feeds = last.substr(0, kept).find_first_not_of("\n") == std::string::npos;
+        ASSERT_EQ(dump->moments().size(), 2u) << last.substr(0, kept);
+        EXPECT_THAT(column_of(dump->read(1).grains, "x"), ElementsAre(0.5, 0.125));
+        ASSERT_EQ(dump->news().size(), only_feeds ? 0u : 1u) << last.substr(0, kept);
+        EXPECT_THAT(dump->news()[0], AllOf(HasSubstr("last frame"), HasSubstr("left out"), HasSubstr("cut"),
+                                           HasSubstr("2 before it are whole")));
+    }
+    EXPECT_EQ(open_text(folder.write("a", whole + last))->moments().size(), 3u);
+    const auto packed =
+        open_text(folder.write("b", gzip_of(whole + last).substr(0, gzip_of(whole + last).size() - 12)));
+    EXPECT_EQ(packed->moments().size(), 2u);
+    EXPECT_THAT(packed->news()[0], HasSubstr("the packed content is cut"));
+}
+
+TEST(CutTextDump, AHeadOfTimeAloneIsCutWhereFramesHaveTimes) {
+    const DumpFolder folder;
+    const std::string whole = "ITEM: TIME\n0.5\n" + frame_text("0", "1", names, "1 1 0\n");
+    const auto dump = open_text(folder.write("a", whole + "ITEM: TIME\n0.75\n"));
+    EXPECT_EQ(dump->moments().size(), 1u);
+    EXPECT_THAT(dump->news()[0], HasSubstr("cut within its head"));
+}
+
+TEST(CutTextDump, NoWholeFrameIsAnError) {
+    const DumpFolder folder;
+    EXPECT_THAT(text_complaint(folder, frame_text("2", "2", names, "1 1 0.5\n")),
+                HasSubstr(":1: no frame of this file is whole, neither is the one that begins here: it is "
+                          "cut after 1 of its 2 rows"));
+    EXPECT_THAT(text_complaint(folder, "ITEM: TIMESTEP\n0\n"), HasSubstr("cut within its head"));
+}
+
+TEST(CutTextDump, TheOnlyFrameMayEndWithoutALineFeed) {
+    const DumpFolder folder;
+    const auto dump = open_text(folder.write("a", frame_text("0", "2", names, "1 1 0.424637\n2 1 0.38212")));
+    EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(0.424637, 0.38212));
+    EXPECT_THAT(dump->news()[0], HasSubstr("no line ends behind its last row, which is taken as whole"));
+    // But not with a radius that none of the others has.
+    EXPECT_THAT(text_complaint(folder, frame_text("0", "5", "id radius",
+                                                  "1 0.0015\n2 0.0019\n3 0.0015\n4 0.0019\n5 0.0")),
+                HasSubstr("no frame of this file is whole"));
+}
+
+TEST(CutTextDump, LastWords) {
+    using Words = std::vector<std::string>;
+    const Words radii{"0.0015", "0.0019", "0.0015", "0.0019"};
+    EXPECT_EQ(judge_last_word("0.0019", radii), LastWord::whole);
+    EXPECT_EQ(judge_last_word("0.0", radii), LastWord::cut);
+    EXPECT_EQ(judge_last_word("0.001", radii), LastWord::cut);
+    EXPECT_EQ(judge_last_word("1", {"1", "12", "1", "12", "1"}), LastWord::open);  // of 12, perhaps
+    EXPECT_EQ(judge_last_word("2", {"1", "2", "1", "2"}), LastWord::whole);
+    for (const char* word : {"-", "1.5e", "1.5e-", "0.", ""})
+        EXPECT_EQ(judge_last_word(word, {}), LastWord::cut) << word;
+    const Words six{"0.123456", "-0.0765432", "0.5", "12.3456"};
+    EXPECT_EQ(judge_last_word("0.654321", six), LastWord::whole);
+    EXPECT_EQ(judge_last_word("0.65432", six), LastWord::open);
+    EXPECT_EQ(judge_last_word("1.23456", {"1.23456e-05", "0.123456", "2.5"}), LastWord::open);
+    Words fixed, exponents;
+    for (int k = 0; k < 20; ++k) {
+        fixed.push_back(std::to_string(k) + ".125000");
+        exponents.push_back(std::to_string(k % 10) + ".25000" + std::to_string(k) + "e-0" +
+                            std::to_string(k % 7 + 1));
+    }
+    EXPECT_EQ(judge_last_word("33.250000", fixed), LastWord::whole);
+    EXPECT_EQ(judge_last_word("33.25000", fixed), LastWord::cut);
+}
+
+TEST(CutTextDump, AGrowingFile) {
+    const DumpFolder folder;
+    const auto frame = [](int step) {
+        return frame_text(std::to_string(step), "2", names,
+                          "1 1 0.5\n2 1 0." + std::to_string(step + 1) + "5\n");
+    };
+    const auto file = folder.write("a", frame(0) + frame(1).substr(0, frame(1).size() - 2));
+    const auto dump = open_text(file);
+    EXPECT_EQ(dump->moments().size(), 1u);
+    EXPECT_FALSE(dump->grow());
+    folder.append("a", "5");
+    EXPECT_FALSE(dump->grow());  // the number is whole, but who knows
+    folder.append("a", "\n");
+    EXPECT_TRUE(dump->grow());
+    ASSERT_EQ(dump->moments().size(), 2u);
+    EXPECT_THAT(column_of(dump->read(1).grains, "x"), ElementsAre(0.5, 0.25));
+    EXPECT_THAT(dump->news(), IsEmpty());
+    folder.append("a", frame(2) + frame(3) + "ITEM: TI");
+    EXPECT_TRUE(dump->grow());
+    ASSERT_EQ(dump->moments().size(), 4u);
+    EXPECT_THAT(column_of(dump->read(3).grains, "x"), ElementsAre(0.5, 0.45));
+    EXPECT_THAT(dump->news()[0], HasSubstr("left out"));
+
+    folder.write("a", frame(0));
+    EXPECT_THAT(complaint_about(file, [&] { dump->grow(); }), HasSubstr("became shorter"));
+    folder.write("a", frame(5) + frame(6) + frame(7) + frame(8) + frame(9));
+    EXPECT_THAT(complaint_about(file, [&] { dump->grow(); }), HasSubstr("was written anew"));
+    folder.write("b", frame(0));
+    std::filesystem::rename(folder.path() / "b", file);
+    EXPECT_THAT(complaint_about(file, [&] { dump->grow(); }), HasSubstr("another file has this name now"));
+    std::filesystem::remove(file);
+    EXPECT_THAT(complaint_about(file, [&] { dump->grow(); }), HasSubstr("cannot be opened"));
+}
+
+// The only frame is read without its last line feed, and is another one when the file goes on.
+TEST(CutTextDump, ANumberThatGrows) {
+    const DumpFolder folder;
+    const auto dump = open_text(folder.write("a", frame_text("0", "1", names, "1 1 0.2")));
+    EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(0.2));
+    folder.append("a", "5\n");
+    dump->grow();
+    ASSERT_EQ(dump->moments().size(), 1u);
+    EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(0.25));
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,188 @@
+// Text dumps: what programs write into them, oddity by oddity.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/foreign/dump_files.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(TextDump, RowsInAnyOrderAndFramesThatComeAndGo) {
+    const DumpFolder folder;
+    const std::string names = "id type x y z radius";
+    const auto file =
+        folder.write("a", frame_text("0", "0", names, "") +
+                              frame_text("100", "2", names, "9 2 .4 0 5e-2 0.0025\n7 1 0 -0 +0.04 2E-3\n") +
+                              frame_text("5000000000", "1", names, "9 2 0.004 0 0.04 0.0025\n") +
+                              frame_text("100", "0", names, ""));
+    const auto dump = open_text(file);
+    ASSERT_EQ(dump->moments().size(), 4u);
+    std::vector<std::int64_t> steps, grains;
+    for (const RawMoment& moment : dump->moments()) {
+        steps.push_back(moment.step.value_or(-1));
+        grains.push_back(moment.grains);
+        EXPECT_FALSE(moment.time || moment.has_contacts);
+    }
+    EXPECT_THAT(steps, ElementsAre(0, 100, 5000000000, 100));  // a step twice stays: the series decides
+    EXPECT_THAT(grains, ElementsAre(0, 2, 1, 0));
+    EXPECT_THAT(dump->news(), IsEmpty());
+    // From the last to the first.
+    EXPECT_EQ(dump->read(3).grains.rows, 0u);
+    EXPECT_THAT(column_of(dump->read(2).grains, "x"), ElementsAre(0.004));
+    const RawFrame frame = dump->read(1);
+    EXPECT_EQ(frame.step, 100);
+    EXPECT_THAT(column_of(frame.grains, "id"), ElementsAre(9, 7));
+    EXPECT_THAT(column_of(frame.grains, "x"), ElementsAre(0.4, 0));
+    EXPECT_THAT(column_of(frame.grains, "z"), ElementsAre(0.05, 0.04));
+    EXPECT_THAT(column_of(frame.grains, "radius"), ElementsAre(0.0025, 0.002));
+    EXPECT_EQ(dump->read(0).grains.columns.size(), 6u);
+    EXPECT_EQ(dump->facts().format, "LAMMPS text dump");
+}
+
+TEST(TextDump, UnitsTimeLabelsAndUnknownItems) {
+    const DumpFolder folder;
+    const std::string names = "id x";
+    const auto file = folder.write(
+        "a", "ITEM: UNITS\ncgs\nITEM: TIME\n0.5\n" + frame_text("1", "1", names, "1 2\n") +
+                 "ITEM: LABEL\nmy grains\nITEM: SOMETHING NEW\n1 2 3\nany words\n\nITEM: TIME\n0.75\n" +
+                 frame_text("2", "1", names, "1 3\n"));
+    const auto dump = open_text(file);
+    EXPECT_EQ(dump->facts().units, "cgs");
+    ASSERT_EQ(dump->moments().size(), 2u);
+    EXPECT_EQ(dump->moments()[0].time, 0.5);
+    EXPECT_EQ(dump->moments()[1].time, 0.75);
+    EXPECT_EQ(dump->read(1).time, 0.75);
+    EXPECT_THAT(column_of(dump->read(1).grains, "x"), ElementsAre(3));
+}
+
+TEST(TextDump, LineEndsBlanksTabsAndNoLastLineFeed) {
+    const DumpFolder folder;
+    const std::string plain = frame_text("0", "2", "id type x", "1 1 0.5\n2 1 0.25\n");
+    std::string windows;
+    for (const char c : plain) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    const std::string blank = "\n" + frame_text("0", "2", "id type x ", "1 1 0.5 \n\n \n2\t1  0.25 \n\n  \n");
+    for (const std::string& text : {plain, windows, blank, plain.substr(0, plain.size() - 1)}) {
+        const auto dump = open_text(folder.write("a", text));
+        ASSERT_EQ(dump->moments().size(), 1u) << text;
+        EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(0.5, 0.25)) << text;
+        EXPECT_EQ(dump->read(0).grains.columns.back().name, "x");
+    }
+}
+
+TEST(TextDump, DoubledNamesAndWords) {
+    const DumpFolder folder;
+    const auto dump =
+        open_text(folder.write("a", frame_text("0", "3", "id type type element c_1[2]",
+                                               "1 1 5 Si nan\n2 1 6 O -inf\n3 2 7 Si 1e-400\n")));
+    const RawTable grains = dump->read(0).grains;
+    EXPECT_THAT(column_of(grains, "type"), ElementsAre(1, 1, 2));  // find() takes the first
+    EXPECT_EQ(grains.columns[2].name, "type");
+    EXPECT_THAT(grains.columns[2].values, ElementsAre(5, 6, 7));
+    EXPECT_THAT(grains.find("element")->words, ElementsAre("Si", "O"));
+    EXPECT_THAT(column_of(grains, "element"), ElementsAre(0, 1, 0));
+    const std::vector<double> computed = column_of(grains, "c_1[2]");
+    EXPECT_TRUE(std::isnan(computed[0]));
+    EXPECT_EQ(computed[1], -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(computed[2], 0);
+}
+
+TEST(TextDump, PairsAreContacts) {
+    const DumpFolder folder;
+    const std::string box = "ITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\n";
+    const auto dump = open_text(folder.write(
+        "a", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n0\n" + box +
+                 "ITEM: ENTRIES index c_p[1] c_p[2] \n" + "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n2\n" +
+                 box + "ITEM: ENTRIES index c_p[1] c_p[2] \n1 4 5 \n1 4 6 \n"));
+    ASSERT_EQ(dump->moments().size(), 2u);
+    EXPECT_TRUE(dump->moments()[1].has_contacts);
+    EXPECT_EQ(dump->moments()[1].grains, 0);
+    const RawFrame frame = dump->read(1);
+    EXPECT_EQ(frame.grains.rows, 0u);
+    EXPECT_THAT(column_of(frame.contacts, "c_p[2]"), ElementsAre(5, 6));
+}
+
+std::string old_frame(const std::string& bounds, const std::string& rows, int count) {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + std::to_string(count) + "\nITEM: BOX BOUNDS\n" +
+           bounds + bounds + bounds + "ITEM: ATOMS\n" + rows;
+}
+
+std::vector<std::string> names_in(const RawFile& dump) {
+    std::vector<std::string> names;
+    for (const RawColumn& column : dump.read(0).grains.columns) names.push_back(column.name);
+    return names;
+}
+
+TEST(TextDump, OldFilesWithoutNames) {
+    const DumpFolder folder;
+    const auto scaled = open_text(
+        folder.write("a", old_frame("-9 12\n", "1 1 0.1 0.2 0.3 0 0 -1\n2 1 1.01 0.5 0 0 0 0\n", 2)));
+    EXPECT_THAT(names_in(*scaled), ElementsAre("id", "type", "xs", "ys", "zs", "ix", "iy", "iz"));
+    ASSERT_EQ(scaled->news().size(), 1u);
+    EXPECT_THAT(scaled->news()[0],
+                HasSubstr("does not name its columns; taken as id type xs ys zs ix iy iz"));
+    EXPECT_FALSE(scaled->read(0).box->periodic[0]);
+    const auto in_metres = open_text(folder.write("b", old_frame("-9 12\n", "1 1 3 0.2 0.3\n", 1)));
+    EXPECT_THAT(names_in(*in_metres), ElementsAre("id", "type", "x", "y", "z"));
+    // Within 0 and 1, but it is the box that is small.
+    const auto small = open_text(
+        folder.write("c", old_frame("0 0.02\n", "1 1 0.01 0.015 0.002\n2 1 0.019 0.001 0.01\n", 2)));
+    EXPECT_THAT(names_in(*small), ElementsAre("id", "type", "x", "y", "z"));
+    const auto other = open_text(folder.write("d", old_frame("0 1\n", "1 2 3\n", 1)));
+    EXPECT_THAT(names_in(*other), ElementsAre("c1", "c2", "c3"));
+}
+
+TEST(TextDump, PackedFramesInAnyOrder) {
+    const DumpFolder folder;
+    std::string first, second;
+    for (int k = 0; k < 3; ++k)
+        first += frame_text(std::to_string(k), "1", "id x", "1 " + std::to_string(10 + k) + "\n");
+    for (int k = 3; k < 5; ++k)
+        second += frame_text(std::to_string(k), "1", "id x", "1 " + std::to_string(10 + k) + "\n");
+    for (const std::string& packed : {gzip_of(first) + gzip_of(second), zstd_of(first + second)}) {
+        const auto dump = open_text(folder.write("a", packed));
+        ASSERT_EQ(dump->moments().size(), 5u);
+        for (const std::size_t k : {0u, 1u, 4u, 2u, 3u, 0u})
+            EXPECT_THAT(column_of(dump->read(k).grains, "x"), ElementsAre(10.0 + static_cast<double>(k)));
+    }
+}
+
+// More than a reader's buffer of lines, each row by its own formula.
+TEST(TextDump, ManyRows) {
+    constexpr int count = 60000;
+    const DumpFolder folder;
+    std::string rows;
+    for (int k = 0; k < count; ++k)
+        rows += std::to_string(k + 1) + " " + std::to_string(k * 0.125) + " 1e-3 \n";
+    const auto dump = open_text(folder.write("a", frame_text("0", std::to_string(count), "id x y ", rows)));
+    const RawTable grains = dump->read(0).grains;
+    ASSERT_EQ(grains.rows, std::size_t{count});
+    for (std::size_t k = 0; k < grains.rows; ++k) {
+        ASSERT_EQ(grains.columns[0].values[k], static_cast<double>(k + 1));
+        ASSERT_EQ(grains.columns[1].values[k], static_cast<double>(k) * 0.125);
+        ASSERT_EQ(grains.columns[2].values[k], 1e-3);
+    }
+}
+
+TEST(TextDump, WhatIsTaken) {
+    const auto takes = [](std::string text) {
+        FileHead head;
+        head.bytes = std::move(text);
+        return lammps_text_format().takes(head);
+    };
+    EXPECT_TRUE(takes("ITEM: TIMESTEP\n0\n"));
+    EXPECT_TRUE(takes("ITEM: UNITS\nlj\n"));
+    EXPECT_TRUE(takes("DUMMY\n0\nITEM: NUMBER OF ATOMS\n"));
+    EXPECT_FALSE(takes("id,x,y,z\n1,2,3,4\n"));
+    EXPECT_FALSE(takes(std::string("\0\0\nITEM: TIMESTEP", 17)));
+    EXPECT_FALSE(takes("LAMMPS data file, see ITEM: TIMESTEP"));
+    EXPECT_FALSE(takes(""));
+}
+
+}  // namespace
+}  // namespace grainreel
