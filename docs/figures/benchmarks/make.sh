@@ -20,8 +20,8 @@ for case in ${*:-impact drum_soft silo_soft}; do
         impact) still impact --at 0.0235 --size 560x640 --set film.cut.normal=[1,0,0] --set film.camera.azimuth=0 \
             --set film.camera.elevation=5 --set film.camera.reach=0.09 --set species.ball.colour=grey \
             --set film.colour.by=speed ;;
-        drum*) still "$case" --at 1 --size 640x640 --set film.camera.azimuth=-90 --set film.camera.elevation=8 ;;
-        silo*) still "$case" --at 0.75 --size 560x720 --set film.cut.normal=[1,0,0] --set film.camera.azimuth=0 \
+        drum*) still "$case" --at 0.5 --size 640x640 --set film.camera.azimuth=-90 --set film.camera.elevation=8 ;;
+        silo*) still "$case" --at 0.5 --size 560x720 --set film.cut.normal=[1,0,0] --set film.camera.azimuth=0 \
             --set film.colour.by=speed ;;
     esac
 done
