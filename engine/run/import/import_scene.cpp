@@ -212,10 +212,14 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
     std::string walls;
     if (!options.container.empty()) {
         const Scene scene = read_scene(options.container, {}, measurable_in);
-        const std::string kept = walls_and_drive(written_scene(scene));
-        const std::size_t tables = kept.find('[');
-        top += kept.substr(0, std::min(tables, kept.size()));
-        walls = tables == std::string::npos ? "" : "\n" + kept.substr(tables);
+        const std::string kept = walls_and_drive(written_scene(scene)) + "\n";
+        // Gravity may be a list in brackets, too.
+        const std::size_t line = kept.find("\n[");
+        const std::size_t tables = kept.front() == '['         ? 0
+                                   : line == std::string::npos ? kept.size()
+                                                               : line + 1;
+        top += kept.substr(0, tables);
+        walls = "\n" + kept.substr(tables);
     } else {
         walls = "\n[container]\nshape = \"none\"\n";
     }

@@ -72,7 +72,7 @@ TEST_F(ForeignAnswers, APageLiesBesideTheFile) {
 TEST_F(ForeignAnswers, TwoFilesAreFilmedSideBySide) {
     write_old_text(here / "other.dump", foreign_dump());
     const Ended ended =
-        timed({"compare", "bed.dump", "other.dump", "--at", "0.01", "--size", "320x160", "--out", "both"});
+        timed({"compare", "bed.dump", "other.dump", "--at", "0.01", "--size", "640x360", "--out", "both"});
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(imports().size(), 2u);
 }

@@ -80,7 +80,7 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
     for (std::size_t k = 0; k < wanted->moments().size(); ++k)
         expect_same_grains(wanted->grains(k), found->grains(k), 1e-15);
     const Ended both =
-        program({"compare", "ours", "ours.dump", "--at", "0.01", "--size", "320x160", "--out", "both"});
+        program({"compare", "ours", "ours.dump", "--at", "0.01", "--size", "640x360", "--out", "both"});
     EXPECT_EQ(both.status, 0) << both.err;
 }
 
