@@ -38,7 +38,7 @@ TEST_F(ForeignFilm, HasThePicturesOfTheFramesOfTheFile) {
     const Ended ended =
         timed({"render", "bed.dump", "--walls", "paddle_*.stl", "--size", "160x120", "--frames"});
     ASSERT_EQ(ended.status, 0) << ended.err;
-    EXPECT_EQ(ended.out, "bed.dump-render\n");
+    EXPECT_EQ(ended.out, "./bed.dump-render\n");
     EXPECT_EQ(decoded_pictures(here / "bed.dump-render/movie.mp4"), kForeignFrames);
     EXPECT_EQ(std::distance(fs::directory_iterator(here / "bed.dump-render/frames"), {}), kForeignFrames);
     EXPECT_THAT(ended.err, HasSubstr("says no density; 2500 kg/m3"));
