@@ -151,6 +151,11 @@ void RunArchive::read_contacts(bool alone) {
 void RunArchive::use_contacts(bool alone) {
     std::error_code ignored;
     if (!alone && !fs::exists(folder_ / "contacts.nc", ignored)) return;
+    if (fs::exists(folder_ / kImportNews, ignored) && !fs::exists(folder_ / "contacts.nc", ignored))
+        throw UserError(
+            fmt::format("{}: its files say no contacts; name files that do by --contacts, or let "
+                        "film.colour.by be something else and film.force_chains false",
+                        folder_.filename().string()));
     const fs::path file = file_of_run(folder_, "contacts.nc",
                                       "the run was not told to keep contacts (output.contacts = true); let "
                                       "film.colour.by be something else and film.force_chains false");

@@ -18,6 +18,9 @@
 
 namespace grainreel {
 
+// In the folder of a run that was made of another program's files: what was guessed and derived, a line each.
+inline constexpr const char* kImportNews = "import_news.txt";
+
 class RunArchive final : public FrameArchive {
   public:
     // folder: as folder_of_run() gives it. scene: that of the folder. Throws UserError when there is no

@@ -15,6 +15,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/series/file_groups.hpp"
+#include "engine/files/frames/run_archive.hpp"
 #include "engine/run/import/import_run.hpp"
 
 namespace grainreel {
@@ -24,7 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // of all imports together
-constexpr const char* kNews = "import_news.txt";
 
 fs::path cache_folder() {
     const auto folder = [](const char* variable) -> fs::path {
@@ -131,7 +131,7 @@ void make_room(const fs::path& imports, const fs::path& keep) {
 ImportedRun found(const fs::path& folder) {
     ImportedRun run;
     run.folder = folder;
-    std::ifstream news(folder / kNews);
+    std::ifstream news(folder / kImportNews);
     for (std::string line; std::getline(news, line);)
         if (!line.empty()) run.news.push_back(line);
     std::error_code ignored;
@@ -150,7 +150,7 @@ ImportedRun cached_import(ImportRequest request) {
         if (std::string("*?[]").find(c) != std::string::npos) c = '_';
     const fs::path place = imports / key_of(request);
     std::error_code error;
-    if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kNews, error))
+    if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kImportNews, error))
         return found(place / name);
     // Each process makes its own, and the first that is done gives it the name.
     const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
@@ -158,11 +158,12 @@ ImportedRun cached_import(ImportRequest request) {
     request.folder = part / name;
     try {
         const ImportedRun made = import_run(request);
-        std::ofstream news(request.folder / kNews);
+        std::ofstream news(request.folder / kImportNews);
         for (const std::string& line : made.news) news << line << "\n";
         news.close();
         if (!news)
-            throw RunError(fmt::format("{}: cannot be written; is the disk full?", (part / kNews).string()));
+            throw RunError(
+                fmt::format("{}: cannot be written; is the disk full?", (part / kImportNews).string()));
         fs::remove_all(place, error);
         fs::rename(part, place, error);
         if (error && !fs::exists(place / name / "scene.toml"))

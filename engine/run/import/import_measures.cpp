@@ -86,13 +86,19 @@ void show(const Frame& frame, const std::vector<Touch>& touches,
     }
 }
 
+// The plan of a start from a file asks for that file, and there is none.
+Scene as_layers(Scene scene) {
+    if (scene.start.method == Start::Method::file) scene.start = Start();
+    return scene;
+}
+
 }  // namespace
 
 struct ImportMeasures::Impl {
     Impl(const Scene& scene_in, const Clock& clock_in, const FrameSupply& supply)
         : scene(scene_in),
           clock(clock_in),
-          plan(make_plan(scene)),
+          plan(make_plan(as_layers(scene))),
           observers(entries(supply), scene, plan),
           faces(faces_of(scene)) {}
 

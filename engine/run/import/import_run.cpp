@@ -141,6 +141,15 @@ std::vector<ContactRecord> records_of(const std::vector<Touch>& touches, const F
     return records;
 }
 
+// The scene that was written a moment ago. What is wrong with it came from the files or the options.
+Scene scene_of(const fs::path& file, const ImportRequest& request) {
+    try {
+        return read_scene(file, {}, measurable_in);
+    } catch (const UserError& why) {
+        throw UserError(fmt::format("{}: cannot be shown as a run: {}", request.from.string(), why.what()));
+    }
+}
+
 }  // namespace
 
 ImportedRun import_run(const ImportRequest& request) {
@@ -157,7 +166,7 @@ ImportedRun import_run(const ImportRequest& request) {
     const ImportSurvey survey = survey_of(archive, [&](std::size_t k) { tell(static_cast<double>(k)); });
 
     write_import_scene(folder.path(), archive, survey, request.reading, run.news);
-    const Scene scene = read_scene(folder.path() / "scene.toml", {}, measurable_in);
+    const Scene scene = scene_of(folder.path() / "scene.toml", request);
     const AsRun as_run(scene, archive.moments(), request.reading.moves_with_container);
 
     World world = world_of(scene);

@@ -1,8 +1,11 @@
 #include "engine/run/import/import_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -86,6 +89,22 @@ void add_row(std::string& text, double time, const BodyPose& pose) {
                         pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
 }
 
+// A name that a [[mesh]] may have: not that of a container's face, of a species or of another mesh.
+std::string mesh_name(const std::string& wanted, const std::vector<std::string>& taken) {
+    std::string bare = wanted;
+    std::replace(bare.begin(), bare.end(), '_', ' ');
+    constexpr std::array<std::string_view, 10> faces{"wall",       "floor",      "lid",         "left wall",
+                                                     "right wall", "left slant", "right slant", "back",
+                                                     "front",      "tray"};
+    const bool face = bare.find_first_not_of(' ') == std::string::npos || bare.starts_with("tray ") ||
+                      std::find(faces.begin(), faces.end(), bare) != faces.end();
+    const std::string base = face ? wanted + " of the files" : wanted;
+    std::string name = base;
+    for (int k = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++k)
+        name = fmt::format("{} {}", base, k);
+    return name;
+}
+
 // Rows of a motion's file: the pose of each moment, and between moments so many that no turn from row to row
 // is larger than a radian. Before the first moment the wall stands.
 std::string path_text(const ForeignArchive& archive, std::size_t wall) {
@@ -148,6 +167,28 @@ std::string walls_and_drive(const std::string& text) {
     return kept;
 }
 
+// m3, of the grains that the species' tables name: of a spread of diameters the mean of d^3.
+double solid_of(const ImportSurvey& survey) {
+    double solid = 0;
+    for (std::size_t s = 0; s < survey.most.size(); ++s) {
+        const double a = survey.smallest[s], b = survey.largest[s];
+        solid += static_cast<double>(survey.most[s]) * std::numbers::pi / 24 * (a + b) * (a * a + b * b);
+    }
+    return solid;
+}
+
+// The box around all grains. It is larger where they lie closer than a scene may pack them: nothing is packed
+// here, and the box tells the camera alone what to show.
+std::string region_text(const ImportSurvey& survey) {
+    constexpr double most_solid = 0.5;  // a scene may have 0.55
+    const Vec3 size = (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
+    const double solid = solid_of(survey) / (most_solid * size.prod());
+    const double grown = std::max(1e-9, 0.5 * (std::cbrt(solid) - 1));
+    const Vec3 margin = grown * size;
+    return fmt::format("region = {{ low = {}, high = {} }}\n", triple(survey.low - margin),
+                       triple(survey.high + margin));
+}
+
 std::string film_text(const ForeignArchive& archive) {
     const std::vector<Frame>& moments = archive.moments();
     const double span = moments.back().time - moments.front().time;
@@ -171,18 +212,26 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
     std::string walls;
     if (!options.container.empty()) {
         const Scene scene = read_scene(options.container, {}, measurable_in);
-        const std::string kept = walls_and_drive(written_scene(scene));
-        const std::size_t tables = kept.find('[');
-        top += kept.substr(0, std::min(tables, kept.size()));
-        walls = tables == std::string::npos ? "" : "\n" + kept.substr(tables);
+        const std::string kept = walls_and_drive(written_scene(scene)) + "\n";
+        // Gravity may be a list in brackets, too.
+        const std::size_t line = kept.find("\n[");
+        const std::size_t tables = kept.front() == '['         ? 0
+                                   : line == std::string::npos ? kept.size()
+                                                               : line + 1;
+        top += kept.substr(0, tables);
+        walls = "\n" + kept.substr(tables);
     } else {
         walls = "\n[container]\nshape = \"none\"\n";
     }
+    std::vector<std::string> names;
+    for (const WorldSpecies& species : archive.world().species) names.push_back(species.name);
     for (std::size_t w = 0; w < archive.walls().size(); ++w) {
         const MovingWall& wall = archive.walls()[w];
         const std::string file = fmt::format("wall_{}.ply", w), path = fmt::format("wall_{}_path.csv", w);
         write_ply(folder / file, wall.shape);
-        walls += fmt::format("\n[[mesh]]\nname = {}\nfile = {}\n", quoted(wall.name), quoted(file));
+        const std::string name = mesh_name(wall.name, names);
+        names.push_back(name);
+        walls += fmt::format("\n[[mesh]]\nname = {}\nfile = {}\n", quoted(name), quoted(file));
         bool moves = wall.moves && moments.size() > 1;
         if (moves) {
             write_text(folder / path, path_text(archive, w));
@@ -192,15 +241,11 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
     }
     const Frame& one = moments.back().step != 0 ? moments.back() : moments.front();
     const double step = one.step != 0 && one.time != 0 ? one.time / static_cast<double>(one.step) : 1e-6;
-    const Vec3 margin = 1e-9 * (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
+    // The container of a scene may be fuller than what can be packed: a start from a file is not checked.
     const std::string start =
-        fmt::format("\n[start]\nregion = {{ low = {}, high = {} }}\n\n[run]\nduration = {}\nstep = {}\n",
-                    triple(survey.low - margin), triple(survey.high + margin),
-                    number(std::max(moments.back().time, step)), number(step));
-    const std::string begin = options.container.empty()
-                                  ? start
-                                  : fmt::format("\n[run]\nduration = {}\nstep = {}\n",
-                                                number(std::max(moments.back().time, step)), number(step));
+        options.container.empty() ? region_text(survey) : "method = \"file\"\nfile = \"final.csv\"\n";
+    const std::string begin = fmt::format("\n[start]\n{}\n[run]\nduration = {}\nstep = {}\n", start,
+                                          number(std::max(moments.back().time, step)), number(step));
     write_text(folder / "scene.toml",
                top + species_text(archive, survey, news) + walls + begin + film_text(archive));
 }

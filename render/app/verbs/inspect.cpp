@@ -243,6 +243,9 @@ class Inspect final : public Verb {
         reading_.one = true;
         asked_ = foreign || fs::is_regular_file(run_, ignored) ? open_filmed_state(run_, sets_, reading_)
                                                                : open_filmed_run(run_, sets_for_contacts());
+        // A trajectory of ours alone is no file of another program here.
+        foreign_ = dynamic_cast<const ForeignArchive*>(&asked_->record->frames()) != nullptr;
+        no_replay_ = no_replay_ || foreign_;
         CaptionHolds holds(asked_->scene().film);
         moment_.held = [holds](double time) mutable { return holds.begin_at(time); };
     }
@@ -317,6 +320,7 @@ class Inspect final : public Verb {
         if (moment_.cycle) *moment_.cycle += phase_;
         const AskedMoment asked = finder.find(moment_);
         const char* last = asked.last ? "the run's last moment, " : "";
+        if (foreign_) check_known(asked, record);
         if (no_replay_ && asks_for_forces())
             throw UserError(
                 "--no-replay: forces on walls and overlaps are not kept, they are brought back; leave it "
@@ -337,6 +341,23 @@ class Inspect final : public Verb {
         const Frame& frame = snapshot.frame;
         AnswerMoment about{frame.time, frame.step, fmt::format("{}brought back", last)};
         return {std::move(snapshot), std::move(about)};
+    }
+
+    // Nothing of another program's run can be brought back.
+    void check_known(const AskedMoment& asked, const Record& record) const {
+        if (asks_for_forces())
+            throw UserError(
+                fmt::format("{}: {}: forces on walls and overlaps are known of runs of ours alone",
+                            wall_ ? "--wall" : "--largest-overlap", run_.string()));
+        if (takes(Needs::contacts) && !record.frames().has_contacts_of(asked.nearest))
+            throw UserError(
+                fmt::format("{}: says no contacts of that moment; name a file that has them by --contacts",
+                            run_.string()));
+        if (takes(Needs::forces) || takes(Needs::period))
+            throw UserError(
+                fmt::format("{}: a quantity that is asked for is known of runs of ours alone; "
+                            "--help lists the others, without a *",
+                            run_.string()));
     }
 
     static ReplayWatcher watcher_of(Reporter& reporter) {
@@ -441,7 +462,7 @@ class Inspect final : public Verb {
     std::optional<std::int64_t> grain_;
     std::optional<std::string> wall_, where_, profile_, slice_, histogram_;
     bool pairs_ = false, largest_overlap_ = false, no_replay_ = false, json_ = false, csv_ = false,
-         over_time_ = false;
+         over_time_ = false, foreign_ = false;
     std::vector<std::string> missing_;  // what an answer lacks
     int bins_ = 20;
     std::size_t limit_ = 10;

@@ -112,10 +112,12 @@ void FollowRun::show_progress() {
 
 void FollowRun::look_again() {
     std::unique_ptr<ForeignArchive> now;
+    wrong_.clear();
     try {
         now = opened(what_);
-    } catch (const UserError&) {
-        return;  // half written; the next look sees more
+        if (!now) wrong_ = what_.from.string() + ": is not there any more, or holds no frame";
+    } catch (const UserError& why) {
+        wrong_ = why.what();  // half written, as it seems; the next look sees more
     }
     if (!now) return;
     if (now->moments().size() < drawn_)
@@ -142,7 +144,11 @@ bool FollowRun::work() {
         const std::size_t before = drawn_;
         if (!draw_new()) return false;
         if (drawn_ > before) last = Steady::now();
-        if (seconds_since(last) >= what_.idle) break;
+        if (seconds_since(last) >= what_.idle) {
+            if (wrong_.empty()) break;
+            throw RunError(
+                fmt::format("{} ({} frames were drawn; it was truncated or replaced)", wrong_, drawn_));
+        }
         const Steady::time_point begin = Steady::now();
         look_again();
         // Looking takes long where there are many files, and must not be all that is done.

@@ -42,6 +42,7 @@ class FollowRun final : public FilmRun {
     std::unique_ptr<ForeignArchive> frames_;
     FilmedScene scene_;
     std::size_t drawn_ = 0;
+    std::string wrong_;  // with the files at the last look; empty: nothing
 };
 
 }  // namespace grainreel

@@ -29,14 +29,15 @@ std::optional<std::size_t> row_of(const Frame& frame, std::int32_t id) {
     return static_cast<std::size_t>(found - frame.id.begin());
 }
 
-std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const View& view, const TextStyle& style,
-                             double gap) {
+std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const View& view,
+                             const TextStyle& style, double gap) {
     const std::optional<std::size_t> row = row_of(frame, label.id);
     if (!row) return std::nullopt;
     const Vec3& at = frame.position[*row];
     if (!view.orthographic && view.to_view(at).z() <= 0) return std::nullopt;
     const Eigen::Vector2d centre = view.project(at);
-    const bool inside = centre.x() >= 0 && centre.y() >= 0 && centre.x() <= view.port.width && centre.y() <= view.port.height;
+    const bool inside =
+        centre.x() >= 0 && centre.y() >= 0 && centre.x() <= view.port.width && centre.y() <= view.port.height;
     if (!inside) return std::nullopt;
     const double radius = frame.radius[*row] * view.pixels_per_metre(at);
     const TextSize size = measure_text(label.text, style);
@@ -53,8 +54,8 @@ std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const V
 
 }  // namespace
 
-void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view, const PictureLayout& layout,
-                       const Palette& palette, Picture& picture) {
+void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
+                       const PictureLayout& layout, const Palette& palette, Picture& picture) {
     const TypeScale& type = layout.type;
     const TextStyle style{type.main, false};
     std::vector<Placed> all;

@@ -10,9 +10,9 @@
 
 namespace grainreel {
 
-// Of a frame as it is drawn. A label whose grain is not there, or lies outside the view, is left out; one that would
-// lie over another moves down below it.
-void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view, const PictureLayout& layout,
-                       const Palette& palette, Picture& picture);
+// Of a frame as it is drawn. A label whose grain is not there, or lies outside the view, is left out; one
+// that would lie over another moves down below it.
+void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
+                       const PictureLayout& layout, const Palette& palette, Picture& picture);
 
 }  // namespace grainreel

@@ -29,7 +29,8 @@ void read_labels(Document& document, FilmedScene& scene) {
     label_table().read_elements(document, scene, "film.label", labels);
     constexpr std::size_t most = 50;
     if (labels.size() > most)
-        document.fail("film.label", fmt::format("there are {} labels; a picture has room for {} at most", labels.size(), most));
+        document.fail("film.label", fmt::format("there are {} labels; a picture has room for {} at most",
+                                                labels.size(), most));
     for (std::size_t k = 0; k < labels.size(); ++k)
         if (labels[k].text.empty())
             document.fail(fmt::format("film.label[{}].text", k), "must not be empty; take the label out");

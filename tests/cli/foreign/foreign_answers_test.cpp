@@ -1,0 +1,144 @@
+// Questions to files of other programs, pages of them, files compared, and the cache that they are read into.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/foreign/foreign_bed.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+class ForeignAnswers : public ForeignBed {
+  protected:
+    nlohmann::json answer(std::vector<std::string> words) {
+        words.emplace_back("--json");
+        const Ended ended = timed(std::move(words));
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return nlohmann::json::parse(ended.out, nullptr, false);
+    }
+    // What is left of the folder beside what the test wrote, the cache left out.
+    std::ptrdiff_t entries() const {
+        std::ptrdiff_t count = 0;
+        for (const auto& one : fs::directory_iterator(here.path())) count += one.path().filename() != "cache";
+        return count;
+    }
+    void expect_refused(const std::vector<std::string>& words, const std::string& why) {
+        const std::ptrdiff_t before = entries();
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(why));
+        EXPECT_EQ(entries(), before);
+        EXPECT_THAT(imports(), testing::IsEmpty());
+    }
+};
+
+TEST_F(ForeignAnswers, AreOfTheFrameThatIsAskedFor) {
+    const nlohmann::json said =
+        answer({"inspect", "bed.dump", "--frame", "2", "--where", "radius > 3.5 mm", "--limit", "40"});
+    EXPECT_EQ(said["moment"]["step"], 2000);
+    EXPECT_DOUBLE_EQ(said["moment"]["time"].get<double>(), 2000 * kForeignStep);
+    const nlohmann::json& grains = said["tables"]["grains"];
+    ASSERT_EQ(grains["rows"].size(), kForeignGrains / 2);
+    EXPECT_EQ(grains["rows"][0][0], 2);  // the first even id
+    EXPECT_EQ(grains["rows"][0][1], "type 1");
+    EXPECT_NEAR(grains["rows"][0][4].get<double>(), 0.015 + 0.002, 1e-12);  // z of the upper layer
+}
+
+TEST_F(ForeignAnswers, KnowTheContactsOfAContactDump) {
+    const nlohmann::json said =
+        answer({"inspect", "bed.dump", "--frame", "1", "--grain", "39", "--contacts", "contacts.dump"});
+    const nlohmann::json& rows = said["tables"]["contacts"]["rows"];
+    ASSERT_EQ(rows.size(), 2u);
+    double sum = 0;
+    for (const nlohmann::json& row : rows) sum += row[2].get<double>();
+    EXPECT_DOUBLE_EQ(sum, 0.75);  // N
+}
+
+TEST_F(ForeignAnswers, APageLiesBesideTheFile) {
+    fs::create_directory(here / "post");
+    fs::rename(here / "bed.dump", here / "post/bed.dump");
+    const Ended ended = timed({"report", "post/bed.dump"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "post/bed.dump-report.html\n");
+    EXPECT_THAT(text_of(here / "post/bed.dump-report.html"), HasSubstr("<html"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(here / "post"), {}), 2);
+}
+
+TEST_F(ForeignAnswers, TwoFilesAreFilmedSideBySide) {
+    write_old_text(here / "other.dump", foreign_dump());
+    const Ended ended =
+        timed({"compare", "bed.dump", "other.dump", "--at", "0.01", "--size", "640x360", "--out", "both"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(imports().size(), 2u);
+}
+
+TEST_F(ForeignAnswers, WithoutARadiusNothingIsDrawn) {
+    write_old_text(here / "points.dump", foreign_dump(2, false));
+    for (const char* verb : {"render", "inspect", "report"})
+        expect_refused({verb, "points.dump"}, "says no radius of its grains; give one by --radius 2mm");
+    expect_refused({"export", "points.dump", "--to", "csv"}, "--radius");
+    const nlohmann::json said =
+        answer({"inspect", "points.dump", "--radius", "1=4mm,2=3mm", "--where", "radius > 3.5 mm"});
+    EXPECT_EQ(said["tables"]["count"]["rows"][2][1], kForeignGrains / 2);
+}
+
+TEST_F(ForeignAnswers, MistakesAreRefused) {
+    expect_refused({"render", "nothing_*.dump"}, "nothing_*.dump");
+    expect_refused({"inspect", "nothing_*.dump"}, "nothing_*.dump");
+    expect_refused({"report", "not_there.dump"}, "not_there.dump");
+    expect_refused({"render", "bed.dump", "--radius", "minus"}, "--radius");
+    expect_refused({"render", "bed.dump", "--units", "feet"}, "there are no such units");
+    expect_refused({"render", "bed.dump", "--columns", "colour=type"}, "there is no such meaning");
+    expect_refused({"render", "bed.dump", "--columns", "radius=c_rad"}, "c_rad");
+    expect_refused({"render", "bed.dump", "--contacts", "no_*.dump"}, "no_*.dump");
+    expect_refused({"render", "bed.dump", "--container", "no.toml"}, "no.toml");
+    expect_refused({"render", "bed.dump", "--walls", "no.stl"}, "no.stl");
+}
+
+TEST_F(ForeignAnswers, OptionsOfReadingAreNotForRunsOfOurs) {
+    ASSERT_EQ(timed({"inspect", "bed.dump"}).status, 0);
+    fs::rename(import(), here / "ours");
+    for (const char* verb : {"render", "inspect", "report"}) {
+        const Ended ended = program({verb, "ours", "--radius", "2mm"});
+        EXPECT_EQ(ended.status, 2) << verb;
+        EXPECT_THAT(ended.err, HasSubstr("--radius: is for files of other programs"));
+    }
+}
+
+TEST_F(ForeignAnswers, ASecondCallUsesWhatTheFirstRead) {
+    ASSERT_EQ(timed({"report", "bed.dump"}).status, 0);
+    ASSERT_EQ(imports().size(), 1u);
+    const fs::path measures = import() / "measures.csv";
+    const auto written = fs::last_write_time(measures);
+    const Ended again = timed({"report", "bed.dump"});
+    EXPECT_EQ(again.status, 0);
+    EXPECT_THAT(again.err, HasSubstr("says no density"));  // also where it was read before
+    EXPECT_EQ(imports().size(), 1u);
+    EXPECT_EQ(fs::last_write_time(measures), written);
+}
+
+TEST_F(ForeignAnswers, AChangedFileIsReadAnew) {
+    const std::vector<std::string> words = {"report", "bed.dump"};
+    ASSERT_EQ(timed(words).status, 0);
+    write_text(here / "bed.dump", foreign_dump(2));
+    ASSERT_EQ(timed(words).status, 0);
+    EXPECT_EQ(imports().size(), 2u);
+    const nlohmann::json said = answer({"inspect", "bed.dump", "--where", "radius > 1 mm"});
+    EXPECT_EQ(said["moment"]["step"], 1000);  // the last of two
+}
+
+TEST_F(ForeignAnswers, ACacheThatCannotBeWrittenIsDoneWithout) {
+    write_text(here / "cache", "a file where the folder would be");
+    const Ended ended =
+        timed({"render", "bed.dump", "--at", "0.01", "--size", "160x120", "--out", "one.png"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_TRUE(fs::exists(here / "one.png"));
+}
+
+}  // namespace
+}  // namespace grainreel

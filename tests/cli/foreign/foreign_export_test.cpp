@@ -1,0 +1,111 @@
+// `grainreel export`: from a file of another program to each format, and back where the format is read.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/files/frames/export_frames.hpp"
+#include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/write_frames.hpp"
+#include "tests/cli/foreign/foreign_bed.hpp"
+#include "tests/cli/small_scene.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+
+class ForeignExport : public ForeignBed {
+  protected:
+    fs::path exported(const std::string& from, const std::string& format) {
+        Ended ended = timed({"export", from, "--to", format, "--out", "made-" + format, "--walls",
+                             "paddle_0.stl", "--contacts", "contacts.dump"});
+        EXPECT_EQ(ended.status, 0) << format << ' ' << ended.err;
+        EXPECT_TRUE(ended.out.ends_with("made-" + format + "\n")) << ended.out;
+        return here / ("made-" + format);
+    }
+};
+
+// Each grain by its id, to the format's precision (m).
+void expect_same_grains(const Frame& a, const Frame& b, double precision) {
+    ASSERT_EQ(a.id, b.id);
+    EXPECT_EQ(a.species, b.species);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ASSERT_NEAR((a.position[i] - b.position[i]).norm(), 0, precision) << a.id[i];
+        ASSERT_NEAR(a.radius[i], b.radius[i], precision) << a.id[i];
+    }
+}
+
+TEST_F(ForeignExport, WritesEachFormat) {
+    for (const FrameFormat& format : frame_formats()) {
+        const fs::path made = exported("bed.dump", format.name);
+        EXPECT_TRUE(fs::exists(made)) << format.name;
+    }
+}
+
+TEST_F(ForeignExport, WhatIsReadBackHasTheSameGrains) {
+    FrameRequest request;
+    request.reading.time_step = kForeignStep;
+    const auto wanted = open_frames(here / "bed.dump", request);
+    // Floats of some centimetres are exact to 4e-9 m.
+    const std::vector<std::pair<std::string, double>> formats = {{"lammps-dump", 1e-12}, {"xyz", 1e-12},
+                                                                 {"csv", 1e-12},         {"netcdf", 1e-12},
+                                                                 {"gsd", 4e-9},          {"vtk", 4e-9}};
+    for (const auto& [format, precision] : formats) {
+        SCOPED_TRACE(format);
+        fs::path made = exported("bed.dump", format);
+        if (format == "vtk") made /= "grains.pvd";
+        const auto found = open_frames(made, format == "lammps-dump" ? request : FrameRequest());
+        ASSERT_EQ(found->moments().size(), wanted->moments().size());
+        for (std::size_t k = 0; k < wanted->moments().size(); ++k)
+            expect_same_grains(wanted->grains(k), found->grains(k), precision);
+    }
+}
+
+// Ours, theirs made of ours, and both in one picture.
+TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
+    std::string scene = small_scene_text;
+    ASSERT_NE(scene.find("duration = \"0.2 s\""), std::string::npos);
+    scene.replace(scene.find("duration = \"0.2 s\""), 18, "duration = \"0.02 s\"");
+    write_text(here / "fifty.toml", scene);
+    const Ended run = program(
+        {"movie", "fifty.toml", "--out", "ours", "--no-film", "--set", "output.trajectory_interval=0.01"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    ASSERT_EQ(program({"export", "ours", "--to", "lammps-dump", "--out", "ours.dump"}).status, 0);
+    const auto wanted = open_frames(here / "ours"), found = open_frames(here / "ours.dump");
+    ASSERT_EQ(found->moments().size(), wanted->moments().size());
+    for (std::size_t k = 0; k < wanted->moments().size(); ++k)
+        expect_same_grains(wanted->grains(k), found->grains(k), 1e-15);
+    const Ended both =
+        program({"compare", "ours", "ours.dump", "--at", "0.01", "--size", "640x360", "--out", "both"});
+    EXPECT_EQ(both.status, 0) << both.err;
+}
+
+TEST_F(ForeignExport, NeverWritesOverWhatIsThere) {
+    write_text(here / "mine.csv", "precious");
+    const Ended ended = timed({"export", "bed.dump", "--to", "csv", "--out", "mine.csv"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, HasSubstr("mine.csv"));
+    EXPECT_EQ(text_of(here / "mine.csv"), "precious");
+    EXPECT_EQ(timed({"export", "bed.dump", "--to", "csv", "--out", "mine.csv", "--force"}).status, 0);
+    EXPECT_NE(text_of(here / "mine.csv"), "precious");
+}
+
+TEST_F(ForeignExport, TakesTheMomentsThatWereChosen) {
+    ASSERT_EQ(
+        timed({"export", "bed.dump", "--to", "csv", "--from", "0.01", "--every", "2", "--out", "two.csv"})
+            .status,
+        0);
+    const std::string text = text_of(here / "two.csv");
+    // A line a grain of frames 1 and 3, and the header.
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 * kForeignGrains + 1);
+    const Ended none = timed({"export", "bed.dump", "--to", "csv", "--from", "7", "--out", "none.csv"});
+    EXPECT_EQ(none.status, 2) << none.err;
+    EXPECT_FALSE(fs::exists(here / "none.csv"));
+}
+
+}  // namespace
+}  // namespace grainreel
