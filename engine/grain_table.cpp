@@ -47,9 +47,9 @@ void append(fmt::memory_buffer& row, const double* values, int count) {
 }
 
 // One row's cells, taken from the left; knows its place for messages.
-class Row {
+class GrainRow {
   public:
-    Row(const std::filesystem::path& path, int line, std::string_view text)
+    GrainRow(const std::filesystem::path& path, int line, std::string_view text)
         : path_(path), line_(line), text_(text) {}
 
     template <class Number>
@@ -98,7 +98,7 @@ class Row {
     std::size_t at_ = 0, last_ = 0;
 };
 
-void read_grain(Row& row, const TableForm& form, std::unordered_set<std::int32_t>& ids, Frame& frame) {
+void read_grain(GrainRow& row, const TableForm& form, std::unordered_set<std::int32_t>& ids, Frame& frame) {
     frame.id.push_back(row.take<std::int32_t>("id"));
     if (frame.id.back() < 0) row.reject("`id` is negative");
     if (!ids.insert(frame.id.back()).second)
@@ -165,7 +165,7 @@ Frame read_grain_table(const std::filesystem::path& path) {
     for (int number = 2; std::getline(file, line); ++number) {
         if (line.ends_with('\r')) line.pop_back();
         if (line.empty()) continue;
-        Row row(path, number, line);
+        GrainRow row(path, number, line);
         read_grain(row, *form, ids, frame);
     }
     if (frame.size() == 0) throw UserError(fmt::format("{}:2:1: no grains in the table", path.string()));

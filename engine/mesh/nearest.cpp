@@ -1,4 +1,6 @@
 // The nearest point of one triangle.
+#include <algorithm>
+
 #include "engine/mesh/surface.hpp"
 
 namespace grainreel {
@@ -55,6 +57,21 @@ NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     if (best.squared >= 0) return best;
     const double distance = n.dot(to[0]);
     return {point - distance * n, distance * distance, Feature::face};
+}
+
+// The edges' tests above are heights over the edges, times their lengths.
+double Surface::stays_on_face(std::int32_t triangle, const Vec3& point) const {
+    constexpr double kRounding = 1e-13, kLess = 1 - 1e-9;
+    const Vec3& n = normal(triangle);
+    double least = std::numeric_limits<double>::infinity();
+    for (int e = 0; e < 3; ++e) {
+        const Vec3 to = point - corner(triangle, e), on = point - corner(triangle, e == 2 ? 0 : e + 1);
+        const double height = n.dot(to.cross(on)) - kRounding * to.norm() * on.norm();
+        const double stays = height / (on - to).norm();
+        if (!(stays > 0)) return -1;
+        least = std::min(least, stays);
+    }
+    return kLess * least;
 }
 
 }  // namespace grainreel

@@ -84,9 +84,10 @@ class Ray {
 
 }  // namespace
 
-// Calls met(hit) for each crossing, nearer boxes first; it returns how far (m) the ray goes on.
+// Calls met(hit) for each crossing within `reach` (m), nearer boxes first; it returns how far the ray goes
+// on.
 template <class Met>
-void Surface::visit_ray(const Vec3& from, const Vec3& direction, Met&& met) const {
+void Surface::visit_ray(const Vec3& from, const Vec3& direction, double reach, Met&& met) const {
     if (nodes_.empty()) return;
     const Ray ray(from, direction, nodes_[0].box);
     struct Waiting {
@@ -95,7 +96,6 @@ void Surface::visit_ray(const Vec3& from, const Vec3& direction, Met&& met) cons
     };
     std::array<Waiting, kDeepest> stack;
     std::size_t size = 0;
-    double reach = std::numeric_limits<double>::infinity();
     const double first = ray.enters(nodes_[0].box);
     if (first >= 0) stack[size++] = {0, first};
     while (size > 0) {
@@ -120,7 +120,7 @@ void Surface::visit_ray(const Vec3& from, const Vec3& direction, Met&& met) cons
 
 std::optional<Surface::Hit> Surface::first_hit(const Vec3& from, const Vec3& direction) const {
     std::optional<Hit> best;
-    visit_ray(from, direction, [&](const Hit& hit) {
+    visit_ray(from, direction, std::numeric_limits<double>::infinity(), [&](const Hit& hit) {
         const bool better = !best || hit.distance < best->distance ||
                             (hit.distance == best->distance && hit.triangle < best->triangle);
         if (better) best = hit;
@@ -131,7 +131,7 @@ std::optional<Surface::Hit> Surface::first_hit(const Vec3& from, const Vec3& dir
 
 void Surface::all_hits(const Vec3& from, const Vec3& direction, std::vector<Hit>& hits) const {
     const auto before = static_cast<std::ptrdiff_t>(hits.size());
-    visit_ray(from, direction, [&](const Hit& hit) {
+    visit_ray(from, direction, std::numeric_limits<double>::infinity(), [&](const Hit& hit) {
         hits.push_back(hit);
         return std::numeric_limits<double>::infinity();
     });
@@ -140,9 +140,9 @@ void Surface::all_hits(const Vec3& from, const Vec3& direction, std::vector<Hit>
     });
 }
 
-bool Surface::meets(const Vec3& from, const Vec3& direction) const {
+bool Surface::meets(const Vec3& from, const Vec3& direction, double reach) const {
     bool any = false;
-    visit_ray(from, direction, [&](const Hit&) {
+    visit_ray(from, direction, reach, [&](const Hit&) {
         any = true;
         return -1.0;
     });

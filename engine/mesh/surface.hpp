@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,6 +66,9 @@ class Surface {
         NearestPoint point;
     };
     std::optional<Nearest> nearest(const Vec3& point, double reach) const;
+    // m, how far a point may move, in any direction, while its nearest point stays on the triangle's face. A
+    // little less, for rounding; below 0 where it is not on the face.
+    double stays_on_face(std::int32_t triangle, const Vec3& point) const;
     // Appends all triangles within `reach` (m) of the point, by rising number.
     void near(const Vec3& point, double reach, std::vector<std::int32_t>& found) const;
     bool any_within(const Vec3& point, double reach) const;
@@ -80,7 +84,9 @@ class Surface {
     std::optional<Hit> first_hit(const Vec3& from, const Vec3& direction) const;
     // All crossings, by rising distance; appended.
     void all_hits(const Vec3& from, const Vec3& direction, std::vector<Hit>& hits) const;
-    bool meets(const Vec3& from, const Vec3& direction) const;
+    // Whether it crosses any, within `reach` (m).
+    bool meets(const Vec3& from, const Vec3& direction,
+               double reach = std::numeric_limits<double>::infinity()) const;
 
     // Appends the triangles that reach from below that height (m) to it or above.
     void across_level(double z, std::vector<std::int32_t>& found) const;
@@ -104,7 +110,7 @@ class Surface {
     template <class Within>
     void visit(const Vec3& point, double squared_reach, Within&& within) const;
     template <class Met>
-    void visit_ray(const Vec3& from, const Vec3& direction, Met&& met) const;
+    void visit_ray(const Vec3& from, const Vec3& direction, double reach, Met&& met) const;
 
     TriangleMesh mesh_;
     MeshFacts facts_;

@@ -22,6 +22,16 @@ int longest_axis(const std::vector<Item>& items, std::int32_t first, std::int32_
     return axis;
 }
 
+// m2, of a point from a box; 0 in it.
+double squared_to(const Eigen::AlignedBox3d& box, const Vec3& point) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double out = std::max(0.0, std::max(box.min()[k] - point[k], point[k] - box.max()[k]));
+        sum += out * out;
+    }
+    return sum;
+}
+
 }  // namespace
 
 // Halves along the longest axis, at the middle triangle; boxes from the leaves upwards.
@@ -64,7 +74,7 @@ void Surface::build_tree() {
 // shorten by what it returns: the new square of the reach (m2); below zero it ends.
 template <class Within>
 void Surface::visit(const Vec3& point, double squared_reach, Within&& within) const {
-    if (nodes_.empty() || !(nodes_[0].box.squaredExteriorDistance(point) <= squared_reach)) return;
+    if (nodes_.empty() || !(squared_to(nodes_[0].box, point) <= squared_reach)) return;
     struct Waiting {
         std::int32_t node;
         double squared;
@@ -83,10 +93,8 @@ void Surface::visit(const Vec3& point, double squared_reach, Within&& within) co
             if (squared_reach < 0) return;
         }
         if (node.count > 0) continue;
-        Waiting near{node.first,
-                     nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point)};
-        Waiting far{node.first + 1,
-                    nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(point)};
+        Waiting near{node.first, squared_to(nodes_[static_cast<std::size_t>(node.first)].box, point)};
+        Waiting far{node.first + 1, squared_to(nodes_[static_cast<std::size_t>(node.first) + 1].box, point)};
         if (far.squared < near.squared) std::swap(near, far);
         if (far.squared <= squared_reach) stack[size++] = far;
         if (near.squared <= squared_reach) stack[size++] = near;

@@ -13,8 +13,7 @@ namespace {
 bool is_free(const Surface& surface, const Vec3& from, const Vec3& to) {
     const Vec3 way = to - from;
     const double length = way.norm();
-    const auto hit = surface.first_hit(from, way / length);
-    return !hit || hit->distance > length;
+    return !surface.meets(from, way / length, length);
 }
 
 // That way for a grain and not for a point alone: on its axis and at four sides of it.

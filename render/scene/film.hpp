@@ -46,6 +46,13 @@ inline bool shows_caption(const FilmCaption& caption, double time) {
     return time >= caption.from - rounding && time < caption.to - rounding;
 }
 
+// Words beside a grain.
+struct FilmLabel {
+    int id = 0;
+    std::string text;
+    bool operator==(const FilmLabel&) const = default;
+};
+
 // Where the camera is at one moment of the film; what is left empty follows from the other keys.
 struct CameraKey {
     double time = 0;  // s of film
@@ -90,6 +97,7 @@ struct Film {
     std::string title;  // shown on the frame; empty: none is
     std::vector<FilmSegment> segments;
     std::vector<FilmCaption> captions;  // by rising time; none over another
+    std::vector<FilmLabel> labels;
     int periods = 0;  // of the drive, that locked frames, displacements and means go by; 0: as the bed does
     Camera camera;
     Colour background{1, 1, 1};

@@ -35,6 +35,7 @@ struct GrainColouring {
     ColourMap map = ColourMap::viridis;
     std::array<double, 2> range{0, 1};  // of the quantity, for the whole film
     bool fixed = false;                 // the range is the user's
+    bool logarithmic = false;           // equal ratios have equal distances on the bar; the range is positive
     std::string unit;                   // of the colour bar; empty for pure numbers
     int layers = 5;                     // bands of start_height
     bool as_field = false;              // a layer of means before pale grains, in place of coloured grains

@@ -104,7 +104,7 @@ def drum(radius=0.1, length=0.03, facets=72):
     return along_x(prism(ring, length / 2))
 
 
-def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.015, base=10.0, tip=5.0):
+def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.025, base=10.0, tip=5.0):
     """The same with bars along its wall, `lifter` high, so many degrees wide at base and tip."""
     step, ring = 360 / facets, []
     for k in range(lifters):

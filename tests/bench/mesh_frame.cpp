@@ -1,6 +1,6 @@
-// What walls of triangles cost a frame: a bed of 10,000 grains in 1920 x 1080, alone and inside a vessel of so
-// many triangles, glass before the grains and solid behind them. Processor time of the whole process on one
-// thread, frames in turns, the same eye for both.
+// What walls of triangles cost a frame: a bed of 10,000 grains in 1920 x 1080, alone and inside a vessel of
+// so many triangles, glass before the grains and solid behind them. Processor time of the whole process on
+// one thread, frames in turns, the same eye for both.
 //
 //   mesh_frame [triangles, 10000] [rounds, 20]
 #include <ctime>
@@ -100,7 +100,8 @@ int measure(int triangles, int rounds) {
     const Frame frame = bed();
     std::array<std::unique_ptr<Renderer>, 2> renderers;
     std::array<std::vector<double>, 2> times;
-    for (std::size_t k = 0; k < 2; ++k) renderers[k] = std::make_unique<Renderer>(scene_with(k == 0 ? 0 : n), 1);
+    for (std::size_t k = 0; k < 2; ++k)
+        renderers[k] = std::make_unique<Renderer>(scene_with(k == 0 ? 0 : n), 1);
     Picture picture(1920, 1080);
     for (int round = -2; round < rounds; ++round)
         for (std::size_t k = 0; k < 2; ++k) {
@@ -113,7 +114,8 @@ int measure(int triangles, int rounds) {
     std::printf("%zu grains, %d rounds, ms of processor time a frame: least, median\n", frame.size(), rounds);
     std::printf("alone              %6.1f %6.1f\n", times[0].front(), middle(0));
     std::printf("%6d triangles   %6.1f %6.1f\n", 10 * n * n, times[1].front(), middle(1));
-    std::printf("difference         %6.1f %6.1f\n", times[1].front() - times[0].front(), middle(1) - middle(0));
+    std::printf("difference         %6.1f %6.1f\n", times[1].front() - times[0].front(),
+                middle(1) - middle(0));
     return 0;
 }
 
@@ -121,6 +123,7 @@ int measure(int triangles, int rounds) {
 }  // namespace grainreel
 
 int main(int count, char** words) {
-    const int triangles = count > 1 ? std::atoi(words[1]) : 10'000, rounds = count > 2 ? std::atoi(words[2]) : 20;
+    const int triangles = count > 1 ? std::atoi(words[1]) : 10'000,
+              rounds = count > 2 ? std::atoi(words[2]) : 20;
     return grainreel::measure(std::max(triangles, 10), std::max(rounds, 1));
 }

@@ -128,8 +128,9 @@ TEST(WallColours, WearIsAnotherQuantityAndNothingFlickers) {
     EXPECT_EQ(*meshes.at(frame_of({})).front().colours, first);
     EXPECT_EQ(meshes.clipped().all, 8);
     EXPECT_EQ(meshes.clipped().above, 2);
-    EXPECT_EQ(clipped_words(plate.scene.film.look.walls, meshes.clipped()),
-              "walls by wear: 25 % of the triangles lie above 1 kJ/m², where the bar ends (film.walls.range)");
+    EXPECT_EQ(
+        clipped_words(plate.scene.film.look.walls, meshes.clipped()),
+        "walls by wear: 25 % of the triangles lie above 1 kJ/m², where the bar ends (film.walls.range)");
     meshes.colour_by(frame_of({}));  // of a moment whose wear is not known
     EXPECT_EQ(meshes.at(frame_of({})).front().colours, nullptr);
 }
@@ -150,7 +151,8 @@ TEST(WallColours, HaveABarOfTheirOwn) {
     both.film.shows.colour = grains.film.shows.colour;
     EXPECT_EQ(height(none), 0);
     EXPECT_GT(height(plate.scene), 0);
-    EXPECT_NEAR(height(both), height(grains) + type.gap + height(plate.scene), 1);  // bars lie on whole pixels
+    EXPECT_NEAR(height(both), height(grains) + type.gap + height(plate.scene),
+                1);  // bars lie on whole pixels
     EXPECT_EQ(colour_scales(both.film).size(), 2u);
 }
 

@@ -27,6 +27,8 @@ TEST(SurfaceRays, ThroughABoxInAndOut) {
     EXPECT_EQ(first->distance, hits[0].distance);
     EXPECT_TRUE(surface->meets({0.5, 0.5, 0.5}, {0, 0, 1}));
     EXPECT_FALSE(surface->meets({0.5, 0.5, 3.5}, {0, 0, 1}));
+    EXPECT_TRUE(surface->meets({-2, 0.3, 0.4}, {1, 0, 0}, 2.001));
+    EXPECT_FALSE(surface->meets({-2, 0.3, 0.4}, {1, 0, 0}, 1.999));
     EXPECT_FALSE(surface->first_hit({0.5, 0.5, 3.5}, {1, 0, 0}).has_value());
 }
 

@@ -73,6 +73,33 @@ TEST(SurfaceNearest, FeaturesOfATriangle) {
     }
 }
 
+// The room to move is the height over the nearest edge. Any move by less leaves the nearest point on the
+// face, and a move by a little more straight across that edge does not.
+TEST(SurfaceNearest, StaysOnTheFaceAsLongAsItSays) {
+    TriangleMesh mesh;
+    shapes::add_triangle(mesh, {0, 0, 0}, {4, 0, 0}, {0, 3, 0});
+    const Surface surface = bare(mesh);
+    EXPECT_NEAR(surface.stays_on_face(0, {1, 0.5, 2}), 0.5, 1e-8);
+    EXPECT_LT(surface.stays_on_face(0, {1, 0.5, -7}), 0.5);
+    EXPECT_NEAR(surface.stays_on_face(0, {0.25, 1, 2}), 0.25, 1e-8);
+    EXPECT_NEAR(surface.stays_on_face(0, {1.5, 1.5, 0}), (12 - 4.5 - 6) / 5, 1e-8);
+    EXPECT_LT(surface.stays_on_face(0, {-0.1, 1, 1}), 0);
+    EXPECT_LE(surface.stays_on_face(0, {2, 0, 1}), 0);
+    Dice dice(11);
+    for (int k = 0; k < 300; ++k) {
+        TriangleMesh any;
+        shapes::add_triangle(any, dice.place(1), dice.place(1), dice.place(k % 3 ? 1 : 1e-3));
+        const Surface one = bare(any);
+        const Vec3 middle = (one.corner(0, 0) + one.corner(0, 1) + one.corner(0, 2)) / 3;
+        const Vec3 from = middle + dice.between(-1, 1) * one.normal(0);
+        const double stays = one.stays_on_face(0, from);
+        for (int turn = 0; turn < 20; ++turn) {
+            const Vec3 way = (1 - 1e-9) * stays * dice.place(1).normalized();
+            EXPECT_EQ(one.nearest(0, from + way).feature, Feature::face) << k;
+        }
+    }
+}
+
 TEST(SurfaceNearest, TheFootOnALevelTriangleIsExact) {
     TriangleMesh mesh;
     shapes::add_triangle(mesh, {-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0});

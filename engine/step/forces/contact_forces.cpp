@@ -27,8 +27,8 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
                                  sorted};
     if (group.of_pairs) return add_pairs(forces, grains);
     const WallForces at_walls{forces, in.walls, in.times.acts, grains};
-    const bool at_points = group.of_mesh || (in.walls.turning && !group.of_glued);
-    at_points ? add_at_points(at_walls, group.of_mesh) : add_walls(at_walls);
+    if (group.of_mesh) return add_at_meshes(at_walls);
+    in.walls.turning && !group.of_glued ? add_at_points(at_walls, false) : add_walls(at_walls);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ const std::int32_t* kinds_of(const ForceInput& in, const ContactGroup& group, co
 void touch(const ForceInput& in, const ContactGroup& group, const GeometryInput& geometry,
            const MeshTouch* mesh, ChunkMemory& memory) {
     if (group.of_pairs) return touch_pairs(geometry, in.rules.period, memory.touch);
-    if (group.of_mesh) return touch_meshes(geometry, mesh, in.walls, memory.touch);
+    if (group.of_mesh) return touch_meshes(geometry, mesh, memory.touch);
     if (!group.of_glued) return touch_walls(geometry, in.walls, memory.touch);
     find_faces(in.glued, geometry.second, geometry.count, memory.face);
     touch_glued(geometry, {in.glued, in.walls, in.rules.period}, memory.face, memory.touch);

@@ -1,14 +1,12 @@
 #include "engine/step/forces/loads.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/forces/loads.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/laws/row-inl.hpp"
-#include "engine/vector/records-inl.hpp"
+#include "engine/step/forces/loads-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -40,55 +38,6 @@ HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
         }
     }
     return p;
-}
-
-HWY_INLINE double* numbers(Load& one) {
-    return reinterpret_cast<double*>(&one);
-}
-
-// Force and torque on one body of each contact, contact by contact. Without friction it is the force alone.
-// They stay in registers. Storing them in one shape and loading them in another would make the processor
-// wait.
-template <bool rubs>
-HWY_INLINE auto by_contact(const Triple<Lanes>& force, const Triple<Lanes>& torque) {
-    const auto four = [](const Triple<Lanes>& t) HWY_ATTR {
-        return Four<Doubles>{t.x.value, t.y.value, t.z.value, Lanes(0.0).value};
-    };
-    if constexpr (rubs)
-        return rows_of(four(force), four(torque));
-    else
-        return rows_of(four(force));
-}
-template <bool rubs>
-HWY_INLINE auto by_contact(const Triple<FloatLanes>& force, const Triple<FloatLanes>& torque) {
-    const auto four = [](const Triple<FloatLanes>& t) HWY_ATTR {
-        return Four<Floats>{t.x.value, t.y.value, t.z.value, FloatLanes(0.0).value};
-    };
-    if constexpr (rubs)
-        return float_rows_of(four(force), four(torque));
-    else
-        return float_rows_of(four(force));
-}
-
-// Calls work<k>() for the first `count` contacts of a register, in their order.
-template <class L, class Work>
-HWY_INLINE void each_of(int count, const Work& work) {
-    const auto in_turn = [&]<int... k>(std::integer_sequence<int, k...>) HWY_ATTR {
-        if (count >= L::count)
-            (work.template operator()<k>(), ...);
-        else
-            ((k < count ? work.template operator()<k>() : void()), ...);
-    };
-    in_turn(std::make_integer_sequence<int, L::count>());
-}
-
-template <int size>
-HWY_INLINE void add(double* load, const Record<size>& more) {
-    put(record_at<size>(load) + more, load);
-}
-template <int size>
-HWY_INLINE void take_off(double* load, const Record<size>& less) {
-    put(record_at<size>(load) - less, load);
 }
 
 // In a register of sorted contacts, all second bodies are served before all first bodies. This changes no

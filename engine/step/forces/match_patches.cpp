@@ -13,49 +13,114 @@ int count_of(const std::vector<Patch>& patches) {
     return static_cast<int>(std::min<std::size_t>(patches.size(), kMostPatches));
 }
 
+// at: m, in the body's frame; normals: in that of the scene.
+void set_touch(const WallPose& pose, std::int32_t triangle, double distance, const Vec3& at,
+               const Vec3& normal, const Vec3& before, MeshTouch& touch) {
+    touch.normal = normal;
+    touch.distance = distance;
+    touch.normal_before = before;
+    touch.triangle = triangle;
+    touch.velocity = pose.mean_velocity(at);
+    touch.spin = pose.spin;
+}
+
+// The only contact of a grain that touched in the last step, if there is one.
+struct LoneContact {
+    std::int32_t number;
+    Vec3 normal;
+};
+std::optional<LoneContact> lone_contact(const ContactGroup& group, const MeshNear& near,
+                                        const ContactTable& table) {
+    std::int32_t found = -1;
+    for (std::int32_t number = 0; number < near.slots; ++number) {
+        const std::int32_t c = near.contact[static_cast<std::size_t>(number)];
+        if (c == MeshNear::kNone || !table.touches(c)) continue;
+        if (found >= 0) return std::nullopt;
+        found = number;
+    }
+    if (found < 0) return std::nullopt;
+    double kept[3];
+    table.histories().get(near.contact[static_cast<std::size_t>(found)], group.law_size() + kNormalX, 3,
+                          kept);
+    return LoneContact{found, Vec3(kept[0], kept[1], kept[2])};
+}
+
 }  // namespace
 
 const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
                                                      const std::vector<MeshWall>& meshes,
                                                      const ContactGroup& group, const MeshNear& near,
                                                      const MeshLists& lists, const ContactTable& table) {
-    matched_.clear();
     fault_.reset();
     const Place& grain = in.grains.place[near.grain];
     const WallPose& pose = in.walls.pose_of_mesh(near.mesh);
     const Vec3 centre = pose.at_rest(grain.position);
     // A triangle comes nearer by no more than the grain has moved in the body's frame.
-    const double reach = grain.radius + (centre - near.centre).norm();
+    const double gone = (centre - near.centre).norm(), reach = grain.radius + gone;
     const NearTriangle* triangle = lists.triangles.data() + near.first;
     const NearTriangle* const end = triangle + near.count;
-    if (!(triangle->distance < reach)) return matched_;
+    if (!(triangle->distance < reach)) {
+        matched_.clear();
+        return matched_;
+    }
+    const Asked asked{*meshes[near.mesh].surface, pose, centre, grain.radius, gone, reach};
+    if (find_lone(group, near, lists, table, asked)) return matched_;
 
-    patches_.begin(*meshes[near.mesh].surface, centre, grain.radius);
+    matched_.clear();
+    patches_.begin(asked.surface, centre, grain.radius);
     for (; triangle != end && triangle->distance < reach; ++triangle) patches_.add(triangle->number);
     patches_.find();
     if (patches_.all().empty()) return matched_;
     normals_.clear(), distances_.clear();
     for (const Patch& patch : patches_.all()) {
-        normals_.push_back(pose.turned * patch.normal);
+        normals_.push_back(pose.turned_out(patch.normal));
         distances_.push_back(patch.distance);
     }
     find_before(group, near, table);
     look_for_crossings(in, near, pose);
     find_owners();
-    put_together(static_cast<std::int32_t>(in.walls.faces.size()) + near.mesh);
+    put_together(pose);
     return matched_;
+}
+
+// The case of most grains at rest on a mesh: one plane within reach, and one contact, which goes on. It
+// answers what the general way would, and says whether it could.
+bool PatchMatcher::find_lone(const ContactGroup& group, const MeshNear& near, const MeshLists& lists,
+                             const ContactTable& table, const Asked& asked) {
+    if (!(asked.gone < near.stays)) return false;
+    const NearTriangle* const own = lists.triangles.data() + near.first;
+    if (near.flat < near.count && own[near.flat].distance < asked.reach) return false;
+    const std::int32_t triangle = own->number;
+    const Vec3& out = asked.surface.normal(triangle);
+    const double plane = out.dot(asked.centre - asked.surface.corner(triangle, 0)),
+                 distance = std::abs(plane);
+    if (!(plane * plane < asked.radius * asked.radius)) {
+        matched_.clear();
+        return true;
+    }
+    const std::optional<LoneContact> before = lone_contact(group, near, table);
+    if (!before || !(distance > 0)) return false;
+    const Vec3 normal = asked.pose.turned_out(plane > 0 ? Vec3(-out) : out);
+    if (!(normal.dot(before->normal) > kSameNormal)) return false;
+    matched_.resize(1);
+    MatchedPatch& one = matched_.front();
+    one.number = before->number;
+    one.goes_on = true;
+    set_touch(asked.pose, triangle, distance, asked.centre - plane * out, normal, before->normal, one.touch);
+    return true;
 }
 
 void PatchMatcher::find_before(const ContactGroup& group, const MeshNear& near, const ContactTable& table) {
     before_.clear();
     const int behind = group.law_size();
-    for (std::int32_t number = 0; number < kMostPatches; ++number) {
+    for (std::int32_t number = 0; number < near.slots; ++number) {
         const std::int32_t c = near.contact[number];
         if (c == MeshNear::kNone || !table.touches(c)) continue;
-        const auto kept = [&](int k) { return table.histories().get(c, behind + k); };
-        const Vec3 normal(kept(kNormalX), kept(kNormalY), kept(kNormalZ));
+        double kept[kPatchNumbers];
+        table.histories().get(c, behind, kPatchNumbers, kept);
+        const Vec3 normal(kept[kNormalX], kept[kNormalY], kept[kNormalZ]);
         if (normal.isZero(0)) continue;  // not computed yet
-        before_.push_back({number, static_cast<std::int32_t>(kept(kTriangle)), normal, kept(kForce)});
+        before_.push_back({number, static_cast<std::int32_t>(kept[kTriangle]), normal, kept[kForce]});
     }
 }
 
@@ -106,7 +171,7 @@ void PatchMatcher::look_for_crossings(const ForceInput& in, const MeshNear& near
     }
 }
 
-void PatchMatcher::put_together(std::int32_t wall) {
+void PatchMatcher::put_together(const WallPose& pose) {
     std::array<bool, kMostPatches> taken{};
     const std::vector<Patch>& all = patches_.all();
     for (int p = 0; p < count_of(all); ++p)
@@ -118,8 +183,8 @@ void PatchMatcher::put_together(std::int32_t wall) {
         while (!goes_on && taken[free]) ++free;
         const std::int32_t number = goes_on ? before_[owner_[p]].number : free++;
         const Vec3 before = goes_on ? before_[owner_[p]].normal : Vec3(0, 0, 0);
-        matched_.push_back(
-            {number, goes_on, {wall, patch.triangle, distances_[p], patch.at, normals_[p], before}});
+        MatchedPatch& matched = matched_.emplace_back(MatchedPatch{number, goes_on, {}});
+        set_touch(pose, patch.triangle, distances_[p], patch.at, normals_[p], before, matched.touch);
     }
 }
 

@@ -26,8 +26,8 @@ struct MatchedPatch {
 
 class PatchMatcher {
   public:
-    // Finds all patches that a grain touches, and their contacts. None is touched in most cases, which costs
-    // next to nothing. Valid until the next call.
+    // Finds all patches that a grain touches, and their contacts. Mostly it is none, or one face of one
+    // triangle, whose contact goes on: these cost little. Valid until the next call.
     const std::vector<MatchedPatch>& match(const ForceInput& in, const std::vector<MeshWall>& meshes,
                                            const ContactGroup& group, const MeshNear& near,
                                            const MeshLists& lists, const ContactTable& table);
@@ -41,11 +41,20 @@ class PatchMatcher {
         Vec3 normal;
         double force;
     };
+    // A grain in the frame of a mesh's body.
+    struct Asked {
+        const Surface& surface;
+        const WallPose& pose;
+        Vec3 centre;                 // m
+        double radius, gone, reach;  // m; gone: since the refresh; reach: of triangles as they were then
+    };
+    bool find_lone(const ContactGroup& group, const MeshNear& near, const MeshLists& lists,
+                   const ContactTable& table, const Asked& asked);
     void find_before(const ContactGroup& group, const MeshNear& near, const ContactTable& table);
     void find_owners();
     int patch_of(const Before& before) const;
     void look_for_crossings(const ForceInput& in, const MeshNear& near, const WallPose& pose);
-    void put_together(std::int32_t wall);
+    void put_together(const WallPose& pose);
 
     Patches patches_;
     std::vector<Vec3> normals_;      // of the patches, in the frame of the scene

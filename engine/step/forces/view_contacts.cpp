@@ -26,7 +26,7 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     v.first = first;
     v.glued = group.of_glued ? second : -1;
     v.second = group.of_pairs ? second : -1 - wall_of(in, group, second);
-    v.triangle = chunk.mesh ? chunk.mesh[at].triangle : -1;
+    v.triangle = chunk.mesh ? static_cast<std::int32_t>(chunk.mesh[at].triangle) : -1;
     v.normal = vector(of.touch.normal);
     v.overlap = of.touch.overlap[at];
     v.smaller_radius = one.radius;
@@ -74,7 +74,10 @@ void see_alone(const ForceInput& in, const ContactGroup& group, std::int32_t one
     std::int32_t first[kBlock], second[kBlock];
     std::fill_n(first, kBlock, one);
     std::fill_n(second, kBlock, other);
-    see_chunk(in, group, {first, second, first, second, 1, mesh}, none.of_block(0), first_own, memory, see);
+    MeshTouch touch[kBlock];
+    if (mesh) touch[0] = *mesh;
+    see_chunk(in, group, {first, second, first, second, 1, mesh ? touch : nullptr}, none.of_block(0),
+              first_own, memory, see);
 }
 
 // Positions may have moved on since the forces. So some candidates may touch that have no contact yet.
@@ -100,7 +103,7 @@ std::vector<MeshTouch> see_new_patches(const ForceInput& in, std::size_t g, cons
     const ContactGroup& group = in.rules.groups[g];
     const ContactTable& table = contacts.tables[g];
     const MeshLists& lists = contacts.meshes[g];
-    std::vector<MeshTouch> touch(static_cast<std::size_t>(table.size()));
+    std::vector<MeshTouch> touch(MeshLists::places_for(table.size()));
     for (const MeshNear& near : lists.near) {
         for (const MatchedPatch& patch : memory.matcher.match(in, in.meshes, group, near, lists, table)) {
             const std::int32_t second = near.mesh * kMostPatches + patch.number;

@@ -57,8 +57,19 @@ void Patches::find() {
                   [](const Touching& a, const Touching& b) { return a.triangle < b.triangle; });
         for (int t = 0; t < count; ++t) touching_[t].group = t;
         for (int t = 0; t < count; ++t) join_over_edges(t);
-        for (int t = 0; t < count; ++t) is_minimum(t);  // joins those that meet in their nearest point
     }
+    if (are_one_group()) {
+        const double least =
+            std::min_element(touching_.begin(), touching_.end(), [](const Touching& a, const Touching& b) {
+                return a.nearest.squared < b.nearest.squared;
+            })->nearest.squared;
+        int best = 0;
+        for (int t = 1; t < count; ++t)
+            if (comes_before(touching_[t], touching_[best], least)) best = t;
+        if (is_minimum(best)) add_patch(0, best);
+        return;
+    }
+    for (int t = 0; t < count; ++t) is_minimum(t);  // joins those that meet in their nearest point
     least_.assign(touching_.size(), std::numeric_limits<double>::infinity());
     best_.assign(touching_.size(), -1);
     for (int t = 0; t < count; ++t) {
@@ -96,6 +107,12 @@ int Patches::group_of(int t) {
 void Patches::join(int one, int other) {
     const int a = group_of(one), b = group_of(other);
     touching_[std::max(a, b)].group = std::min(a, b);
+}
+
+bool Patches::are_one_group() {
+    for (int t = 1; t < static_cast<int>(touching_.size()); ++t)
+        if (group_of(t) != 0) return false;
+    return true;
 }
 
 void Patches::join_over_edges(int t) {

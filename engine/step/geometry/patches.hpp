@@ -48,6 +48,7 @@ class Patches {
     };
     int place_of(std::int32_t triangle) const;
     int group_of(int t);
+    bool are_one_group();
     void join(int one, int other);
     void join_over_edges(int t);
     bool is_one_patch_over(int t, int edge, int other) const;

@@ -113,21 +113,4 @@ void touch_turning_walls(const GeometryInput& in, const WallState& walls, TouchC
     set_copies_apart(in, out);
 }
 
-void touch_meshes(const GeometryInput& in, const MeshTouch* at, const WallState& walls, TouchChunk& out) {
-    out.touching = 0;
-    for (int c = 0; c < in.count; ++c) {
-        const MeshTouch& touch = at[c];
-        if (touch.wall < 0) {
-            set_apart(in, c, out);
-            continue;
-        }
-        const WallPose& pose = walls.poses[static_cast<std::size_t>(touch.wall)];
-        touch_point(
-            in, c,
-            {touch.normal, touch.normal_before, touch.distance, pose.mean_velocity(touch.at), pose.spin},
-            out);
-    }
-    set_copies_apart(in, out);
-}
-
 }  // namespace grainreel

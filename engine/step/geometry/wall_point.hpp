@@ -30,17 +30,22 @@ void set_apart(const GeometryInput& in, int c, TouchChunk& out);
 // As touch_walls(), where a face's body turns. No face ends there.
 void touch_turning_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
-// A place at which a grain touches a mesh, as found in this step.
-struct MeshTouch {
-    std::int32_t wall = -1;  // its number behind the faces; -1: does not touch
-    std::int32_t triangle = 0;
-    double distance = 0;          // m, of the grain's centre
-    Vec3 at{0, 0, 0};             // m, in the body's frame
-    Vec3 normal{0, 0, 0};         // unit, from the centre to the place
+// A place at which a grain touches a mesh, as found in this step. Registers load it four numbers at a time.
+struct alignas(64) MeshTouch {
+    static constexpr double kApart = 1e300;
+
+    Vec3 normal{0, 0, 0};         // unit, from the grain's centre to the place
+    double distance = kApart;     // m, of the centre; kApart: does not touch
     Vec3 normal_before{0, 0, 0};  // as the contact remembers it; zero for a new contact
+    double triangle = 0;          // its number
+    Vec3 velocity{0, 0, 0};       // m/s, of the surface there, mean over the step
+    double unused_one = 0;
+    Vec3 spin{0, 0, 0};  // rad/s, of the surface, likewise
+    double unused_two = 0;
 };
 
-// As touch_walls(); `at` are the places of the contacts. Their second bodies are not read.
-void touch_meshes(const GeometryInput& in, const MeshTouch* at, const WallState& walls, TouchChunk& out);
+// As touch_walls(); `at` are the places of the contacts, up to a multiple of kBlock. Their second bodies are
+// not read.
+void touch_meshes(const GeometryInput& in, const MeshTouch* at, TouchChunk& out);
 
 }  // namespace grainreel

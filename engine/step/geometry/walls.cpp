@@ -41,6 +41,7 @@ void WallPose::set(const Body& body, const Vec3& rest_point, const Pose& before_
         for (int a = 0; a < 3; ++a) rate.col(a) = now.spin.cross(turned.col(a));
         spin = now.spin;
     }
+    slides = turned.isIdentity(0) && rate.isZero(0);
 }
 
 void WallState::set(const Surroundings& around, const Pose& before, const Pose& now, double step) {

@@ -49,13 +49,24 @@ struct WallPose {
     Vec3 point{0, 0, 0};          // m, now: about which the moment counts; of a face that turns on its axis
     Vec3 point_before{0, 0, 0};   // m, of a face: its point a step ago
     Vec3 normal_before{0, 0, 0};  // of a face: its normal a step ago
+    bool slides = false;          // it stands as at rest and does not turn: its points all move alike
 
     // From `before` to `now` within `step` seconds; rest_point: m, that `point` is at rest.
     void set(const Body& body, const Vec3& rest_point, const Pose& before, const Pose& now, double step);
     // m/s, of a point that is given in the body's frame: its way in the step over the step.
-    Vec3 mean_velocity(const Vec3& at_rest) const { return moved + rate * at_rest; }
-    // From the scene to the body's frame, m.
-    Vec3 at_rest(const Vec3& place) const { return turned.transpose() * (place - now.place); }
+    Vec3 mean_velocity(const Vec3& at_rest) const { return slides ? moved : Vec3(moved + rate * at_rest); }
+    // From the scene to the body's frame, m; and directions the other way.
+    Vec3 at_rest(const Vec3& place) const {
+        const Vec3 from = place - now.place;
+        return slides ? unturned(from) : Vec3(turned.transpose() * from);
+    }
+    Vec3 turned_out(const Vec3& direction) const {
+        return slides ? unturned(direction) : Vec3(turned * direction);
+    }
+
+  private:
+    // As the product with the identity gives it, which has no zeros below zero.
+    static Vec3 unturned(const Vec3& v) { return v + Vec3(0, 0, 0); }
 };
 
 struct WallState {

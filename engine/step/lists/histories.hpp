@@ -33,6 +33,19 @@ class Histories {
     double get(std::int32_t contact, int k) const {
         return size_ == sizeof(float) ? read<float>(contact, k) : read<double>(contact, k);
     }
+    // `count` numbers of a contact from the k-th on.
+    void get(std::int32_t contact, int k, int count, double* numbers) const {
+        const std::byte* at = bytes() + place(contact, k);
+        for (int n = 0; n < count; ++n, at += kBlock * size_) {
+            if (size_ == sizeof(float)) {
+                float number;
+                std::memcpy(&number, at, sizeof(float));
+                numbers[n] = number;
+            } else {
+                std::memcpy(numbers + n, at, sizeof(double));
+            }
+        }
+    }
     void set(std::int32_t contact, int k, double value) {
         size_ == sizeof(float) ? write(contact, k, static_cast<float>(value)) : write(contact, k, value);
     }

@@ -3,6 +3,7 @@
 // (forces/mesh_contacts.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -22,8 +23,19 @@ struct MeshNear {
     std::int32_t grain, mesh;
     Vec3 centre;                // m, of the grain at the refresh, in the body's frame
     std::int32_t first, count;  // its triangles; the nearest comes first
+    // Of these, so many from the first on are of one plane: the first and some that share an edge with it.
+    // While the grain has moved by less than `stays` (m), it touches this plane at one place, on the first
+    // triangle's face, if at all.
+    std::int32_t flat;
+    double stays;
+    std::int32_t slots = 0;  // the first numbers of patches; all others have no contact
     std::array<std::int32_t, kMostPatches>
         contact;  // where its patches stand in the table; kNone for nowhere
+
+    void set_contact(std::int32_t number, std::int32_t at) {
+        contact[static_cast<std::size_t>(number)] = at;
+        slots = std::max(slots, number + 1);
+    }
 };
 struct NearTriangle {
     std::int32_t number;
@@ -43,16 +55,38 @@ struct MeshFault {
 struct MeshLists {
     std::vector<MeshNear> near;  // by rising grain, then mesh
     std::vector<NearTriangle> triangles;
-    std::vector<MeshTouch> touch;  // of each contact of the table, in this step
+    std::vector<MeshTouch> touch;  // of each contact of the table, in this step; it fills its last block
 
-    void clear() { near.clear(), triangles.clear(), touch.clear(); }
+    // The size of `touch` for a table of so many contacts.
+    static std::size_t places_for(std::int32_t contacts) {
+        return static_cast<std::size_t>((contacts + kBlock - 1) / kBlock * kBlock);
+    }
+    void clear();
     // Lists a grain whose triangles are those within `reach` (m) of its centre, if there are any.
     void add(std::int32_t grain, std::int32_t mesh, const Surface& surface, const Vec3& centre, double reach);
     // Notes where the contacts stand in the table. Call it when all grains are listed.
     void find_contacts(const ContactTable& table);
 
   private:
-    std::vector<std::int32_t> found_;
+    // All triangles of a mesh within `reach` (m) of a place in the body's frame. It holds whoever is there.
+    struct Around {
+        std::int32_t grain, mesh;
+        Vec3 centre;
+        double reach;
+        std::size_t first, count;
+    };
+    struct Known {
+        std::vector<Around> places;  // by rising grain, then mesh
+        std::vector<std::int32_t> triangles;
+
+        void clear() { places.clear(), triangles.clear(); }
+    };
+    const Around& around(std::int32_t grain, std::int32_t mesh, const Surface& surface, const Vec3& centre,
+                         double reach);
+    void find_flat(const Surface& surface, double reach, MeshNear& one) const;
+
+    Known known_, before_;
+    std::size_t next_ = 0;  // of before_.places
 };
 
 }  // namespace grainreel

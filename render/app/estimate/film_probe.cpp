@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_frames = 48, least_frames = 4;
+constexpr int most_drawn = 48, least_drawn = 4;
 constexpr double patience = 1.5;  // s, after which no further frame is begun
 constexpr std::int64_t most_grains = 200'000;
 constexpr double solid_fraction = 0.5;  // of a bed that is shaken
@@ -114,7 +114,7 @@ FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const F
     FilmUse use;
     const auto goes_on = [&] {
         if (signals.waiting()) return false;
-        return use.frames < most && (use.frames < least_frames || watch.seconds() < patience);
+        return use.frames < most && (use.frames < least_drawn || watch.seconds() < patience);
     };
     for (; goes_on(); ++use.frames) film.take(shaken(bed, use.frames, random), "");
     const FilmReport report = film.finish();
@@ -183,8 +183,8 @@ std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& 
         use_of_film(scene, threads, bed, 1, signals);
         // What a film takes before its frames is in both, and so in neither's difference.
         const FilmUse setup = use_of_film(scene, threads, bed, 1, signals);
-        const FilmUse film = use_of_film(scene, threads, bed, most_frames, signals);
-        if (film.frames < least_frames) return std::nullopt;
+        const FilmUse film = use_of_film(scene, threads, bed, most_drawn, signals);
+        if (film.frames < least_drawn) return std::nullopt;
         const double frames = std::max(0.2 * film.seconds, film.seconds - setup.seconds);
         return FilmSpeed{run_over_stack * frames / (film.frames - 1), film.drawing};
     } catch (const std::exception&) {

@@ -65,7 +65,7 @@ int common_periods(const Comparison& all) {
     return periods;
 }
 
-bool has_all(const Member& member, const Pictures& pictures) {
+bool has_all(const ComparedMember& member, const Pictures& pictures) {
     return member.record() == nullptr || member.record()->has_all(pictures);
 }
 

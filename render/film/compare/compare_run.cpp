@@ -44,7 +44,7 @@ std::function<bool()> CompareRun::go_on() const {
 bool CompareRun::work() {
     begin();
     Frames frames(all_.members.size());
-    const auto pack = [this](Member& member, FramePtr&) { return member.pack(go_on()); };
+    const auto pack = [this](ComparedMember& member, FramePtr&) { return member.pack(go_on()); };
     if (!for_all(Stage::packing, frames, pack)) return false;
     mark_begun();
     for (const auto& member : all_.members) member->start(all_.pictures);
@@ -55,7 +55,7 @@ bool CompareRun::work() {
 
 // The same in each panel's own thread.
 bool CompareRun::next(Frames& frames) {
-    return for_all(Stage::pictures, frames, [this](Member& member, FramePtr& frame) {
+    return for_all(Stage::pictures, frames, [this](ComparedMember& member, FramePtr& frame) {
         frame = member.next(go_on());
         return frame != nullptr;
     });
@@ -63,7 +63,7 @@ bool CompareRun::next(Frames& frames) {
 
 // What remains of the runs.
 bool CompareRun::finish(Frames& frames) {
-    return for_all(Stage::pictures, frames, [this](Member& member, FramePtr&) {
+    return for_all(Stage::pictures, frames, [this](ComparedMember& member, FramePtr&) {
         member.next(go_on());
         return desk_.listener.stop_signal() == 0;
     });

@@ -28,7 +28,7 @@ class CompareRun final : public FilmRun {
     bool draw_still(Frames& frames);
     // Does the same for every panel at once, and shows how far they are; false when asked to stop.
     enum class Stage { packing, pictures };
-    using Work = std::function<bool(Member&, FramePtr&)>;
+    using Work = std::function<bool(ComparedMember&, FramePtr&)>;
     bool for_all(Stage stage, Frames& frames, const Work& work);
     const char* name_of(Stage stage) const;  // in run.json
     void show_progress(Stage stage);

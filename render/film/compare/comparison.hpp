@@ -17,7 +17,7 @@
 namespace grainreel {
 
 struct Comparison {
-    std::vector<std::unique_ptr<Member>> members;
+    std::vector<std::unique_ptr<ComparedMember>> members;
     std::vector<Panel> panels;        // as drawn, in the same order
     FilmedScene film;                 // stands for the whole: name, title, size, rate, segments, duration
     Pictures pictures;                // of every member

@@ -10,16 +10,16 @@
 
 namespace grainreel {
 
-Member::Member(const FilmedScene& scene, const Plan& plan, int threads)
+ComparedMember::ComparedMember(const FilmedScene& scene, const Plan& plan, int threads)
     : driver_(std::make_unique<RunDriver>(scene, plan, threads)),
       source_(std::make_unique<SceneRun>(scene, *driver_)) {}
 
-std::string Member::place() const {
+std::string ComparedMember::place() const {
     return driver_ ? scene().name : std::filesystem::absolute(archive()->path()).string();
 }
 
-void Member::begin(const std::filesystem::path& folder, const std::string& command,
-                   const ProgramInfo& program) {
+void ComparedMember::begin(const std::filesystem::path& folder, const std::string& command,
+                           const ProgramInfo& program) {
     if (!driver_) return;
     const std::filesystem::path own = folder / place();
     std::error_code error;
@@ -36,7 +36,7 @@ void Member::begin(const std::filesystem::path& folder, const std::string& comma
     write_run_json(folder_->folder() / "run.json", report_);
 }
 
-bool Member::pack(const GoOn& go_on) {
+bool ComparedMember::pack(const GoOn& go_on) {
     if (!driver_) return true;
     const bool packed = driver_->pack([&](const PackingProgress& now) {
         done_ = (now.stage == PackingProgress::Stage::settling ? 0.5 : 0.0) + 0.5 * now.done;
@@ -46,13 +46,13 @@ bool Member::pack(const GoOn& go_on) {
     return packed && go_on();
 }
 
-void Member::start(const Pictures& pictures) {
+void ComparedMember::start(const Pictures& pictures) {
     done_ = 0;
     source_->start(pictures);
 }
 
 // Progress is noted on the thread that runs the scene and read on another.
-FramePtr Member::next(const GoOn& go_on) {
+FramePtr ComparedMember::next(const GoOn& go_on) {
     const auto noting = [&] {
         if (driver_) {
             done_ = driver_->done();
@@ -64,11 +64,11 @@ FramePtr Member::next(const GoOn& go_on) {
     return picture ? std::move(picture->frame) : nullptr;
 }
 
-void Member::keep_state() {
+void ComparedMember::keep_state() {
     if (folder_ && folder_->follow()) driver_->close(failed_);
 }
 
-void Member::close(RunStatus status, int exit_status, FirstFailure& failure) {
+void ComparedMember::close(RunStatus status, int exit_status, FirstFailure& failure) {
     if (!folder_ || !folder_->is_there()) return;
     driver_->conclude(report_);
     report_.warnings = driver_->plan().warnings;

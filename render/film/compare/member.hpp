@@ -19,12 +19,12 @@
 
 namespace grainreel {
 
-class Member {
+class ComparedMember {
   public:
     using GoOn = FrameSource::GoOn;
 
-    Member(const FilmedScene& scene, const Plan& plan, int threads);
-    explicit Member(std::unique_ptr<RevisitedRun> record)
+    ComparedMember(const FilmedScene& scene, const Plan& plan, int threads);
+    explicit ComparedMember(std::unique_ptr<RevisitedRun> record)
         : record_(record.get()), source_(std::move(record)) {}
 
     const FrameSource& source() const { return *source_; }

@@ -135,10 +135,10 @@ ThreadPlan plan_threads_for(const std::vector<FilmedScene>& scenes) {
     return threads;
 }
 
-std::unique_ptr<Member> member_of_run(const CompareRequest& what, const Input& input, int sharers) {
+std::unique_ptr<ComparedMember> member_of_run(const CompareRequest& what, const Input& input, int sharers) {
     auto record = std::make_unique<RevisitedRun>(input.path, input.sets(what), what.replay, sharers);
     record->leave_out_damaged();
-    return std::make_unique<Member>(std::move(record));
+    return std::make_unique<ComparedMember>(std::move(record));
 }
 
 }  // namespace
@@ -164,7 +164,7 @@ void read_members(const CompareRequest& what, Comparison& all) {
         check_start(scene);
         const Plan plan = plan_with_film(scene);
         say(plan.warnings);
-        all.members.push_back(std::make_unique<Member>(scene, plan, all.threads.engine));
+        all.members.push_back(std::make_unique<ComparedMember>(scene, plan, all.threads.engine));
     }
     if (!what.vary) return;
     std::vector<Assignment> values;

@@ -99,6 +99,7 @@ ColourScale::ColourScale(const GrainColouring& colouring)
       range_(colouring.range),
       bands_(bands_of(colouring)),
       signed_(is_signed(colouring.by)),
+      logarithmic_(colouring.logarithmic),
       unit_size_(grainreel::unit_size(colouring.unit, dimension_of(colouring.by))),
       title_(with_unit(quantity_words(colouring.by), colouring.unit)) {}
 

@@ -21,6 +21,7 @@
 #include "render/picture/spheres/pixel.hpp"
 #include "render/picture/whole/compose.hpp"
 #include "render/picture/whole/exposure.hpp"
+#include "render/picture/words/grain_labels.hpp"
 #include "render/picture/words/overlay.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -159,6 +160,8 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
         draw_moment(frame, nullptr, view, into, watch);
     else
         draw_exposed(frame, view, into, watch);
+    if (!scene.film.labels.empty())
+        draw_grain_labels(scene, exaggeration.shown(frame), eye, layout, palette, into);
     overlay.lay_over(into);
     watch.lap(&DrawTimes::overlay);
 }

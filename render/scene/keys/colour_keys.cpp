@@ -45,11 +45,31 @@ void check_drive(const Document& document, const Scene& scene, const C& colour) 
                       "oscillates; add [drive] or write \"speed\"");
 }
 
+void read_scale(Document& document, const Scene&, const std::string& path, C& colour) {
+    const std::string word = document.text(path).value_or("linear");
+    if (word != "linear" && word != "logarithmic")
+        document.fail(path, fmt::format("is \"{}\"; write \"linear\" or \"logarithmic\"", word));
+    colour.logarithmic = word == "logarithmic";
+}
+
+// The usual range begins at 0, which no logarithm reaches: then it goes over three powers of ten.
+void make_logarithmic(const Document& document, C& colour) {
+    constexpr double powers = 1e-3;
+    if (is_signed(colour.by))
+        document.fail("film.colour.scale",
+                      fmt::format("is \"logarithmic\", but \"{}\" has two signs; write \"linear\"",
+                                  word_of(colour.by, grain_value_words)));
+    if (!colour.fixed && colour.range[0] <= 0) colour.range[0] = powers * colour.range[1];
+    if (colour.range[0] <= 0)
+        document.fail("film.colour.range", "must begin above 0, because the scale is logarithmic");
+}
+
 void read_range(Document& document, const Scene& scene, const std::string& path, C& colour) {
     check_drive(document, scene, colour);
     const auto range = document.interval(path, dimension_of(colour.by));
     colour.fixed = range.has_value();
     colour.range = range.value_or(usual_range(colour.by, scene));
+    if (colour.logarithmic) make_logarithmic(document, colour);
     check_range(document, path, colour);
 }
 
@@ -73,7 +93,13 @@ const KeyTable<C>& colour_table() {
     static const KeyTable<C> table{
         choice("by", &C::by, grain_value_words, initial(),
                "What a grain's colour stands for; see docs/guide/colours.md.")
-            .owns({"map", "unit", "range", "layers", "as"}),
+            .owns({"map", "unit", "range", "layers", "as", "scale"}),
+        bound_by<C>(
+            entry("scale", KeyKind::text, literal("\"linear\""),
+                  "linear or logarithmic: equal ratios have equal distances on the colour bar."),
+            read_scale,
+            [](const C& colour, const Scene&) { return colour.logarithmic ? quoted("logarithmic") : ""; })
+            .useless_for(by_species),
         choice("map", &C::map, colour_map_words, note("viridis; vik for what has two signs"),
                "All three are safe for the colour-blind; vik runs from blue over white to red.")
             .useless_for(by_species)

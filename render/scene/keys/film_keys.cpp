@@ -222,6 +222,7 @@ void list_film(Keys& all) {
     list_camera(all);
     list_segments(all);
     list_captions(all);
+    list_labels(all);
     list_shows(all);
 }
 
@@ -237,6 +238,7 @@ void read_film(Document& document, FilmedScene& scene) {
     scenery_table().read(document, scene, "film", film);
     read_segments(document, scene);
     read_captions(document, scene);
+    read_labels(document, scene);
     read_shows(document, scene);
 }
 
@@ -254,6 +256,7 @@ void write_film(SceneText& out, const FilmedScene& scene) {
     write_camera(out, scene);
     write_segments(out, scene);
     write_captions(out, scene);
+    write_labels(out, scene);
 }
 
 Colour read_colour(Document& document, const std::string& path, const char* example) {

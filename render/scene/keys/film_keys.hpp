@@ -51,6 +51,10 @@ void list_segments(keys::Keys& all);
 void read_segments(Document& document, FilmedScene& scene);  // after the rate
 void write_segments(SceneText& out, const FilmedScene& scene);
 
+void list_labels(keys::Keys& all);
+void read_labels(Document& document, FilmedScene& scene);
+void write_labels(SceneText& out, const FilmedScene& scene);
+
 void list_captions(keys::Keys& all);
 void read_captions(Document& document, FilmedScene& scene);  // after the run
 void write_captions(SceneText& out, const FilmedScene& scene);

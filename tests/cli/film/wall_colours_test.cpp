@@ -27,7 +27,8 @@ class WallColourFilm : public testing::Test {
     }
     std::vector<std::string> pictures(const std::string& folder) const {
         std::vector<std::string> all;
-        for (const auto& entry : fs::directory_iterator(here / folder / "frames")) all.push_back(entry.path());
+        for (const auto& entry : fs::directory_iterator(here / folder / "frames"))
+            all.push_back(entry.path());
         std::sort(all.begin(), all.end());
         for (std::string& one : all) one = text_of(one);
         return all;
@@ -51,8 +52,8 @@ TEST_F(WallColourFilm, IsAlikeFromTheRunAndFromItsFiles) {
                        "--set", "film.words=none"})
                   .status,
               0);
-    ASSERT_EQ(
-        program({"render", "plate", "--frames", "--out", "bare", "--set", "film.words=none"}).status, 0);
+    ASSERT_EQ(program({"render", "plate", "--frames", "--out", "bare", "--set", "film.words=none"}).status,
+              0);
     EXPECT_EQ(pictures("plain") == pictures("bare"), false);
 }
 

@@ -78,54 +78,50 @@ class RowReader {
         return row;
     }
 
-    // Returns where the row ends.
+    // Returns where the row ends. Where a word ends is found apart from the number in it, so that the
+    // processor begins with the next word before it is done with this one.
     const char* read_row(const char* p, std::size_t row) {
         const std::size_t columns = values_.size();
         for (std::size_t c = 0; c < columns; ++c) {
+            const char* const end = word_end(p);
             double value;
-            const char* next = plain_decimal(p, value);
-            if (next == nullptr || static_cast<unsigned char>(*next) > ' ' || kinds_[c] == Kind::word)
-                next = read_word(p, c, value);
+            if (plain_decimal(p, value) != end || kinds_[c] == Kind::word) value = read_word({p, end}, c);
             values_[c][row] = value;
-            p = pass_blanks(next);
+            p = pass_blanks(end);
         }
         if (*p != '\n') refuse_fields(columns + words_from(p));
         return p;
     }
 
     static const char* pass_blanks(const char* p) {
-        while (*p == ' ' || *p == '\t' || *p == '\r') ++p;
+        while (*p == ' ' || *p == '\t' || *p == '\r' || *p == '\v' || *p == '\f') ++p;
         return p;
-    }
-
-    static std::string_view word_at(const char* p) {
-        const char* end = p;
-        while (*end != ' ' && *end != '\t' && *end != '\r' && *end != '\n') ++end;
-        return {p, static_cast<std::size_t>(end - p)};
     }
 
     static std::size_t words_from(const char* p) {
         std::size_t count = 0;
-        for (; *p != '\n'; ++count) p = pass_blanks(p + word_at(p).size());
+        for (; *p != '\n'; ++count)
+            p = pass_blanks(std::max(word_end(p), p + 1));  // a control character is a word
         return count;
     }
 
-    const char* read_word(const char* p, std::size_t c, double& value) {
-        const std::string_view word = word_at(p);
+    // What is no plain decimal.
+    double read_word(std::string_view word, std::size_t c) {
         if (word.empty()) refuse_fields(c);
-        if (kinds_[c] == Kind::word) {
-            value = index_of(word, c);
-        } else if (!any_number(word, value)) {
+        if (kinds_[c] == Kind::word) return index_of(word, c);
+        double value = 0;
+        if (!any_number(word, value))
             refuse_line(file_, line_,
                         fmt::format("\"{}\" is no number; one is expected in the column {}", excerpt(word),
                                     name_of(c)));
-        } else if (kinds_[c] == Kind::finite && !std::isfinite(value)) {
-            refuse_line(file_, line_,
-                        fmt::format("{} is \"{}\", which is no finite number; the run went wrong before it "
-                                    "wrote this, use the frames before it",
-                                    name_of(c), excerpt(word)));
-        }
-        return word.data() + word.size();
+        if (kinds_[c] == Kind::finite && !std::isfinite(value))
+            refuse_line(
+                file_, line_,
+                fmt::format(
+                    "{} is \"{}\", which is no finite number; the run went wrong before it wrote this, "
+                    "use the frames before it",
+                    name_of(c), excerpt(word)));
+        return value;
     }
 
     double index_of(std::string_view word, std::size_t c) {

@@ -7,6 +7,10 @@
 // whole, and scale_exactly() knows w 5^e well enough to round it. All others go to std::from_chars.
 #pragma once
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -23,8 +27,12 @@ bool any_number(std::string_view word, double& value);
 
 namespace decimal_detail {
 
-inline constexpr double powers[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+// 10^k and -10^k: a number takes its sign from what it is multiplied or divided by, also a zero.
+inline constexpr double powers[2][23] = {
+    {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22},
+    {-1e0,  -1e1,  -1e2,  -1e3,  -1e4,  -1e5,  -1e6,  -1e7,  -1e8,  -1e9,  -1e10, -1e11,
+     -1e12, -1e13, -1e14, -1e15, -1e16, -1e17, -1e18, -1e19, -1e20, -1e21, -1e22}};
 inline constexpr int most_digits = 19;     // 10^19 - 1 < 2^64
 inline constexpr int most_clinger = 22;    // 10^22 = 2^22 5^22, 5^22 < 2^53
 inline constexpr int most_exact = 27;      // 5^27 < 2^63
@@ -123,17 +131,31 @@ inline const char* plain_decimal(const char* p, double& value) {
         p = take_exponent(p, e);
         if (p == nullptr) return nullptr;
     }
-    double size;
     if (w < (std::uint64_t{1} << 53) && e <= most_clinger && e >= -most_clinger) {
-        size = static_cast<double>(w);
-        size = e < 0 ? size / powers[-e] : size * powers[e];
+        const auto whole = static_cast<double>(static_cast<std::int64_t>(w));
+        value = e < 0 ? whole / powers[negative][-e] : whole * powers[negative][e];
     } else if (w != 0 && e <= most_exact && e >= -most_exact) {
-        size = scale_exactly(w, e);
+        value = scale_exactly(w, e) * powers[negative][0];
     } else {
         return nullptr;
     }
-    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(size) | negative << 63);
     return p;
+}
+
+// Behind the word that begins at p: at the first character up to a blank. 16 bytes behind it are read.
+inline const char* word_end(const char* p) {
+#ifdef __SSE2__
+    const __m128i blank = _mm_set1_epi8(' ');
+    while (true) {
+        const __m128i v = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+        const int ends = _mm_movemask_epi8(_mm_cmpeq_epi8(_mm_min_epu8(v, blank), v));
+        if (ends != 0) return p + std::countr_zero(static_cast<unsigned>(ends));
+        p += sizeof v;
+    }
+#else
+    while (static_cast<unsigned char>(*p) > ' ') ++p;
+    return p;
+#endif
 }
 
 }  // namespace grainreel

@@ -1,0 +1,25 @@
+// Products of triples as Vec3 forms them, to the bit: nothing is fused, and the numbers are
+// added in their order. So what is computed number by number elsewhere has the same bits.
+#if defined(GRAINREEL_VECTOR_PLAIN_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_VECTOR_PLAIN_INL
+#undef GRAINREEL_VECTOR_PLAIN_INL
+#else
+#define GRAINREEL_VECTOR_PLAIN_INL
+#endif
+
+#include "engine/vector/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grainreel::HWY_NAMESPACE {
+
+HWY_INLINE Lanes plain_dot(const Triple<Lanes>& a, const Triple<Lanes>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+HWY_INLINE Triple<Lanes> plain_cross(const Triple<Lanes>& a, const Triple<Lanes>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+}  // namespace grainreel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
