@@ -5,10 +5,10 @@
 
 // All formats, a line each, in the order in which they are asked: RawFormat NAME_format() in the folders
 // beside this file.
-#define GRAINREEL_RAW_FORMATS(one) \
-    one(lammps_binary) one(lammps_text) one(vtk_xml) one(vtk_legacy) one(vtk_collection) one(gsd) \
-    one(amber) one(mercury_data) one(mercury_contacts) one(mercury_restart) one(wall_surface) \
-    one(xyz) one(number_table)
+#define GRAINREEL_RAW_FORMATS(one)                                                                           \
+    one(lammps_binary) one(lammps_text) one(vtk_xml) one(vtk_legacy) one(vtk_collection) one(gsd) one(amber) \
+        one(mercury_data) one(mercury_contacts) one(mercury_restart) one(wall_surface) one(xyz)              \
+            one(number_table)
 
 namespace grainreel {
 
