@@ -42,6 +42,10 @@ TEST(MercuryData, TwoDimensionsHaveEightColumns) {
     ASSERT_TRUE(takes(mercury_data_format(), data));
     const RawTable grains = frame_of(mercury_data_format(), data).grains;
     EXPECT_THAT(names(grains), ElementsAre("x", "y", "vx", "vy", "radius", "gamma", "wz", "info"));
+    const RawFrame frame = frame_of(mercury_data_format(), data);
+    ASSERT_TRUE(frame.box.has_value());
+    EXPECT_EQ(frame.box->edges[0], Vec3(2, 0, 0));
+    EXPECT_EQ(frame.box->edges[1], Vec3(0, 2, 0));
     const OneFile file(data);
     EXPECT_EQ(mercury_data_format().open(file.path())->facts().dimensions, 2);
 }
