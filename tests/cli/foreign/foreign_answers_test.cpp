@@ -101,7 +101,7 @@ TEST_F(ForeignAnswers, MistakesAreRefused) {
 }
 
 TEST_F(ForeignAnswers, OptionsOfReadingAreNotForRunsOfOurs) {
-    ASSERT_EQ(timed({"inspect", "bed.dump"}).status, 0);
+    ASSERT_EQ(imported().status, 0);
     fs::rename(import(), here / "ours");
     for (const char* verb : {"render", "inspect", "report"}) {
         const Ended ended = program({verb, "ours", "--radius", "2mm"});

@@ -96,6 +96,13 @@ class ForeignBed : public testing::Test {
         return program(words);
     }
 
+    // Imports the dump by drawing a small picture of it.
+    Ended imported(std::vector<std::string> more = {}) {
+        std::vector<std::string> words{"render", "bed.dump", "--at", "0.01", "--size", "160x120"};
+        words.insert(words.end(), more.begin(), more.end());
+        return timed(words);
+    }
+
     // Folders of runs in the cache.
     std::vector<std::filesystem::path> imports() const {
         std::vector<std::filesystem::path> runs;

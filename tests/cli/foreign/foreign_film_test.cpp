@@ -58,7 +58,7 @@ TEST_F(ForeignFilm, AStillForPrintTellsItsPixelsAnInch) {
 }
 
 TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {
-    ASSERT_EQ(timed({"inspect", "bed.dump", "--walls", "paddle_*.stl"}).status, 0);
+    ASSERT_EQ(imported({"--walls", "paddle_*.stl"}).status, 0);
     const auto frames = open_frames(import() / "trajectory.nc");
     ASSERT_EQ(frames->moments().size(), 4u);
     for (int k = 0; k < kForeignFrames; ++k) {
@@ -125,9 +125,9 @@ TEST_F(ForeignFilm, AWallThatIsCalledLikeAFaceIsShown) {
     for (std::size_t at = text.find("paddle"); at != std::string::npos; at = text.find("paddle"))
         text.replace(at, 6, "floor");
     write_old_text(here / "ground.stl", text);
-    const Ended ended = timed({"inspect", "bed.dump", "--walls", "ground.stl"});
+    const Ended ended = imported({"--walls", "ground.stl"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("floor of the files"));
+    EXPECT_THAT(text_of(import() / "scene.toml"), HasSubstr("floor of the files"));
 }
 
 // The test writes a frame whenever one more was told.
@@ -163,7 +163,7 @@ TEST_F(ForeignFilm, FollowingEndsWhereTheFileIsCutShort) {
 }
 
 TEST_F(ForeignFilm, RefusesToFollowARunOfOurs) {
-    ASSERT_EQ(timed({"inspect", "bed.dump"}).status, 0);
+    ASSERT_EQ(imported().status, 0);
     fs::rename(import(), here / "ours");
     const Ended ended = program({"render", "ours", "--follow"});
     EXPECT_EQ(ended.status, 2);

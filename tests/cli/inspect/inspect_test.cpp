@@ -238,7 +238,7 @@ TEST(Questions, ASliceHasTheCirclesOfALayer) {
     const Answer answer = slice_answer(bed.snapshot, "z = 3 mm", 100);
     ASSERT_EQ(answer.tables[1].rows.size(), 16u);
     EXPECT_EQ(number(answer.tables[0].rows[0][1]), 16);
-    EXPECT_NEAR(number(answer.tables[1].rows[7][5]), std::sqrt(3) / 2 * d / 2, 1e-15);
+    EXPECT_NEAR(number(answer.tables[1].rows[7][6]), std::sqrt(3) / 2 * d / 2, 1e-15);
     EXPECT_EQ(slice_answer(bed.snapshot, "y=0", 100).tables[1].rows.size(),
               0u);  // between two rows that touch it
     EXPECT_THROW(slice_answer(bed.snapshot, "w=0", 100), UserError);

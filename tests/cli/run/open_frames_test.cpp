@@ -132,7 +132,7 @@ TEST_F(OpenFrames, OfACheckpointAreThoseOfTheRunThatItRestores) {
 }
 
 TEST_F(OpenFrames, RefusesWhatItDoesNotKnowWithAListOfWhatItReads) {
-    write_text(here / "trajectory.nc", "ITEM: TIMESTEP\n");
+    write_text(here / "trajectory.nc", "Dear diary, no grain fell today.\n");
     fs::create_directory(here / "empty");
     for (const char* name : {"trajectory.nc", "empty"}) {
         try {
