@@ -54,6 +54,8 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
     const std::vector<Frame>& moments = record_.moments();
     const auto named = [&](double time, const char* option) {
         const double from = record_.from(), to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
+        // A run of 8 s ends with its last whole step, which may lie a little before.
+        if (time > to && time <= to + clock.step * (1 + 1e-9)) time = to;
         if (!(time >= from - hair && time <= to + hair))
             throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
                                         option, time, from, to));

@@ -189,14 +189,27 @@ std::string region_text(const ImportSurvey& survey) {
                        triple(survey.high + margin));
 }
 
-std::string film_text(const ForeignArchive& archive) {
+// Discs in a plane: all grains lie within the thickness of the largest.
+bool is_flat(const ImportSurvey& survey) {
+    const double largest = *std::max_element(survey.largest.begin(), survey.largest.end());
+    return largest > 0 && survey.high.z() - survey.low.z() <= (1 + 1e-9) * largest;
+}
+
+// One picture a frame, and no words that the files say nothing of: times where there are none, and the
+// direction of gravity. A flat bed is seen from above.
+std::string film_text(const ForeignArchive& archive, const ImportSurvey& survey, bool has_container) {
     const std::vector<Frame>& moments = archive.moments();
     const double span = moments.back().time - moments.front().time;
     const double interval =
         moments.size() > 1 ? span / static_cast<double>(moments.size() - 1) : 1 / kUntimedRate;
     std::string text = fmt::format("\n[film]\nrate = {}\n", kUntimedRate);
     if (!archive.world().time_known)
-        text += "show = [\"title\", \"legend\", \"scale\", \"arrows\", \"counts\", \"captions\"]\n";
+        text += "show = [\"title\", \"legend\", \"scale\", \"counts\", \"captions\"]\n";
+    else if (!has_container)
+        text +=
+            "show = [\"title\", \"legend\", \"time\", \"playback\", \"scale\", \"counts\", \"captions\"]\n";
+    if (!has_container && moments.size() > 0 && is_flat(survey))
+        text += "\n[film.camera]\nazimuth = 0\nelevation = 90\n";
     text += fmt::format("\n[[film.segment]]\nplayback = {}\n", number(interval * kUntimedRate));
     return text;
 }
@@ -246,8 +259,8 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
         options.container.empty() ? region_text(survey) : "method = \"file\"\nfile = \"final.csv\"\n";
     const std::string begin = fmt::format("\n[start]\n{}\n[run]\nduration = {}\nstep = {}\n", start,
                                           number(std::max(moments.back().time, step)), number(step));
-    write_text(folder / "scene.toml",
-               top + species_text(archive, survey, news) + walls + begin + film_text(archive));
+    write_text(folder / "scene.toml", top + species_text(archive, survey, news) + walls + begin +
+                                          film_text(archive, survey, !options.container.empty()));
 }
 
 }  // namespace grainreel

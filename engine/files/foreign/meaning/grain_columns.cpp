@@ -250,18 +250,24 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
     }
     const std::vector<std::size_t> order = by_rising(ids);
     Frame frame;
+    std::optional<std::size_t> species;
+    double last_type = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
         const std::size_t row = order[i];
         if (i > 0 && ids[order[i - 1]] == ids[row])
             throw UserError(
                 fmt::format("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]));
-        const std::string word = type_of(raw, row);
-        const std::optional<std::size_t> species = types.place(word);
+        // Neighbours often have one type; its word is made only where it changes.
+        const double type = type_ ? value(table, type_, row) : 0;
+        if (!species || type != last_type) {
+            species = types.place(type_of(raw, row));
+            last_type = type;
+        }
         if (!species)
             throw UserError(
                 fmt::format("{}: grain {} is of type {}, which no frame that was looked at first had; name "
                             "all types by --species",
-                            place, ids[row], word));
+                            place, ids[row], type_of(raw, row)));
         const Vec3 where = place_of(raw, row);
         if (!where.allFinite())
             throw UserError(fmt::format("{}: grain {} has no finite place", place, ids[row]));
