@@ -209,7 +209,7 @@ std::string film_text(const ForeignArchive& archive, const ImportSurvey& survey,
         text +=
             "show = [\"title\", \"legend\", \"time\", \"playback\", \"scale\", \"counts\", \"captions\"]\n";
     if (!has_container && moments.size() > 0 && is_flat(survey))
-        text += "\n[film.camera]\nazimuth = 0\nelevation = 90\n";
+        text += "\n[film.camera]\nazimuth = -90\nelevation = 90\n";
     text += fmt::format("\n[[film.segment]]\nplayback = {}\n", number(interval * kUntimedRate));
     return text;
 }
