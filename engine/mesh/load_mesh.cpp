@@ -18,20 +18,6 @@ std::string hash_of(std::string_view bytes) {
     return fmt::format("{:016x}", XXH64(bytes.data(), bytes.size(), 0));
 }
 
-TriangleMesh read_as(MeshFormat format, const fs::path& file, std::string_view bytes) {
-    switch (format) {
-        case MeshFormat::binary_stl:
-            return read_binary_stl(file, bytes);
-        case MeshFormat::ascii_stl:
-            return read_ascii_stl(file, bytes);
-        case MeshFormat::obj:
-            return read_obj(file, bytes);
-        case MeshFormat::ply:
-            return read_ply(file, bytes);
-    }
-    return {};
-}
-
 void place(TriangleMesh& mesh, const MeshPlacement& placement, const fs::path& file) {
     const Eigen::Matrix3d turn = placement.rotation.toRotationMatrix();
     const bool turned = !turn.isIdentity(0);
@@ -55,7 +41,7 @@ LoadedMesh load_mesh(const fs::path& file, const MeshPlacement& placement) {
     LoadedMesh loaded;
     loaded.hash = hash_of(bytes);
     loaded.facts.format = name_of(format);
-    loaded.mesh = read_as(format, file, bytes);
+    loaded.mesh = read_mesh(format, file, bytes);
     loaded.facts.read = static_cast<std::int64_t>(loaded.mesh.triangles.size());
     if (loaded.mesh.empty()) refuse_mesh(file, fmt::format("this {} has no triangles", loaded.facts.format));
     place(loaded.mesh, placement, file);

@@ -83,4 +83,18 @@ MeshFormat format_of(const fs::path& file, std::string_view bytes) {
     refuse_line(file, 1, fmt::format("this text is no mesh: neither STL, OBJ nor PLY; {}", known));
 }
 
+TriangleMesh read_mesh(MeshFormat format, const fs::path& file, std::string_view bytes) {
+    switch (format) {
+        case MeshFormat::binary_stl:
+            return read_binary_stl(file, bytes);
+        case MeshFormat::ascii_stl:
+            return read_ascii_stl(file, bytes);
+        case MeshFormat::obj:
+            return read_obj(file, bytes);
+        case MeshFormat::ply:
+            return read_ply(file, bytes);
+    }
+    return {};
+}
+
 }  // namespace grainreel

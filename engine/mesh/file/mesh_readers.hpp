@@ -24,5 +24,7 @@ TriangleMesh read_binary_stl(const std::filesystem::path& file, std::string_view
 TriangleMesh read_ascii_stl(const std::filesystem::path& file, std::string_view bytes);
 TriangleMesh read_obj(const std::filesystem::path& file, std::string_view bytes);
 TriangleMesh read_ply(const std::filesystem::path& file, std::string_view bytes);
+// By the one of these that the format names.
+TriangleMesh read_mesh(MeshFormat format, const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace grainreel

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "engine/base/cache_folder.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/series/file_groups.hpp"
 #include "engine/files/frames/run_archive.hpp"
@@ -26,18 +27,11 @@ namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // of all imports together
 
-fs::path cache_folder() {
-    const auto folder = [](const char* variable) -> fs::path {
-        const char* value = std::getenv(variable);
-        const fs::path path = value == nullptr ? "" : value;
-        return path.is_absolute() ? path : fs::path();
-    };
-    fs::path base = folder("XDG_CACHE_HOME");
-    if (base.empty())
-        if (const fs::path home = folder("HOME"); !home.empty()) base = home / ".cache";
+// The folder of all imports, made where it is not there.
+fs::path import_folder() {
     std::error_code error;
-    const fs::path imports = base / "grainreel" / "imports";
-    if (!base.empty() && (fs::create_directories(imports, error), !error) &&
+    const fs::path cache = cache_folder(), imports = cache / "imports";
+    if (!cache.empty() && (fs::create_directories(imports, error), !error) &&
         ::access(imports.c_str(), W_OK) == 0)
         return imports;
     return fs::temp_directory_path() / fmt::format("grainreel-imports-{}", ::getuid());
@@ -142,7 +136,7 @@ ImportedRun found(const fs::path& folder) {
 }  // namespace
 
 ImportedRun cached_import(ImportRequest request) {
-    const fs::path imports = cache_folder();
+    const fs::path imports = import_folder();
     std::string name = request.from.filename().string();
     if (name.empty() || name == "." || name == "..")
         name = fs::absolute(request.from).lexically_normal().parent_path().filename().string();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "build_info.hpp"
+#include "engine/base/cache_folder.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/vector/instructions.hpp"
@@ -20,17 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_films = 200;  // looks kept; then all are measured again
 constexpr std::uintmax_t largest_file = 1 << 20;
-
-fs::path cache_folder() {
-    const auto folder = [](const char* variable) -> fs::path {
-        const char* value = std::getenv(variable);
-        const fs::path path = value == nullptr ? "" : value;
-        return path.is_absolute() ? path : fs::path();
-    };
-    if (const fs::path given = folder("XDG_CACHE_HOME"); !given.empty()) return given / "grainreel";
-    if (const fs::path home = folder("HOME"); !home.empty()) return home / ".cache" / "grainreel";
-    return {};
-}
 
 std::string processor_name() {
     std::ifstream file("/proc/cpuinfo");

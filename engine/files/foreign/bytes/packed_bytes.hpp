@@ -9,9 +9,9 @@
 
 namespace grainreel {
 
-// Of one or of several members, zero bytes between and behind them passed over.
+// Reads one member or several. Zero bytes between and behind them are passed over.
 std::unique_ptr<ByteSource> gzip_bytes(std::unique_ptr<FileBytes> file);
-// Of one or of several frames, frames that are to be skipped among them.
+// Reads one frame or several, and passes over those that are to be skipped.
 std::unique_ptr<ByteSource> zstd_bytes(std::unique_ptr<FileBytes> file);
 
 // What both have in common: the packed bytes, a piece at a time, and the way to a place.

@@ -23,7 +23,7 @@ class Growth {
     std::uint64_t end_hash_ = 0;  // of the last bytes before state_.size
 };
 
-// Of up to so many bytes before a place.
+// Hash of the bytes before a place, at most so many.
 std::uint64_t hash_before(const FileBytes& file, std::uint64_t place, std::size_t bytes);
 
 }  // namespace grainreel

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "engine/base/binary.hpp"
+#include "engine/base/cache_folder.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text_file.hpp"
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view magic = "grainreel index 1\n";
 constexpr std::size_t hashed = 65536;  // bytes at either end of the file
 
-// Of the file that an index belongs to.
+// Tells the file that an index belongs to.
 struct Identity {
     std::uint64_t inode = 0, size = 0;
     std::int64_t changed = 0;
@@ -137,15 +138,6 @@ std::optional<KeptIndex> index_in(const fs::path& path, const FileBytes& file, c
     return KeptIndex{std::move(*index), then.size == now.size};
 }
 
-fs::path cache_folder() {
-    const char* const cache = std::getenv("XDG_CACHE_HOME");
-    if (cache != nullptr && fs::path(cache).is_absolute()) return fs::path(cache) / "grainreel" / "indices";
-    const char* const home = std::getenv("HOME");
-    if (home != nullptr && fs::path(home).is_absolute())
-        return fs::path(home) / ".cache" / "grainreel" / "indices";
-    return {};
-}
-
 }  // namespace
 
 std::string index_bytes(const TextIndex& index) {
@@ -199,7 +191,8 @@ std::vector<fs::path> index_places(const fs::path& file) {
                                  ("." + whole.filename().string() + ".grainreel-index")};
     const std::string name = whole.string();
     if (const fs::path cache = cache_folder(); !cache.empty())
-        places.push_back(cache / fmt::format("{:016x}.grainreel-index", XXH64(name.data(), name.size(), 0)));
+        places.push_back(cache / "indices" /
+                         fmt::format("{:016x}.grainreel-index", XXH64(name.data(), name.size(), 0)));
     return places;
 }
 

@@ -82,7 +82,7 @@ void LammpsText::refuse_yaml() const {
 }
 
 void LammpsText::find_frames() {
-    // Of a small file no index is kept.
+    // A small file is read without an index.
     constexpr std::uint64_t packed_long_pass = std::uint64_t{1} << 20;  // bytes
     const bool large = growth_.state().size >= (packing_ == Packing::none ? long_pass : packed_long_pass);
     if (std::optional<KeptIndex> kept; large && (kept = kept_index(file_, growth_.state()))) {

@@ -92,26 +92,12 @@ std::vector<RawWall> split(TriangleMesh&& mesh, const std::vector<Solid>& solids
     return walls;
 }
 
-TriangleMesh read_as(MeshFormat format, const fs::path& file, std::string_view bytes) {
-    switch (format) {
-        case MeshFormat::binary_stl:
-            return read_binary_stl(file, bytes);
-        case MeshFormat::ascii_stl:
-            return read_ascii_stl(file, bytes);
-        case MeshFormat::obj:
-            return read_obj(file, bytes);
-        case MeshFormat::ply:
-            return read_ply(file, bytes);
-    }
-    return {};
-}
-
 class WallSurface : public RawFile {
   public:
     explicit WallSurface(fs::path file) : file_(std::move(file)) {
         const std::string bytes = all_bytes(file_, largest_mesh_file);
         const MeshFormat format = format_of(file_, bytes);
-        if (read_as(format, file_, bytes).empty())
+        if (read_mesh(format, file_, bytes).empty())
             refuse_vtk_file(file_, fmt::format("this {} has no triangles", name_of(format)));
         facts_.format = name_of(format);
         moments_.push_back({std::nullopt, std::nullopt, 0, false, true});
@@ -179,7 +165,7 @@ bool takes_wall_surface(const FileHead& head) {
 std::vector<RawWall> read_wall_surface(const fs::path& file) {
     const std::string bytes = all_bytes(file, largest_mesh_file);
     const MeshFormat format = format_of(file, bytes);
-    TriangleMesh mesh = read_as(format, file, bytes);
+    TriangleMesh mesh = read_mesh(format, file, bytes);
     const bool may_have_several = format == MeshFormat::ascii_stl;
     return split(std::move(mesh), may_have_several ? solids_of(bytes) : std::vector<Solid>());
 }
