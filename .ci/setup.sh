@@ -121,11 +121,11 @@ prepare() {  # $1: ON with tests, OFF without them; then yes or no: may packages
     fi
 }
 
-compile() {  # ninja's targets
+compile() {  # ninja's targets. Two scripts at once take turns.
     [[ -x $build/grainreel ]] || say "Building; the first time takes a few minutes."
     if [[ -t 2 ]]; then
-        ninja -C "$build" "$@" >&2 || exit 1
+        flock "$build" ninja -C "$build" "$@" >&2 || exit 1
     else
-        ninja --quiet -C "$build" "$@" | sed '/no work to do/d' >&2 || exit 1
+        flock "$build" ninja --quiet -C "$build" "$@" | sed '/no work to do/d' >&2 || exit 1
     fi
 }
