@@ -75,23 +75,25 @@ void add_verb(CLI::App& app, Verb& verb) {
     parser.footer(verb.footer());
 }
 
-void add_all(CLI::App& app, const Verbs& verbs) {
-    app.require_subcommand(1);
-    app.set_version_flag("--version", version_text());
-    app.formatter(std::make_shared<ShortFormatter>());
-    app.get_formatter()->column_width(28);
-    app.footer(
+}  // namespace
+
+std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
+    auto app = std::make_unique<CLI::App>(about_program, "grainreel");
+    app->require_subcommand(1);
+    app->set_version_flag("--version", version_text());
+    app->formatter(std::make_shared<ShortFormatter>());
+    app->get_formatter()->column_width(28);
+    app->footer(
         "Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
         "More about a verb:  grainreel movie --help");
-    for (const auto& verb : verbs) add_verb(app, *verb);
+    for (const auto& verb : verbs) add_verb(*app, *verb);
+    return app;
 }
-
-}  // namespace
 
 std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
     Verbs verbs = all_verbs();
-    CLI::App app("One scene file becomes a film of vibrated grains and the numbers behind it.", "grainreel");
-    add_all(app, verbs);
+    const std::unique_ptr<CLI::App> parser = make_parser(verbs);
+    CLI::App& app = *parser;
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

@@ -1,0 +1,39 @@
+// The verbs and options of the command line as a table. Man pages and completion for shells are written from it, and it
+// is taken from the parser that --help prints, so the three cannot differ.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+namespace grainreel {
+
+struct CommandOption {
+    std::vector<std::string> names;   // "-h", "--help"; of a positional its one name, "SCENE"
+    std::string value;                // "DIR"; empty for a flag
+    std::string about;                // one sentence or a few
+    std::string group;                // heading in --help, "Options" unless the verb says otherwise
+    bool required = false;            //
+    bool repeated = false;            // may be given several times
+    std::vector<std::string> values;  // the words that it takes; empty where any may come
+
+    bool flag() const { return value.empty(); }
+    // Whether it takes the name of a file or a folder.
+    bool takes_file() const;
+    // Whether it takes a key of a scene, as in --set drive.frequency=20.
+    bool takes_key() const { return value == "KEY=VALUE" || value == "KEY[=VALUE]"; }
+    // Whether it takes a scene: a file, or the name of a scene that comes with the program.
+    bool takes_scene() const { return names.front() == "SCENE"; }
+};
+
+struct CommandVerb {
+    std::string name, about;
+    std::vector<std::string> notes;  // what stands below the options in --help, a line each
+    std::vector<CommandOption> positionals, options;
+};
+
+// The verbs in the order of --help, without hidden ones.
+std::vector<CommandVerb> command_table(const CLI::App& program);
+
+}  // namespace grainreel
