@@ -44,6 +44,7 @@ libgmock-dev         gmock
 python3-xarray       xarray for Python, which reads fields.nc in a test
 python3-netcdf4      netCDF4 for Python
 python3-vtk9         VTK for Python, which reads fields.nc in a test
+dpkg-dev             dpkg-shlibdeps, for the test of the Debian package
 "
 browser_packages="
 chromium             a browser, for ./test --browser

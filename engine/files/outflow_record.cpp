@@ -26,6 +26,10 @@ std::vector<double> column_called(const MeasureTable& table, const char* name,
 
 }  // namespace
 
+bool grains_leave(const Scene& scene) {
+    return (scene.container.outlet && !scene.container.tray) || !scene.exits.empty();
+}
+
 OutflowRecord::OutflowRecord(const Scene& scene) {
     for (const Species& species : scene.species) densities_.push_back(species.density);
 }

@@ -11,6 +11,10 @@
 
 namespace grainreel {
 
+// Whether grains may leave a run of this scene, through an outlet or into an exit: whether it has an
+// outflow.csv.
+bool grains_leave(const Scene& scene);
+
 class OutflowRecord {
   public:
     explicit OutflowRecord(const Scene& scene);

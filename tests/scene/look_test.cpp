@@ -235,7 +235,7 @@ TEST(Look, WallForcesAreMeasuredAndScaledByTheWeight) {
                   .film.shows.wall_forces.scale,
               3);
     expect_complaint({"film.wall_force_scale=3"}, "it belongs to wall_forces = true");
-    expect_complaint({"film.outflow=true"}, "there is no [container.outlet]");
+    expect_complaint({"film.outflow=true"}, "there is no [container.outlet] and no [[exit]]");
     expect_complaint({"film.streamlines.speed=1"}, "lacks 'grid'");
 }
 

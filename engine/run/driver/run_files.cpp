@@ -38,7 +38,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
       measures_(folder / "measures.csv", simulation.measured()),
       departed_(scene),
       late_(plan.clock, scene.run.duration) {
-    if (plan.opens && !scene.container.tray) outflow_.emplace(folder / "outflow.csv");
+    if (grains_leave(scene)) outflow_.emplace(folder / "outflow.csv");
     if (keep_rows) table_ = std::make_shared<MeasureTable>(measures_.columns());
     if (const auto sets = simulation.field_sets(); !sets.empty())
         fields_.emplace(folder / "fields.nc", sets, scene.title, program_version, file_facts(scene, true));
@@ -60,7 +60,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
       departed_(scene),
       late_(plan.clock, scene.run.duration) {
     const double now = plan.clock.time(simulation.step());
-    if (plan.opens && !scene.container.tray) {
+    if (grains_leave(scene)) {
         outflow_.emplace(folder / "outflow.csv", now);
         if (std::optional<OutflowRecord> before = OutflowRecord::read(folder / "outflow.csv", scene))
             departed_ = std::move(*before);

@@ -9,6 +9,7 @@
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/files/measures_csv.hpp"
+#include "engine/files/outflow_record.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/measure/walls/wear_observer.hpp"
@@ -94,7 +95,7 @@ void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& pla
     need("trajectory.nc", plan.trajectory_every > 0);
     need("contacts.nc", plan.trajectory_every > 0 && scene.output.contacts);
     need("fields.nc", keeps_fields(scene));
-    need("outflow.csv", plan.opens && !scene.container.tray);
+    need("outflow.csv", grains_leave(scene));
     if (!read_measures(run / "measures.csv"))
         throw UserError(fmt::format("{}: cannot be read, so the run cannot go on; run its scene.toml again",
                                     (run / "measures.csv").string()));

@@ -40,7 +40,7 @@ class Ready {
     }
 
     void outflow() {
-        if (!plan_.opens || scene_.container.tray) return;
+        if (!grains_leave(scene_)) return;
         const fs::path file = run_ / "outflow.csv";
         const OutflowWriter::Kept kept = OutflowWriter::kept_until(file, now());
         OutflowRecord::read(file, scene_);

@@ -56,8 +56,8 @@ CommandOption option_of(const CLI::Option& option) {
     one.about = option.get_description();
     one.group = option.get_group();
     one.required = option.get_required();
-    one.repeated = option.get_expected_max() > 1 ||
-                   option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    one.repeated =
+        option.get_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
     one.values = words_of_check(option);
     if (one.values.empty()) one.values = words_of(one.names.back());
     return one;
@@ -77,7 +77,8 @@ std::vector<CommandVerb> command_table(const CLI::App& program) {
     std::vector<CommandVerb> table;
     for (const CLI::App* parser : program.get_subcommands([](const CLI::App*) { return true; })) {
         if (parser->get_group().empty()) continue;
-        CommandVerb verb{parser->get_name(), parser->get_description(), pieces(parser->get_footer(), '\n'), {}, {}};
+        CommandVerb verb{
+            parser->get_name(), parser->get_description(), pieces(parser->get_footer(), '\n'), {}, {}};
         for (const CLI::Option* option : parser->get_options())
             (option->get_positional() ? verb.positionals : verb.options).push_back(option_of(*option));
         table.push_back(std::move(verb));

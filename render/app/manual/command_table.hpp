@@ -1,5 +1,5 @@
-// The verbs and options of the command line as a table. Man pages and completion for shells are written from it, and it
-// is taken from the parser that --help prints, so the three cannot differ.
+// The verbs and options of the command line as a table. Man pages and completion for shells are written from
+// it, and it is taken from the parser that --help prints, so the three cannot differ.
 #pragma once
 
 #include <string>

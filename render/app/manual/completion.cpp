@@ -14,7 +14,8 @@ std::string joined(const std::vector<std::string>& words) {
 // "species[].count" is typed with an index, and the first one is offered.
 std::string typed_key(const std::string& path) {
     std::string key = path;
-    for (auto at = key.find("[]"); at != std::string::npos; at = key.find("[]", at)) key.replace(at, 2, "[0]");
+    for (auto at = key.find("[]"); at != std::string::npos; at = key.find("[]", at))
+        key.replace(at, 2, "[0]");
     return key;
 }
 
@@ -31,7 +32,8 @@ std::vector<std::string> choices_of(const Key& key) {
 
 std::string option_names(const CommandVerb& verb) {
     std::vector<std::string> all;
-    for (const CommandOption& option : verb.options) all.insert(all.end(), option.names.begin(), option.names.end());
+    for (const CommandOption& option : verb.options)
+        all.insert(all.end(), option.names.begin(), option.names.end());
     return joined(all);
 }
 
@@ -58,7 +60,8 @@ std::string in_quotes(const std::string& text) {
 
 // The first sentence, or what comes before a bracket or a semicolon: a line for a menu.
 std::string short_about(const std::string& about) {
-    return about.substr(0, std::min({about.find(';'), about.find(" ("), about.find(" ["), about.find(". "), about.size()}));
+    return about.substr(
+        0, std::min({about.find(';'), about.find(" ("), about.find(" ["), about.find(". "), about.size()}));
 }
 
 // Cases of a verb in bash: what may follow each option that takes a value.
@@ -66,13 +69,15 @@ std::string bash_cases(const CommandVerb& verb) {
     std::string text;
     for (const CommandOption& option : verb.options) {
         if (option.flag() || option.takes_key()) continue;
-        const std::string names = verb.name + ":" + fmt::format("{}", fmt::join(option.names, "|" + verb.name + ":"));
+        const std::string names =
+            verb.name + ":" + fmt::format("{}", fmt::join(option.names, "|" + verb.name + ":"));
         if (!option.values.empty())
             text += fmt::format("        {}) COMPREPLY=($(compgen -W {} -- \"$word\")); return ;;\n", names,
                                 in_quotes(joined(option.values)));
         else if (option.takes_file())
-            text += fmt::format("        {}) compopt -o filenames; COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n",
-                                names);
+            text += fmt::format(
+                "        {}) compopt -o filenames; COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n",
+                names);
         else
             text += fmt::format("        {}) return ;;\n", names);
     }
@@ -109,7 +114,8 @@ std::string zsh_case(const CommandVerb& verb) {
     int place = 0;
     for (const CommandOption& one : verb.positionals) {
         const std::string where = one.repeated ? "*" : std::to_string(++place);
-        text += "                " + in_quotes(where + ":" + zsh_text(one.names.front()) + ":" + zsh_action(one)) + " \\\n";
+        text += "                " +
+                in_quotes(where + ":" + zsh_text(one.names.front()) + ":" + zsh_action(one)) + " \\\n";
     }
     text.erase(text.size() - 3);
     return text + "\n            ;;\n";
@@ -120,10 +126,14 @@ std::string fish_option(const CommandVerb& verb, const CommandOption& option) {
     for (const std::string& name : option.names)
         line += name.compare(0, 2, "--") == 0 ? " -l " + name.substr(2) : " -s " + name.substr(1);
     if (!option.flag()) line += " -r";
-    if (option.takes_key()) line += " -f -a '(__grainreel_keys)'";
-    else if (!option.values.empty()) line += " -f -a " + in_quotes(joined(option.values));
-    else if (option.takes_file()) line += " -F";
-    else if (!option.flag()) line += " -f";
+    if (option.takes_key())
+        line += " -f -a '(__grainreel_keys)'";
+    else if (!option.values.empty())
+        line += " -f -a " + in_quotes(joined(option.values));
+    else if (option.takes_file())
+        line += " -F";
+    else if (!option.flag())
+        line += " -f";
     return line + " -d " + in_quotes(short_about(option.about)) + "\n";
 }
 
@@ -133,12 +143,14 @@ std::string bash_completion(const CompletionWords& words) {
     std::string keys, options, values;
     for (const Key& key : words.keys)
         if (const auto choices = choices_of(key); !choices.empty())
-            keys += fmt::format("        {}) printf '%s' {} ;;\n", in_quotes(typed_key(key.path)), in_quotes(joined(choices)));
+            keys += fmt::format("        {}) printf '%s' {} ;;\n", in_quotes(typed_key(key.path)),
+                                in_quotes(joined(choices)));
     for (const CommandVerb& verb : words.verbs) {
         options += fmt::format("        {}) printf '%s' {} ;;\n", verb.name, in_quotes(option_names(verb)));
         values += bash_cases(verb);
     }
-    return fmt::format(R"~(# Completion of grainreel for bash. Written by: grainreel completion bash
+    return fmt::format(
+        R"~(# Completion of grainreel for bash. Written by: grainreel completion bash
 _grainreel_choices() {{  # $1: a key of a scene; the words that it may have
     case $1 in
 {keys}    esac
@@ -185,11 +197,11 @@ _grainreel() {{
 }}
 complete -F _grainreel grainreel
 )~",
-                       fmt::arg("keys", keys), fmt::arg("options", options), fmt::arg("values", values),
-                       fmt::arg("verbs", joined(verb_names(words.verbs))),
-                       fmt::arg("all_keys", joined(typed_keys(words.keys))),
-                       fmt::arg("scene_verbs", fmt::format("{}", fmt::join(verbs_with_scenes(words.verbs), "|"))),
-                       fmt::arg("scenes", joined(words.scenes)));
+        fmt::arg("keys", keys), fmt::arg("options", options), fmt::arg("values", values),
+        fmt::arg("verbs", joined(verb_names(words.verbs))),
+        fmt::arg("all_keys", joined(typed_keys(words.keys))),
+        fmt::arg("scene_verbs", fmt::format("{}", fmt::join(verbs_with_scenes(words.verbs), "|"))),
+        fmt::arg("scenes", joined(words.scenes)));
 }
 
 std::string zsh_completion(const CompletionWords& words) {
@@ -227,8 +239,8 @@ _grainreel() {{
 }}
 _grainreel "$@"
 )~",
-                       fmt::arg("keys", keys), fmt::arg("scenes", joined(words.scenes)), fmt::arg("verbs", verbs),
-                       fmt::arg("cases", cases));
+                       fmt::arg("keys", keys), fmt::arg("scenes", joined(words.scenes)),
+                       fmt::arg("verbs", verbs), fmt::arg("cases", cases));
 }
 
 std::string fish_completion(const CompletionWords& words) {

@@ -1,5 +1,5 @@
-// Scripts that complete the command line in a shell: verbs, options, the words that an option takes, scenes, and the
-// keys of a scene after --set.
+// Scripts that complete the command line in a shell: verbs, options, the words that an option takes, scenes,
+// and the keys of a scene after --set.
 #pragma once
 
 #include <string>

@@ -6,14 +6,17 @@ namespace grainreel {
 
 namespace {
 
-// roff reads a backslash anywhere, and a dot or an apostrophe at the start of a line. A plain "-" becomes a hyphen, which
-// cannot be pasted into a shell.
+// roff reads a backslash anywhere, and a dot or an apostrophe at the start of a line. A plain "-" becomes a
+// hyphen, which cannot be pasted into a shell.
 std::string roff(const std::string& text) {
     std::string safe;
     for (const char letter : text) {
-        if (letter == '\\') safe += "\\e";
-        else if (letter == '-') safe += "\\-";
-        else safe += letter;
+        if (letter == '\\')
+            safe += "\\e";
+        else if (letter == '-')
+            safe += "\\-";
+        else
+            safe += letter;
     }
     if (!safe.empty() && (safe[0] == '.' || safe[0] == '\'')) safe.insert(0, "\\&");
     return safe;
@@ -23,8 +26,8 @@ std::string heading(const std::string& name, const std::string& about, const std
     std::string upper = name;
     for (char& letter : upper)
         if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
-    return fmt::format(".TH {} 1 \"\" \"grainreel {}\" \"grainreel manual\"\n.SH NAME\n{} \\- {}\n", roff(upper),
-                       roff(version), roff(name), roff(about));
+    return fmt::format(".TH {} 1 \"\" \"grainreel {}\" \"grainreel manual\"\n.SH NAME\n{} \\- {}\n",
+                       roff(upper), roff(version), roff(name), roff(about));
 }
 
 std::string bold(const std::string& word) {
@@ -46,14 +49,16 @@ std::string paragraph(const CommandOption& option, bool positional) {
     std::string about = option.about;
     if (!option.values.empty() && about.find(option.values.front()) == std::string::npos) {
         about += " (";
-        for (const std::string& word : option.values) about += (word == option.values.front() ? "" : ", ") + word;
+        for (const std::string& word : option.values)
+            about += (word == option.values.front() ? "" : ", ") + word;
         about += ")";
     }
     return ".TP\n" + head + "\n" + roff(about) + "\n";
 }
 
 std::string synopsis(const CommandVerb& verb) {
-    std::string line = ".SH SYNOPSIS\n" + bold("grainreel") + " " + bold(verb.name) + " [" + italic("OPTIONS") + "]";
+    std::string line =
+        ".SH SYNOPSIS\n" + bold("grainreel") + " " + bold(verb.name) + " [" + italic("OPTIONS") + "]";
     for (const CommandOption& one : verb.positionals) {
         const std::string name = italic(one.names.front()) + (one.repeated ? " ..." : "");
         line += one.required ? " " + name : " [" + name + "]";
@@ -76,19 +81,25 @@ std::string program_man_page(const std::vector<CommandVerb>& verbs, const std::s
     std::string first = about;
     if (!first.empty() && first.back() == '.') first.pop_back();
     std::string page = heading("grainreel", first, version);
-    page += ".SH SYNOPSIS\n" + bold("grainreel") + " " + italic("VERB") + " [" + italic("OPTIONS") + "] ...\n";
+    page +=
+        ".SH SYNOPSIS\n" + bold("grainreel") + " " + italic("VERB") + " [" + italic("OPTIONS") + "] ...\n";
     page += ".SH VERBS\n";
     for (const CommandVerb& verb : verbs)
-        page += ".TP\n" + bold(verb.name) + "\n" + roff(verb.about) + ". See " + bold("grainreel-" + verb.name) + "(1).\n";
+        page += ".TP\n" + bold(verb.name) + "\n" + roff(verb.about) + ". See " +
+                bold("grainreel-" + verb.name) + "(1).\n";
     page += ".SH ENVIRONMENT\n.TP\n" + bold("GRAINREEL_OUTPUT") +
-            "\nFolder in which runs are made where nothing else is said [output]\n.TP\n" + bold("GRAINREEL_GL") +
-            "\nWhat draws: osmesa or egl [osmesa]\n.TP\n" + bold("XDG_CACHE_HOME") +
+            "\nFolder in which runs are made where nothing else is said [output]\n.TP\n" +
+            bold("GRAINREEL_GL") + "\nWhat draws: osmesa or egl [osmesa]\n.TP\n" + bold("XDG_CACHE_HOME") +
             "\nFolder whose folder grainreel keeps what can be made again [~/.cache]\n";
-    page += ".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n1\nThe run failed; what it had is kept.\n.TP\n2\nA mistake in a file "
-            "or an option; nothing was written.\n.TP\n129, 130, 143\nStopped by SIGHUP, Ctrl\\-C or SIGTERM; files "
-            "are whole.\n";
-    page += ".SH EXAMPLES\n.nf\ngrainreel scenes\ngrainreel movie wedge_segregation\ngrainreel render "
-            "output/wedge_segregation \\-\\-at 2 \\-\\-out still.png\n.fi\n";
+    page +=
+        ".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n1\nThe run failed; what it had is kept.\n.TP\n2\nA mistake in "
+        "a file "
+        "or an option; nothing was written.\n.TP\n129, 130, 143\nStopped by SIGHUP, Ctrl\\-C or SIGTERM; "
+        "files "
+        "are whole.\n";
+    page +=
+        ".SH EXAMPLES\n.nf\ngrainreel scenes\ngrainreel movie wedge_segregation\ngrainreel render "
+        "output/wedge_segregation \\-\\-at 2 \\-\\-out still.png\n.fi\n";
     return page;
 }
 

@@ -8,6 +8,8 @@
 #include <toml++/toml.h>
 #include <xxhash.h>
 
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <spdlog/version.h>
 #include <CLI/Version.hpp>
@@ -63,10 +65,18 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
     };
 }
 
+std::string where_program_is() {
+    std::error_code none;
+    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+    if (none) return "unknown";
+    return (folder.filename() == "bin" ? "installed in " : "built in ") + folder.string();
+}
+
 std::string version_text() {
-    std::string text = fmt::format("grainreel {} (commit {})\ncompiler   {}\nflags      {}\nvectors    {}\n",
-                                   build_info::version, build_info::commit, build_info::compiler,
-                                   build_info::flags, vector_instructions());
+    std::string text =
+        fmt::format("grainreel {} (commit {})\nprogram    {}\ncompiler   {}\nflags      {}\nvectors    {}\n",
+                    build_info::version, build_info::commit, where_program_is(), build_info::compiler,
+                    build_info::flags, vector_instructions());
     text += "libraries";
     for (const auto& [name, version] : library_versions()) text += fmt::format("\n  {:<15}{}", name, version);
     return text;

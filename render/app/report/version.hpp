@@ -10,7 +10,10 @@ namespace grainreel {
 // Name and version of every library in use, shared ones as loaded.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
-// Several lines: the program, its commit, compiler and libraries.
+// "installed in /usr/bin" or "built in /home/me/grainreel/build/release".
+std::string where_program_is();
+
+// Several lines: the program, where it is, its commit, compiler and libraries.
 std::string version_text();
 
 }  // namespace grainreel

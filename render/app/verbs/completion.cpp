@@ -16,8 +16,10 @@ class Completion final : public Verb {
     Completion()
         : Verb("completion", "Print a script with which bash, zsh or fish completes this command line",
                "Try it in this shell:  source <(grainreel completion bash)\n"
-               "To keep it, save it as bash-completion/completions/grainreel in ~/.local/share (bash), as _grainreel\n"
-               "in a folder of $fpath (zsh), or as ~/.config/fish/completions/grainreel.fish (fish). A package of\n"
+               "To keep it, save it as bash-completion/completions/grainreel in ~/.local/share (bash), as "
+               "_grainreel\n"
+               "in a folder of $fpath (zsh), or as ~/.config/fish/completions/grainreel.fish (fish). A "
+               "package of\n"
                "grainreel has them already.\n"
                "Exit status: 0 done, 2 a mistake in the options.") {}
 

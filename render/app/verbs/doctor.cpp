@@ -6,6 +6,7 @@
 #include "render/app/doctor/findings.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
+#include "render/app/report/version.hpp"
 #include "render/app/verbs/verb.hpp"
 
 namespace grainreel {
@@ -27,7 +28,7 @@ class Doctor final : public Verb {
     void add_options(CLI::App&) override {}
 
     int run(Reporter&) override {
-        std::vector<Finding> all;
+        std::vector<Finding> all{{"program", where_program_is(), true, true, ""}};
         for (std::vector<Finding> found : {find_processors(), find_room(output_base()), find_drawing(),
                                            find_films(), find_letters(), find_programs()})
             all.insert(all.end(), found.begin(), found.end());

@@ -28,7 +28,8 @@ class Manual final : public Verb {
                "Exit status: 0 done, 1 a file cannot be written, 2 a mistake in the options.") {}
 
     void add_options(CLI::App& parser) override {
-        CLI::Option* verb = parser.add_option("VERB", verb_, "A verb [the program itself]")->type_name("VERB");
+        CLI::Option* verb =
+            parser.add_option("VERB", verb_, "A verb [the program itself]")->type_name("VERB");
         parser.add_option("--out", out_, "Folder for grainreel.1 and a page for each verb; it is made")
             ->type_name("DIR")
             ->check(not_empty())
@@ -38,8 +39,10 @@ class Manual final : public Verb {
     int run(Reporter&) override {
         const auto verbs = all_verbs();
         const std::vector<CommandVerb> table = command_table(*make_parser(verbs));
-        if (out_) write_all(table);
-        else print_result(page_of(table));
+        if (out_)
+            write_all(table);
+        else
+            print_result(page_of(table));
         return 0;
     }
 

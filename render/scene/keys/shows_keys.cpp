@@ -84,14 +84,15 @@ void read_wall_force_scale(Document& document, const Scene& scene, const std::st
 
 void read_outflow(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
     const bool leave = scene.container.outlet.has_value() && !scene.container.tray;
-    shows.outflow = leave;
+    shows.outflow = leave;  // an exit may be there for strays alone
     keys::read_value(document, path, shows.outflow);
     const bool left_out = ends_early(document) && document.is_table("container.outlet");
     if (left_out && !scene.container.outlet) shows.outflow = false;
-    if (shows.outflow && !leave)
-        document.fail(path, scene.container.tray
-                                ? "counts what leaves the run, but the tray catches it"
-                                : "counts what flows out, but there is no [container.outlet]");
+    if (shows.outflow && !leave && scene.exits.empty())
+        document.fail(path,
+                      scene.container.tray
+                          ? "counts what leaves the run, but the tray catches it"
+                          : "counts what flows out, but there is no [container.outlet] and no [[exit]]");
 }
 
 const KeyTable<FilmShows>& mark_table() {
@@ -129,7 +130,7 @@ const KeyTable<FilmShows>& mark_table() {
                           "How many grains and how much mass have flowed out, on the frame."),
                     read_outflow,
                     [](const S& shows, const Scene& scene) {
-                        return scene.container.outlet ? as_toml(shows.outflow) : "";
+                        return scene.container.outlet || shows.outflow ? as_toml(shows.outflow) : "";
                     }),
     };
     return table;

@@ -1,4 +1,5 @@
-// What `man` and the shells are given: the same verbs and options as --help, in scripts that a shell can read.
+// What `man` and the shells are given: the same verbs and options as --help, in scripts that a shell can
+// read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,10 +36,12 @@ std::vector<std::string> words_with(const std::string& text, const std::string& 
 std::vector<std::string> offered(const std::filesystem::path& script, const std::vector<std::string>& words) {
     std::string line = "source '" + script.string() + "'; compopt() { :; }; COMP_WORDS=(";
     for (const std::string& word : words) line += "'" + word + "' ";
-    line += "); COMP_CWORD=" + std::to_string(words.size() - 1) + "; _grainreel; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    line += "); COMP_CWORD=" + std::to_string(words.size() - 1) +
+            "; _grainreel; printf '%s\\n' \"${COMPREPLY[@]}\"";
     const std::filesystem::path into = script.parent_path() / "offered.txt";
     std::ofstream(script.parent_path() / "ask.sh") << line;
-    const std::string command = "bash '" + (script.parent_path() / "ask.sh").string() + "' > '" + into.string() + "' 2>&1";
+    const std::string command =
+        "bash '" + (script.parent_path() / "ask.sh").string() + "' > '" + into.string() + "' 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << line;
     std::vector<std::string> all;
     std::ifstream file(into);
@@ -84,13 +87,16 @@ TEST(Completion, BashOffersWhatMayComeNext) {
     EXPECT_EQ(offered(script, {"grainreel", "ren"}), std::vector<std::string>{"render"});
     EXPECT_TRUE(has(offered(script, {"grainreel", "render", "run", "--keep"}), "--keep-camera"));
     EXPECT_FALSE(has(offered(script, {"grainreel", "render", "run", "--"}), "--to-nowhere"));
-    EXPECT_EQ(offered(script, {"grainreel", "movie", "a.toml", "--format", "f"}), std::vector<std::string>{"ffv1"});
-    EXPECT_EQ(offered(script, {"grainreel", "export", "run", "--to", "gl"}), std::vector<std::string>{"gltf"});
+    EXPECT_EQ(offered(script, {"grainreel", "movie", "a.toml", "--format", "f"}),
+              std::vector<std::string>{"ffv1"});
+    EXPECT_EQ(offered(script, {"grainreel", "export", "run", "--to", "gl"}),
+              std::vector<std::string>{"gltf"});
     EXPECT_EQ(offered(script, {"grainreel", "movie", "a.toml", "--set", "drive.freq"}),
               std::vector<std::string>{"drive.frequency="});
     EXPECT_EQ(offered(script, {"grainreel", "movie", "a.toml", "--set", "film.transparent", "=", "t"}),
               std::vector<std::string>{"true"});
-    EXPECT_TRUE(has(offered(script, {"grainreel", "movie", "a.toml", "--set", "film.transparent", "="}), "false"));
+    EXPECT_TRUE(
+        has(offered(script, {"grainreel", "movie", "a.toml", "--set", "film.transparent", "="}), "false"));
     EXPECT_TRUE(has(offered(script, {"grainreel", "movie", "wedge_s"}), "wedge_segregation"));
     EXPECT_FALSE(has(offered(script, {"grainreel", "watch", "wedge_s"}), "wedge_segregation"));
 }

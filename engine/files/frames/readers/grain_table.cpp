@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_reader.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/outflow_record.hpp"
 #include "engine/grain_table.hpp"
 
 namespace grainreel {
@@ -105,7 +106,7 @@ class GrainTable final : public FrameArchive {
 
     // Where no grain comes or goes, the table of a run has as many as its scene.
     void check_all_are_there() const {
-        const bool traffic = !scene_->feeds.empty() || (scene_->container.outlet && !scene_->container.tray);
+        const bool traffic = !scene_->feeds.empty() || grains_leave(*scene_);
         const auto grains = static_cast<std::int64_t>(frame_.size());
         if (traffic || file_.filename() != kFinalTable || grains == scene_->grains()) return;
         throw UserError(

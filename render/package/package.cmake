@@ -1,0 +1,51 @@
+# What `cmake --install` puts where, and the Debian package: cmake --build build/release && cd build/release && cpack.
+# The program holds its scenes, meshes and the page; what is installed beside it is for people and shells.
+include(GNUInstallDirs)
+set(package_sources ${CMAKE_CURRENT_LIST_DIR})
+set(package_made ${CMAKE_BINARY_DIR}/package)
+set(GRAINREEL_CONTACT "The grainreel authors <grainreel@users.noreply.github.com>" CACHE STRING
+    "Who answers for the Debian package")
+
+install(TARGETS grainreel RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/grainreel/scenes
+        FILES_MATCHING PATTERN "*.toml" PATTERN "*.stl" PATTERN "*.csv")
+
+# The program writes its manual itself, so it must be built for the machine that installs.
+install(CODE "
+  execute_process(COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:grainreel> -DOUT=${package_made}
+                          -DVERSION=${PROJECT_VERSION} \"-DCONTACT=${GRAINREEL_CONTACT}\"
+                          -DCHANGES=${CMAKE_SOURCE_DIR}/CHANGELOG.md -P ${package_sources}/make_manual.cmake
+                  COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${package_made}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${package_made}/grainreel.bash RENAME grainreel
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${package_made}/_grainreel DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${package_made}/grainreel.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+install(FILES ${package_sources}/copyright ${package_made}/changelog.gz ${package_made}/CHANGELOG.md.gz
+              ${CMAKE_SOURCE_DIR}/README.md
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME grainreel)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT ${GRAINREEL_CONTACT})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "films of vibrated grains and the numbers behind them")
+set(CPACK_PACKAGE_DESCRIPTION
+    "A discrete element engine runs a scene file, and an off-screen renderer
+draws it: out come videos, pictures, measures and a page, without a screen.
+Runs of LAMMPS, LIGGGHTS, MercuryDPM, YADE and others are drawn and measured
+too.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+    WORLD_READ WORLD_EXECUTE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+# What is linked is found in the binary. What the program opens while it runs is named by hand: OSMesa, libavfilter,
+# fonts, and the table of units, which its library brings along.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6, libavfilter8, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libegl1, fonts-noto-core, fonts-noto-cjk, python3-xarray, lammps, openmpi-bin")
+include(CPack)

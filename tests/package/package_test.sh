@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Makes the Debian package of a build and uses what is in it from an empty folder: package_test.sh BUILD
+# The package is unpacked, not installed, so that the test needs no root.
+set -euo pipefail
+build=$1
+here=$(mktemp -d)
+trap 'rm -rf "$here"' EXIT
+
+fail() { echo "FAILED: $*" >&2; exit 1; }
+
+cd "$build"
+cpack -B "$here/made" >"$here/cpack.log" 2>&1 || { cat "$here/cpack.log"; fail "cpack ended with $?"; }
+package=$(echo "$here"/made/grainreel_*.deb)
+(($(stat -c %s "$package") < 10000000)) || fail "$package is larger than 10 MB"
+for needed in libosmesa6 libavfilter8 libnetcdf19 libudunits2-0 fonts-dejavu-core; do
+    dpkg-deb -f "$package" Depends | grep -qw -- "$needed" || fail "it does not depend on $needed"
+done
+dpkg-deb -x "$package" "$here/root"
+
+for file in bin/grainreel share/man/man1/grainreel.1.gz share/man/man1/grainreel-render.1.gz share/doc/grainreel/copyright \
+            share/doc/grainreel/changelog.gz share/bash-completion/completions/grainreel \
+            share/zsh/vendor-completions/_grainreel share/fish/vendor_completions.d/grainreel.fish \
+            share/grainreel/scenes/wedge_segregation.toml; do
+    [[ -s $here/root/usr/$file ]] || fail "$file is missing"
+done
+zcat "$here/root/usr/share/man/man1/grainreel-movie.1.gz" | grep -q '^.SH SYNOPSIS' || fail "no man page"
+
+# Another working folder, and nothing in the environment.
+mkdir "$here/work"
+cd "$here/work"
+run() { env -i PATH=/usr/bin:/bin HOME="$here/work" "$here/root/usr/bin/grainreel" "$@"; }
+run --version | grep -q "installed in $here/root/usr/bin" || fail "--version does not say that it is installed"
+run movie wedge_segregation --set species.small.count=60 --set species.big.count=6 --duration 0.05s --set film.size=320x240 \
+    --out run --quiet || fail "no film"
+[[ -s run/movie.mp4 && -s run/report.html ]] || fail "film or page is missing: $(ls run)"
+run inspect run | grep -q 66 || fail "inspect does not count the grains"
+echo "ok: $(basename "$package"), $(stat -c %s "$package") bytes"
