@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/base/error.hpp"
 #include "engine/base/shell_word.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
+#include "render/app/print/curve.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/table.hpp"
@@ -96,6 +98,31 @@ TEST(StudyText, IsEscapedWhereverItGoes) {
     EXPECT_EQ(shell_word(""), "''");
     EXPECT_EQ(shell_words({"--set", "drive.frequency=\"25 Hz\""}), "--set 'drive.frequency=\"25 Hz\"'");
     EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
+}
+
+TEST(PrintedCurve, HasARowAPointAndAnEmptyLineForAGap) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(curve_table(1, {0, 1, 2, 3, 4}, {none, 5, none, none, 6}, "a \"b\""),
+              "1,1,5,\"a \"\"b\"\"\"\n\n1,4,6,\"a \"\"b\"\"\"\n");
+    EXPECT_EQ(curve_table(0, {0, 0.5}, {1, 2}, ""), "0,0,1\n0,0.5,2\n");
+    EXPECT_EQ(curve_table(0, {0, 0.5}, {}, ""), "");
+}
+
+// Of 100 times as many points those stay that are seen: both ends, a lone peak, a lone pit, a lone gap.
+TEST(PrintedCurve, KeepsWhatIsSeenOfManyPoints) {
+    const std::size_t count = 100 * kMostCurvePoints;
+    std::vector<double> x(count), y(count, 0.25);
+    for (std::size_t i = 0; i < count; ++i) x[i] = static_cast<double>(i);
+    y[12345] = 7;
+    y[54321] = -3;
+    y[99999] = std::numeric_limits<double>::quiet_NaN();
+    y.front() = 1;
+    y.back() = 2;
+    const std::string table = curve_table(0, x, y, "");
+    for (const char* row : {"\n0,12345,7\n", "\n0,54321,-3\n", "\n0,799999,2\n", "\n\n"})
+        EXPECT_THAT(table, HasSubstr(row));
+    EXPECT_THAT(table, testing::StartsWith("0,0,1\n"));
+    EXPECT_LE(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), kMostCurvePoints + 2);
 }
 
 // A doubled quote at a text's beginning, or two of them in a row, end it for gnuplot (5.4).

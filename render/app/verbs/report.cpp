@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -10,6 +11,8 @@
 #include "engine/scene/text/data_size.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"
+#include "render/app/options/paper_options.hpp"
+#include "render/app/print/run_charts.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"
 #include "render/app/verbs/page_of_run.hpp"
@@ -44,6 +47,17 @@ class Report final : public Verb {
                         "The page's file [report.html in RUN; of several runs side_by_side.html]")
             ->type_name("FILE")
             ->check(not_empty());
+        CLI::Option* charts = add_paper(parser, paper_,
+                                        "Charts for print into this folder, in place of the page: pictures, "
+                                        "tables and the\ncommands of gnuplot that draw them");
+        charts->excludes(parser.get_option("--out"));
+        parser
+            .add_option("--measures", measures_,
+                        "With --charts: columns of measures.csv, with commas, or all [those with which the "
+                        "page begins]")
+            ->delimiter(',')
+            ->needs(charts)
+            ->type_name("NAME,...");
         add_reading(parser, reading_);
         add_reporting(parser, report);
     }
@@ -52,6 +66,7 @@ class Report final : public Verb {
         if (runs_.size() > most_runs)
             throw UserError(fmt::format("report: {} runs do not fit side by side; give {} at most",
                                         runs_.size(), most_runs));
+        check_paper(paper_);
         if (runs_.size() > 1 && out_.empty()) out_ = "side_by_side.html";
         for (fs::path& run : runs_) {
             const RunToRead read = run_to_read(run, reading_, reporter);
@@ -59,6 +74,7 @@ class Report final : public Verb {
                 out_ = read.beside / (read.folder.filename().string() + "-report.html");
             run = read.folder;
         }
+        if (paper_.folder) return draw_charts(reporter);
         if (!out_.empty()) check_out(out_);
         const ShareWatcher watcher(reporter, Progress::Stage::paging);
         const bool checked = false;
@@ -74,6 +90,14 @@ class Report final : public Verb {
     bool ends_in_good_order() const override { return false; }
 
   private:
+    int draw_charts(Reporter& reporter) const {
+        const std::vector<fs::path> files = draw_run_charts(runs_, measures_, paper_.paper, *paper_.folder);
+        reporter.info(
+            fmt::format("wrote {} files of charts, {:g} mm wide", files.size(), paper_.paper.width_mm));
+        print_exact(paper_.folder->string() + "\n");
+        return 0;
+    }
+
     // A page that is no page of ours is not written over.
     static void check_out(const fs::path& out) {
         check_typed("--out", out.string());
@@ -93,6 +117,8 @@ class Report final : public Verb {
     std::vector<fs::path> runs_;
     ReadingOptions reading_;
     fs::path out_;
+    PaperOptions paper_;
+    std::vector<std::string> measures_;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "engine/scene/text/data_size.hpp"
 #include "render/app/check/study_estimate.hpp"
 #include "render/app/options/option_groups.hpp"
+#include "render/app/options/paper_options.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/study/file/read_study.hpp"
 #include "render/app/study/members/child.hpp"
@@ -63,10 +64,17 @@ class StudyVerb final : public Verb {
             "Leave out the pictures of the members' last frames");
         parser.add_flag("--yes", yes_, "More than 10,000 members are meant");
         add_ways(parser);
+        CLI::Option* charts = add_paper(
+            parser, paper_,
+            "Charts for print into this folder, beside those of the study; with --collect nothing is "
+            "run");
+        for (const char* other : {"--dry-run", "--print-commands"})
+            charts->excludes(parser.get_option(other));
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
+        check_paper(paper_);
         const Study study = read_study(file_);
         count_members(study, yes_);
         std::vector<std::vector<ReferencePoint>> references;
@@ -193,6 +201,9 @@ class StudyVerb final : public Verb {
                 "and give the same command again");
         replace_file(folder_.path / "index.html",
                      study_page(study, members_, results_, folder_, charts.stems));
+        if (!paper_.folder) return;
+        const auto files = print_charts(study, members_, results_, references, paper_.paper, *paper_.folder);
+        reporter.info(fmt::format("wrote {} files of charts into {}", files.size(), paper_.folder->string()));
     }
 
     int tell_end(const Study& study, Reporter& reporter) const {
@@ -233,6 +244,7 @@ class StudyVerb final : public Verb {
     std::optional<std::filesystem::path> out_;
     StudyRunRequest request_;
     bool yes_ = false, dry_ = false, print_commands_ = false;
+    PaperOptions paper_;
     StudyFolder folder_;
     std::vector<Member> members_;
     std::vector<MemberResult> results_;

@@ -3,12 +3,12 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/file_name_part.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/file/kept_files.hpp"
@@ -144,17 +144,6 @@ std::string member_text(const Study& study, const Member& member) {
     std::string text = setting_text(study, member);
     if (member.seed) text += fmt::format("{}seed {}", text.empty() ? "" : ", ", *member.seed);
     return text;
-}
-
-std::string file_name_part(const std::string& text, std::size_t most) {
-    std::string name;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool plain = byte < 0x80 && (std::isalnum(byte) || c == '-' || c == '.' || c == '_');
-        if (c != ' ') name += plain ? c : '-';
-    }
-    if (name.empty() || name.front() == '.') name.insert(0, 1, '_');
-    return name.substr(0, most);
 }
 
 }  // namespace grainreel

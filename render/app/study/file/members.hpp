@@ -49,7 +49,4 @@ std::string setting_text(const Study& study, const Member& member, std::optional
 // That with the seed.
 std::string member_text(const Study& study, const Member& member);
 
-// Text as a part of a file's name: letters, digits, "-", "." and "_" alone, at most `most` of them.
-std::string file_name_part(const std::string& text, std::size_t most = 60);
-
 }  // namespace grainreel

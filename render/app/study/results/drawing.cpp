@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/error.hpp"
+#include "engine/base/file_name_part.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/study/results/table.hpp"
@@ -18,11 +20,12 @@ constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#
                                              "#e69f00", "#56b4e9", "#000000"};
 constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
 
-constexpr std::size_t most_across = 80, most_upright = 55, most_in_key = 60;  // characters of a line
+constexpr PaperLines screen{80, 55, 60, 2};  // letters of a line
 
 // Of the longest name in the key. gnuplot lets the names overlap unless they are set so far apart.
-std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference) {
-    const auto lines = [](const std::string& name) { return std::ssize(wrapped(name, most_in_key)); };
+std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference,
+                            std::size_t letters) {
+    const auto lines = [&](const std::string& name) { return std::ssize(wrapped(name, letters)); };
     std::ptrdiff_t most = lines(reference);
     for (const ChartSeries& each : series) most = std::max(most, lines(each.name));
     return most;
@@ -55,15 +58,55 @@ std::string reference_table(const std::vector<ReferencePoint>& points) {
 }
 
 // A series: its line and points, and over them the bars of those that have some.
-std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number) {
+std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number,
+                        const PaperLines& lines) {
     const std::string style = fmt::format("lc rgb '{}' lw 2", colours[number % colours.size()]);
     const int mark = marks[number % marks.size()];
     const std::string title =
-        series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, most_in_key);
+        series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, lines.key);
     return fmt::format(
         "{0} using (column(1)=={1} ? column(2) : NaN):3 with linespoints pt {2} ps 0.9 {3} {4}, \\\n"
         "    {0} using (column(1)=={1} ? column(2) : NaN):3:4:5 with yerrorbars pt {2} ps 0.9 {3} notitle",
         table, number, mark, style, title);
+}
+
+std::string plots_of(const StudyChart& chart, const std::vector<ChartSeries>& series, bool has_reference,
+                     const PaperLines& lines) {
+    const std::string stem = chart_stem(chart), table = gnuplot_text(stem + ".csv");
+    std::string plots;
+    for (std::size_t s = 0; s < series.size(); ++s)
+        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, lines);
+    if (has_reference)
+        plots += fmt::format(
+            ", \\\n    {0} using 1:2:3 with yerrorbars pt 6 ps 1.1 lw 1.5 lc rgb 'black' title {1}",
+            gnuplot_text(stem + ".reference.csv"), gnuplot_lines(chart.reference_label, lines.key));
+    return plots;
+}
+
+std::string axes_and_key(const Study& study, const StudyChart& chart, const std::vector<ChartSeries>& series,
+                         bool has_reference, const PaperLines& lines) {
+    const Variation& axis = study.variations[chart.x];
+    std::string text = fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+                                   gnuplot_lines(axis.title(), lines.across),
+                                   gnuplot_lines(study.measures[chart.y].label, lines.upright));
+    if (!chart.title.empty())
+        text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, lines.across));
+    text += fmt::format(
+        "set key noenhanced outside above left Left reverse maxcols {} spacing {:.1f}\n", lines.keys_a_line,
+        1.1 *
+            static_cast<double>(lines_of_key(series, has_reference ? chart.reference_label : "", lines.key)));
+    text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
+    if (!axis.numeric) text += word_ticks(axis);
+    if (chart.log_x) text += "set logscale x\n";
+    if (chart.log_y) text += "set logscale y\n";
+    return text;
+}
+
+bool has_points(const std::vector<ChartSeries>& series) {
+    return std::any_of(series.begin(), series.end(), [](const ChartSeries& s) {
+        return std::any_of(s.points.begin(), s.points.end(),
+                           [](const ChartPoint& p) { return p.y.count > 0; });
+    });
 }
 
 }  // namespace
@@ -85,36 +128,17 @@ std::string chart_table(const std::vector<ChartSeries>& series) {
 
 std::string chart_commands(const Study& study, const StudyChart& chart,
                            const std::vector<ChartSeries>& series, bool has_reference) {
-    const Variation& axis = study.variations[chart.x];
-    const std::string stem = chart_stem(chart), table = gnuplot_text(stem + ".csv");
-    std::string plots;
-    for (std::size_t s = 0; s < series.size(); ++s)
-        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s);
-    if (has_reference)
-        plots += fmt::format(
-            ", \\\n    {0} using 1:2:3 with yerrorbars pt 6 ps 1.1 lw 1.5 lc rgb 'black' title {1}",
-            gnuplot_text(stem + ".reference.csv"), gnuplot_lines(chart.reference_label, most_in_key));
+    const std::string stem = chart_stem(chart);
     std::string text = fmt::format("# Draws the table beside it: gnuplot {}.gp\n", stem);
     text += "set encoding utf8\nset datafile separator ','\nset datafile missing 'NaN'\nset grid\n";
-    text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-                        gnuplot_lines(axis.title(), most_across),
-                        gnuplot_lines(study.measures[chart.y].label, most_upright));
-    if (!chart.title.empty())
-        text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, most_across));
-    text += fmt::format(
-        "set key noenhanced outside above left Left reverse maxcols 2 spacing {:.1f}\n",
-        1.1 * static_cast<double>(lines_of_key(series, has_reference ? chart.reference_label : "")));
-    text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
-    if (!axis.numeric) text += word_ticks(axis);
-    if (chart.log_x) text += "set logscale x\n";
-    if (chart.log_y) text += "set logscale y\n";
+    text += axes_and_key(study, chart, series, has_reference, screen);
     text += fmt::format(
         "do for [form in 'svg png'] {{\n"
         "    if (form eq 'svg') {{ set terminal svg noenhanced size 800,560 font 'DejaVu Sans,14' background "
         "'white' }}\n"
         "    else {{ set terminal pngcairo noenhanced size 1200,840 font 'DejaVu Sans,18' }}\n"
         "    set output {}.'.'.form\n    plot {}\n}}\n",
-        gnuplot_text(stem), plots);
+        gnuplot_text(stem), plots_of(chart, series, has_reference, screen));
     return text;
 }
 
@@ -129,11 +153,7 @@ DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
         const std::vector<ChartSeries> series = chart_series(study, members, results, chart);
         const std::string stem = chart_stem(chart);
         replace_file(folder / (stem + ".csv"), chart_table(series));
-        const bool any = std::any_of(series.begin(), series.end(), [](const ChartSeries& s) {
-            return std::any_of(s.points.begin(), s.points.end(),
-                               [](const ChartPoint& p) { return p.y.count > 0; });
-        });
-        if (!any) continue;
+        if (!has_points(series)) continue;
         if (!references[i].empty())
             replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         replace_file(folder / (stem + ".gp"), chart_commands(study, chart, series, !references[i].empty()));
@@ -143,6 +163,31 @@ DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
             charts.drawn = false;
     }
     return charts;
+}
+
+std::vector<std::filesystem::path> print_charts(const Study& study, const std::vector<Member>& members,
+                                                const std::vector<MemberResult>& results,
+                                                const std::vector<std::vector<ReferencePoint>>& references,
+                                                const Paper& paper, const std::filesystem::path& folder) {
+    std::error_code failure;
+    if (!std::filesystem::create_directories(folder, failure) && failure)
+        throw UserError(fmt::format("--charts {}: cannot be made ({})", folder.string(), failure.message()));
+    const PaperLines lines = lines_on(paper);
+    std::vector<std::filesystem::path> files;
+    for (std::size_t i = 0; i < study.charts.size(); ++i) {
+        const StudyChart& chart = study.charts[i];
+        const std::vector<ChartSeries> series = chart_series(study, members, results, chart);
+        if (!has_points(series)) continue;
+        const std::string stem = chart_stem(chart);
+        const bool has_reference = !references[i].empty();
+        replace_file(folder / (stem + ".csv"), chart_table(series));
+        if (has_reference) replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
+        for (auto& file : draw_on_paper(
+                 folder, stem, paper_style() + axes_and_key(study, chart, series, has_reference, lines),
+                 plots_of(chart, series, has_reference, lines), paper))
+            files.push_back(std::move(file));
+    }
+    return files;
 }
 
 }  // namespace grainreel

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/app/print/paper.hpp"
 #include "render/app/study/results/points.hpp"
 #include "render/app/study/results/reference.hpp"
 
@@ -30,5 +31,12 @@ DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
                         const std::vector<MemberResult>& results,
                         const std::vector<std::vector<ReferencePoint>>& references,
                         const std::filesystem::path& folder);
+
+// The same charts for print. Gives their files. Throws UserError where the folder cannot be made, RunError
+// without gnuplot.
+std::vector<std::filesystem::path> print_charts(const Study& study, const std::vector<Member>& members,
+                                                const std::vector<MemberResult>& results,
+                                                const std::vector<std::vector<ReferencePoint>>& references,
+                                                const Paper& paper, const std::filesystem::path& folder);
 
 }  // namespace grainreel

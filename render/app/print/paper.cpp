@@ -1,0 +1,92 @@
+#include "render/app/print/paper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/lab/chart/gnuplot.hpp"
+#include "render/app/print/drawn_file.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr double inch = 25.4;          // mm
+constexpr double points_an_inch = 72;  // of type
+constexpr double letter = 1.6;         // mm, mean width of DejaVu Sans at 8 points
+constexpr const char* font = "DejaVu Sans,8";
+
+double whole_points(double mm) {
+    return std::round(mm / inch * points_an_inch);
+}
+
+// gnuplot's letters and lines have the sizes of a screen of 96 pixels an inch; ours are points of print.
+std::string terminal(const std::string& form, const Paper& paper) {
+    const double wide = whole_points(paper.width_mm), high = whole_points(paper.height_mm());
+    constexpr double letters = points_an_inch / 96;
+    if (form == "svg")  // a unit is a point
+        return fmt::format("set terminal svg noenhanced size {},{} font '{}' background 'white'", wide, high,
+                           font);
+    if (form == "png") {
+        const double pixel = paper.dpi / points_an_inch;  // a point
+        return fmt::format(
+            "set terminal pngcairo noenhanced size {:.0f},{:.0f} font '{}' fontscale {:.4f} linewidth {:.4f} "
+            "pointscale {:.4f}",
+            paper.width_mm / inch * paper.dpi, paper.height_mm() / inch * paper.dpi, font, letters * pixel,
+            pixel, letters * pixel);
+    }
+    // A hair wider, for gnuplot cuts off what is no whole point.
+    constexpr double hair = 0.01, line = 2;  // the lines of this terminal are half as wide
+    return fmt::format(
+        "set terminal pdfcairo noenhanced size {:.6f}in,{:.6f}in font '{}' fontscale {} linewidth {} "
+        "pointscale {}",
+        (wide + hair) / points_an_inch, (high + hair) / points_an_inch, font, letters, line, letters);
+}
+
+}  // namespace
+
+double Paper::height_mm() const {
+    constexpr double share = 0.68, most = 100;
+    return std::min(share * width_mm, most);
+}
+
+PaperLines lines_on(const Paper& paper) {
+    const auto letters = [](double mm) { return static_cast<std::size_t>(std::max(10.0, mm / letter)); };
+    const std::size_t keys = paper.width_mm < 120 ? 1 : 2;
+    return {letters(paper.width_mm - 15), letters(paper.height_mm() - 12),
+            letters(paper.width_mm / static_cast<double>(keys) - 20), keys};
+}
+
+std::string paper_style() {
+    return "set encoding utf8\nset minussign\nset datafile separator ','\nset datafile missing 'NaN'\n"
+           "set border 3 lw 0.6 lc rgb '#404040'\nset tics out nomirror scale 0.6 textcolor rgb 'black'\n"
+           "set grid lw 0.4 lt 1 lc rgb '#dddddd'\n";
+}
+
+std::vector<std::filesystem::path> draw_on_paper(const std::filesystem::path& folder, const std::string& stem,
+                                                 const std::string& commands, const std::string& plots,
+                                                 const Paper& paper) {
+    std::string all = fmt::format("# Draws the table beside it: gnuplot {}.gp\n{}", stem, commands);
+    std::vector<std::filesystem::path> files;
+    for (const std::string& form : paper.forms) {
+        const std::string file = stem + "." + form;
+        all += fmt::format("{}\nset output {}\nplot {}\n", terminal(form, paper), gnuplot_text(file), plots);
+        files.push_back(folder / file);
+    }
+    all += "unset output\n";
+    replace_file(folder / (stem + ".gp"), all);
+    if (!run_gnuplot(folder, stem + ".gp"))
+        throw RunError(
+            fmt::format("{}: gnuplot is missing or failed, so there are tables but no charts; install "
+                        "gnuplot-nox and give the same command again",
+                        (folder / (stem + ".gp")).string()));
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (paper.forms[i] == "svg") say_size_in_mm(files[i], paper.width_mm);
+        if (paper.forms[i] == "png") say_dots(files[i], paper.dpi);
+    }
+    return files;
+}
+
+}  // namespace grainreel
