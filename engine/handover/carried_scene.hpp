@@ -42,20 +42,20 @@ enum class CarriedLaw {
 // One kind of contact: two types, or a type and a surface.
 struct CarriedPair {
     CarriedLaw law = CarriedLaw::spring_dashpot;
-    bool touches = true;            // false: the scene says nothing of them because they never meet
-    double stiffness = 0;           // N/m; Hertz: 4/3 E*, Pa; K1 of luding and edinburgh
-    double unloading = 0;           // N/m, K2 of edinburgh
-    double hardening = 0;           // 1/m, S of luding
-    double tangential = 0;          // N/m; Hertz: 8 G*, Pa
-    double damping = 0;             // 1/s, times m_eff; hertz: alpha of Tsuji's dashpot, see dashpot.hpp
-    double tangential_damping = 0;  // 1/s, likewise
-    double restitution = 1;         // wanted, of two of mean size
+    bool touches = true;             // false: the scene says nothing of them because they never meet
+    double stiffness = 0;            // N/m; Hertz: 4/3 E*, Pa; K1 of luding and edinburgh
+    double unloading = 0;            // N/m, K2 of edinburgh
+    double hardening = 0;            // 1/m, S of luding
+    double tangential = 0;           // N/m; Hertz: 8 G*, Pa
+    double damping = 0;              // 1/s, times m_eff; hertz: alpha of Tsuji's dashpot, see dashpot.hpp
+    double tangential_damping = 0;   // 1/s, likewise
+    double restitution = 1;          // wanted, of two of mean size
     double lowest = 1, highest = 1;  // restitution of others of these types, with one damping for all
-    double effective_mass = 0;      // kg, of two of mean size; a surface and a glued grain weigh nothing
-    double effective_radius = 0;    // m, likewise
-    double friction = 0;            // finite: kEndlessFriction stands for infinity
-    double rolling = 0;             // torque at most so much x effective radius x N
-    bool attraction = false;        // the dashpot may pull
+    double effective_mass = 0;       // kg, of two of mean size; a surface and a glued grain weigh nothing
+    double effective_radius = 0;     // m, likewise
+    double friction = 0;             // finite: kEndlessFriction stands for infinity
+    double rolling = 0;              // torque at most so much x effective radius x N
+    bool attraction = false;         // the dashpot may pull
 };
 inline constexpr double kEndlessFriction = 1e4;
 
@@ -90,33 +90,33 @@ struct CarriedScene {
     Plan plan;    // of that scene
 
     std::vector<CarriedType> types;
-    std::vector<CarriedPair> pairs;           // types x types, row-major, symmetric
-    std::vector<CarriedSurface> surfaces;     // 0: the container and the scene's planes; then meshes
-    std::vector<Face> faces;                  // all planes, cylinders and plates at rest, as the run begins
-    std::vector<Face> opened;                 // those of the time after the outlet opens; empty: none opens
+    std::vector<CarriedPair> pairs;        // types x types, row-major, symmetric
+    std::vector<CarriedSurface> surfaces;  // 0: the container and the scene's planes; then meshes
+    std::vector<Face> faces;               // all planes, cylinders and plates at rest, as the run begins
+    std::vector<Face> opened;              // those of the time after the outlet opens; empty: none opens
     std::vector<CarriedMesh> meshes;
     RunFrame frame = RunFrame::lab;
-    DriveFormula drive;                       // empty where nothing is driven
-    std::vector<TurnFormula> turns;           // by face: its angle; empty expressions where it does not turn
+    DriveFormula drive;              // empty where nothing is driven
+    std::vector<TurnFormula> turns;  // by face: its angle; empty expressions where it does not turn
 
-    double step = 0;                          // s
-    std::int64_t first = 0, last = 0;         // steps of the run in our count
-    std::int64_t opens = 0;                   // step at which the outlet opens, where `opened` has faces
+    double step = 0;                   // s
+    std::int64_t first = 0, last = 0;  // steps of the run in our count
+    std::int64_t opens = 0;            // step at which the outlet opens, where `opened` has faces
     // Steps with a dump, in our count, rising; `first` and `last` are among them.
     std::vector<std::int64_t> dumps;
 
     // m: where grains can be, in the run's frame, with a margin. x is periodic where the depth is.
     Vec3 low{0, 0, 0}, high{0, 0, 0};
     bool periodic = false;
-    double skin = 0;                          // m, of the neighbour lists
-    std::array<int, 3> grid{0, 0, 0};         // of ranks; 0: the engine chooses
-    bool balances = false;                    // wants a load balancer: the bed is no slab
+    double skin = 0;                   // m, of the neighbour lists
+    std::array<int, 3> grid{0, 0, 0};  // of ranks; 0: the engine chooses
+    bool balances = false;             // wants a load balancer: the bed is no slab
 
     // Whether the deck packs by itself, for so many steps before `first`. Its grains then lie apart on a
     // lattice, with radii and ids of ours.
     bool packs = false;
     std::int64_t packing_steps = 0;
-    double packing_drag = 0;                  // 1/s
+    double packing_drag = 0;  // 1/s
     // Added to our count of steps there, so that packing has steps of its own.
     std::int64_t shift() const { return packs ? packing_steps - first : 0; }
 

@@ -59,8 +59,7 @@ class FormulaWriter {
     }
     void change(const std::string& stem, const std::string& on, const PeriodStretch& times,
                 const DriveSchedule::Piece& piece);
-    void tap(const std::string& stem, const std::string& on, double start,
-             const DriveSchedule::Piece& piece);
+    void tap(const std::string& stem, const std::string& on, double start, const DriveSchedule::Piece& piece);
     // Time since a moment, not below 0.
     std::string since(double start) const {
         return start > 0 ? fmt::format("((v_t>{0})*(v_t-{0}))", number(start)) : "v_t";
@@ -88,8 +87,8 @@ void FormulaWriter::one_stage(double until) {
         add("s", fmt::format("({0}>=1.0)+({0}<1.0)*{0}*{0}*{0}*(10.0+{0}*(6.0*{0}-15.0))", u));
     const std::string ds =
         add("ds", fmt::format("({0}<1.0)*30.0*{0}*{0}*(1.0-{0})*(1.0-{0})*{1}", u, number(rate)));
-    const std::string dds = add(
-        "dds", fmt::format("({0}<1.0)*60.0*{0}*(1.0-{0})*(1.0-2.0*{0})*{1}", u, number(rate * rate)));
+    const std::string dds =
+        add("dds", fmt::format("({0}<1.0)*60.0*{0}*(1.0-{0})*(1.0-2.0*{0})*{1}", u, number(rate * rate)));
     part(on, fmt::format("{}*{}*sin({})", number(a), s, phase),
          fmt::format("{0}*({1}*{2}*cos({3})+{4}*sin({3}))", number(a), s, number(w), phase, ds),
          fmt::format("{0}*(({1}*{2}-{3})*sin({4})-{5}*{6}*cos({4}))", number(a), s, number(w * w), dds, phase,
@@ -99,7 +98,8 @@ void FormulaWriter::one_stage(double until) {
 // The formulas of DriveChange: frequency and acceleration go as s(u), and the amplitude follows.
 void FormulaWriter::change(const std::string& stem, const std::string& on, const PeriodStretch& times,
                            const DriveSchedule::Piece& piece) {
-    const double w0 = 2 * pi * piece.frequency_before, more = 2 * pi * (piece.frequency - piece.frequency_before);
+    const double w0 = 2 * pi * piece.frequency_before,
+                 more = 2 * pi * (piece.frequency - piece.frequency_before);
     const double level0 = piece.acceleration_before, growth = piece.acceleration - piece.acceleration_before;
     const double f0 = 1 / times.period, f1 = 1 / times.period_after, length = times.length;
     const auto name = [&](const char* part) { return stem + part; };
@@ -108,12 +108,13 @@ void FormulaWriter::change(const std::string& stem, const std::string& on, const
     const std::string s = add(name("s"), fmt::format("{0}*{0}*{0}*(10.0+{0}*(6.0*{0}-15.0))", u));
     const std::string ds =
         add(name("ds"), fmt::format("30.0*{0}*{0}*(1.0-{0})*(1.0-{0})*{1}", u, number(1 / length)));
-    const std::string dds = add(name("dds"), fmt::format("60.0*{0}*(1.0-{0})*(1.0-2.0*{0})*{1}", u,
-                                                         number(1 / (length * length))));
+    const std::string dds = add(
+        name("dds"), fmt::format("60.0*{0}*(1.0-{0})*(1.0-2.0*{0})*{1}", u, number(1 / (length * length))));
     // Periods since its start: the integral of f.
-    const std::string phase = add(
-        name("p"), fmt::format("{0}*({1}*{2}+{3}*{2}*{2}*{2}*{2}*(2.5+{2}*({2}-3.0)))+{4}", number(2 * pi),
-                               number(f0 * length), u, number((f1 - f0) * length), number(2 * pi * drive_.phase)));
+    const std::string phase =
+        add(name("p"),
+            fmt::format("{0}*({1}*{2}+{3}*{2}*{2}*{2}*{2}*(2.5+{2}*({2}-3.0)))+{4}", number(2 * pi),
+                        number(f0 * length), u, number((f1 - f0) * length), number(2 * pi * drive_.phase)));
     const std::string w = add(name("w"), fmt::format("{}+{}*{}", number(w0), number(more), s));
     const std::string l = add(name("l"), fmt::format("{}+{}*{}", number(level0), number(growth), s));
     const std::string dl = add(name("dl"), fmt::format("{}*{}", number(growth), ds));
@@ -123,12 +124,14 @@ void FormulaWriter::change(const std::string& stem, const std::string& on, const
     const std::string a = add(name("a"), fmt::format("{0}/({1}*{1})", l, w));
     const std::string da = add(name("da"), fmt::format("({0}-2.0*{1}*{2})/({3}*{3})", dl, l, g, w));
     const std::string dda =
-        add(name("dda"), fmt::format("({0}-4.0*{1}*{2}+{3}*(6.0*{2}*{2}-2.0*{4}))/({5}*{5})", ddl, dl, g, l, h, w));
+        add(name("dda"),
+            fmt::format("({0}-4.0*{1}*{2}+{3}*(6.0*{2}*{2}-2.0*{4}))/({5}*{5})", ddl, dl, g, l, h, w));
     const double start = drive_.ramp > 0 ? 0 : std::sin(2 * pi * drive_.phase);
     const std::string sine = add(name("n"), fmt::format("sin({})-{}", phase, number(start)));
     // z = a n, with n = sin p - sin phi: z'' = a'' n + 2 a' w cos p + a (w' cos p - w^2 sin p).
     part(on, fmt::format("{}*{}", a, sine), fmt::format("{}*{}+{}*{}*cos({})", da, sine, a, w, phase),
-         fmt::format("{0}*{1}*{1}*sin({2})-{3}*{4}-(2.0*{5}+{0}*{6})*{1}*cos({2})", a, w, phase, dda, sine, da, g));
+         fmt::format("{0}*{1}*{1}*sin({2})-{3}*{4}-(2.0*{5}+{0}*{6})*{1}*cos({2})", a, w, phase, dda, sine,
+                     da, g));
 }
 
 // z = a (1 - cos wt), once up and down, then rest until the next.
@@ -211,8 +214,8 @@ TurnFormula turn_formula(const BodyTurn& turn) {
         if (!(turn.over > 0)) return past + "*" + late;
         const std::string x = late + "/" + peer_number(turn.over);
         return fmt::format(
-            "{0}*((({1})>=1.0)*({2}-{3})+(({1})<1.0)*{4}*({1})*({1})*({1})*({1})*(2.5+({1})*(({1})-3.0)))", past, x,
-            late, peer_number(0.5 * turn.over), peer_number(turn.over));
+            "{0}*((({1})>=1.0)*({2}-{3})+(({1})<1.0)*{4}*({1})*({1})*({1})*({1})*(2.5+({1})*(({1})-3.0)))",
+            past, x, late, peer_number(0.5 * turn.over), peer_number(turn.over));
     };
     std::string angle = integral(turn.from), rate = share(turn.from);
     if (std::isfinite(turn.until)) {

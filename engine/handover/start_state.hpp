@@ -20,8 +20,8 @@ struct StartState {
         Vec3 spin{0, 0, 0};      // rad/s
     };
     std::vector<Grain> grains;
-    bool stopped = false;        // by the watcher; nothing else holds then
-    bool settled = true;         // false: the time limit ended our packing
+    bool stopped = false;  // by the watcher; nothing else holds then
+    bool settled = true;   // false: the time limit ended our packing
 };
 
 // Packs as a run of ours does, or lays the grains out on a lattice where the deck packs. Sets the box of
