@@ -1,0 +1,281 @@
+#include "engine/handover/liggghts_deck.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/dump_pace.hpp"
+#include "engine/handover/liggghts_law.hpp"
+#include "engine/handover/triangle_walls.hpp"
+#include "engine/scene/diameters.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using Lines = std::vector<std::string>;
+constexpr int kSizesOfFeed = 5;  // that stand for a spread
+
+bool is_prime(std::int64_t number) {
+    for (std::int64_t k = 2; k * k <= number; ++k)
+        if (number % k == 0) return false;
+    return true;
+}
+
+// Its random numbers want primes above 10000, each once.
+class Seeds {
+  public:
+    explicit Seeds(std::uint64_t seed) : last_(static_cast<std::int64_t>(100000 + 1000 * (seed % 10000))) {}
+    std::int64_t next() {
+        do ++last_;
+        while (!is_prime(last_));
+        return last_;
+    }
+
+  private:
+    std::int64_t last_;
+};
+
+class Deck {
+  public:
+    explicit Deck(const CarriedScene& carried)
+        : carried_(carried), law_(liggghts_law(carried)), seeds_(carried.scene.run.seed) {}
+
+    std::string text() {
+        head();
+        contacts();
+        motion();
+        set_up_walls(!carried_.opened.empty() && carried_.opens <= carried_.first);
+        exit();
+        feeds();
+        outputs();
+        run();
+        std::string all;
+        for (const std::string& line : lines_) all += line + "\n";
+        return all;
+    }
+
+  private:
+    template <class... Parts>
+    void add(fmt::format_string<Parts...> form, Parts&&... parts) {
+        lines_.push_back(fmt::format(form, std::forward<Parts>(parts)...));
+    }
+    void add_all(const Lines& lines) { lines_.insert(lines_.end(), lines.begin(), lines.end()); }
+    std::int64_t there(std::int64_t step) const { return step + carried_.shift(); }
+    const char* free() const { return glued_.empty() ? "all" : "free"; }
+
+    void head() {
+        add("# {}: written for LIGGGHTS-PUBLIC {}", carried_.scene.name, version_of(PeerEngine::liggghts));
+        add_all({"units si", "atom_style granular", "atom_modify map array"});
+        add("boundary {} f f", carried_.periodic ? "p" : "f");
+        add_all({"newton off", "communicate single vel yes", processors_line(carried_)});
+        add("read_data {}", data_name);
+        add("neighbor {} bin", carried_.skin);
+        add("neigh_modify delay 0 one 5000 page 200000");
+        for (std::size_t t = 0; t < carried_.types.size(); ++t)
+            if (carried_.types[t].glued) glued_ += fmt::format(" {}", t + 1);
+        if (glued_.empty()) return;
+        add("group glued type{}", glued_);
+        add("group free subtract all glued");
+    }
+
+    void contacts() {
+        add_all(law_.properties);
+        add("pair_style gran {} {}", law_.model, law_.flags);
+        add("pair_coeff * *");
+        add("timestep {}", carried_.step);
+    }
+
+    void motion() {
+        const Lines variables = variable_lines(carried_);
+        add_all(variables);
+        knows_time_ = !variables.empty();
+        add_all(gravity_lines(carried_));
+        if (!carried_.drive.empty() && !carried_.rides())
+            for (int k = 0; k < 3; ++k)
+                add("variable drive{} equal {}*v_speed", k, peer_number(carried_.drive.direction[k]));
+        add("fix move {} nve/sphere", free());
+        if (!glued_.empty()) add("fix glue glued freeze");
+    }
+
+    void needs_time() {
+        if (!knows_time_) add("variable t equal {}", time_variable(carried_.shift()).expression);
+        knows_time_ = true;
+    }
+
+    // Its fixes, which are taken off again when other walls come.
+    void set_up_walls(bool opened) {
+        for (auto fix = wall_fixes_.rbegin(); fix != wall_fixes_.rend(); ++fix) add("unfix {}", *fix);
+        wall_fixes_.clear();
+        const std::vector<TriangleWall> walls = triangle_walls(carried_, opened);
+        if (walls.empty()) return;
+        std::string names;
+        for (const TriangleWall& wall : walls) {
+            add("fix {} all mesh/surface file {} type {} curvature {}", wall.id, wall.file,
+                carried_.type_count() + wall.surface + 1, wall.curvature);
+            wall_fixes_.push_back(wall.id);
+            names += " " + wall.id;
+            set_in_motion(wall);
+        }
+        const std::string force = opened ? "open_force" : "wall_force";
+        add("fix {} all wall/gran {} mesh n_meshes {} meshes{} {}", force, law_.model, walls.size(), names,
+            law_.flags);
+        wall_fixes_.push_back(force);
+    }
+
+    void set_in_motion(const TriangleWall& wall) {
+        if (wall.driven) {
+            add("fix {}_drive all move/mesh mesh {} linear/variable v_drive0 v_drive1 v_drive2", wall.id, wall.id);
+            wall_fixes_.push_back(wall.id + "_drive");
+        }
+        if (!wall.velocity.isZero(0)) {
+            for (int k = 0; k < 3; ++k)
+                add("variable {}_v{} equal (step>={})*{}", wall.id, k, there(0), peer_number(wall.velocity[k]));
+            add("fix {}_way all move/mesh mesh {} linear/variable v_{}_v0 v_{}_v1 v_{}_v2", wall.id, wall.id,
+                wall.id, wall.id, wall.id);
+            wall_fixes_.push_back(wall.id + "_way");
+        }
+        if (wall.rate.empty()) return;
+        needs_time();
+        add("variable {}_rate equal (step>={})*({})", wall.id, there(0), wall.rate);
+        add("fix {}_turn all move/mesh mesh {} rotate/variable origin {} axis {} omega v_{}_rate", wall.id,
+            wall.id, three(wall.through), three(wall.axis), wall.id);
+        wall_fixes_.push_back(wall.id + "_turn");
+    }
+
+    void exit() {
+        if (exit_plane(carried_).empty()) return;
+        add("fix exit all mesh/surface file walls/exit.stl type {} curvature 1e-5", carried_.type_count() + 1);
+        add("fix flow all massflow/mesh mesh exit count once vec_side 0. 0. -1. writeTime delete_atoms yes file "
+            "outflow.txt");
+    }
+
+    void feeds() {
+        const Scene& scene = carried_.scene;
+        for (std::size_t f = 0; f < scene.feeds.size(); ++f) {
+            const Feed& feed = scene.feeds[f];
+            const double until = std::min(feed.until.value_or(scene.run.duration), scene.run.duration);
+            const double most = std::floor(feed.rate * std::max(0.0, until - feed.from) + 1e-9);
+            const auto count = std::min(feed.count.value_or(static_cast<std::int64_t>(most)),
+                                        static_cast<std::int64_t>(most));
+            if (count <= 0) continue;
+            const std::vector<double> sizes = sizes_of(scene.species[feed.species]);
+            std::string shares;
+            for (std::size_t k = 0; k < sizes.size(); ++k) {
+                add("fix feed{}_size{} all particletemplate/sphere {} atom_type {} density constant {} radius "
+                    "constant {}",
+                    f, k, seeds_.next(), feed.species + 1, scene.species[feed.species].density, sizes[k] / 2);
+                shares += fmt::format(" feed{}_size{} {}", f, k, 1.0 / static_cast<double>(sizes.size()));
+            }
+            add("fix feed{}_mix all particledistribution/discrete/numberbased {} {}{}", f, seeds_.next(),
+                sizes.size(), shares);
+            add("region feed{} block {} {} {} {} {} {} units box", f, feed.low.x(), feed.high.x(), feed.low.y(),
+                feed.high.y(), feed.low.z(), feed.high.z());
+            // One at a time would cost an insertion every few hundred steps; it keeps the rate on average.
+            const auto every = std::max<std::int64_t>(1, std::llround(1 / (feed.rate * carried_.step)));
+            const auto start = there(std::max<std::int64_t>(1, std::llround(feed.from / carried_.step)));
+            add("fix feed{} all insert/rate/region seed {} distributiontemplate feed{}_mix nparticles {} "
+                "particlerate {} insert_every {} start {} overlapcheck yes vel constant {} region feed{} "
+                "ntry_mc 10000",
+                f, seeds_.next(), f, count, feed.rate, every, start, three(feed.velocity), f);
+        }
+    }
+
+    // Equally frequent diameters, m: middles of so many equal shares.
+    static std::vector<double> sizes_of(const Species& species) {
+        const SizeSpread& spread = species.diameter;
+        if (spread.kind == SizeSpread::Kind::fixed || spread.smallest == spread.largest) return {spread.mean > 0 ? spread.mean : spread.largest};
+        std::vector<double> sizes;
+        for (int k = 0; k < kSizesOfFeed; ++k) {
+            const double share = (k + 0.5) / kSizesOfFeed;
+            if (spread.kind == SizeSpread::Kind::uniform) {
+                sizes.push_back(spread.smallest + share * (spread.largest - spread.smallest));
+            } else {
+                // The normal quantiles at 0.1, 0.3, ... 0.9.
+                constexpr double quantiles[kSizesOfFeed] = {-1.2816, -0.5244, 0, 0.5244, 1.2816};
+                sizes.push_back(std::clamp(spread.mean + quantiles[k] * spread.deviation, spread.smallest,
+                                           spread.largest));
+            }
+        }
+        return sizes;
+    }
+
+    void outputs() {
+        const std::int64_t steps = carried_.last - carried_.first;
+        add("thermo {}", std::max<std::int64_t>(1, steps / 100));
+        add("thermo_style custom step atoms ke cpu");
+        // Grains leave through an outlet; who is missing without having left is found in the dump.
+        add("thermo_modify lost {} norm no", exit_plane(carried_).empty() ? "error" : "ignore");
+    }
+
+    void pack() {
+        std::string drags;
+        double first = 0;
+        for (std::size_t t = 0; t < carried_.types.size(); ++t) {
+            const CarriedType& type = carried_.types[t];
+            const double mass = std::numbers::pi / 6 * std::pow(type.mean, 3) * type.density;
+            if (t == 0)
+                first = mass * carried_.packing_drag;
+            else
+                drags += fmt::format(" scale {} {}", t + 1, mass * carried_.packing_drag / first);
+        }
+        if (first > 0) add("fix drag {} viscous {}{}", free(), first, drags);
+        add("run {}", carried_.packing_steps);
+        if (first > 0) add("unfix drag");
+    }
+
+    void run() {
+        if (carried_.packs) pack();
+        const std::string restart = restart_name(PeerEngine::liggghts);
+        const std::int64_t steps = carried_.last - carried_.first;
+        add("restart {} {}.1 {}.2", std::max<std::int64_t>(1000, steps / 10), restart, restart);
+        bool waits = !carried_.opened.empty() && carried_.opens > carried_.first;
+        bool begun = false;
+        for (const DumpPace& pace : dump_paces(carried_.dumps)) {
+            add("variable nextdump equal {}", pace.next_text(carried_.shift()));
+            if (!begun) {
+                add("dump grains {} custom 1 {} id type radius x y z vx vy vz omegax omegay omegaz", free(),
+                    dump_name(PeerEngine::liggghts));
+                add("dump_modify grains every v_nextdump first yes sort id format \"%d %d{}\"", ten_numbers());
+            }
+            begun = true;
+            std::int64_t from = pace.from;
+            if (waits && carried_.opens < pace.end()) {
+                if (carried_.opens > from) add("run {}", carried_.opens - from);
+                set_up_walls(true);
+                from = carried_.opens;
+                waits = false;
+            }
+            add("run {}", pace.end() - from);
+        }
+        add("write_restart end.restart");
+    }
+
+    static std::string ten_numbers() {
+        std::string text;
+        for (int k = 0; k < 10; ++k) text += " %.9g";
+        return text;
+    }
+
+    const CarriedScene& carried_;
+    const LiggghtsLaw law_;
+    Seeds seeds_;
+    Lines lines_, wall_fixes_;
+    std::string glued_;  // their types
+    bool knows_time_ = false;
+};
+
+}  // namespace
+
+std::size_t liggghts_types(const CarriedScene& carried) {
+    return carried.type_count() + std::max<std::size_t>(1, carried.surfaces.size());
+}
+
+std::string liggghts_deck(const CarriedScene& carried) {
+    return Deck(carried).text();
+}
+
+}  // namespace grainreel
