@@ -23,6 +23,9 @@ struct HandoverFacts {
     std::int64_t shift = 0;                       // the engine's step is ours and so many more
     std::int64_t first = 0, last = 0;             // steps of ours
     std::int64_t grains = 0, glued = 0, fed = 0;  // at the start; parts of walls; that come
+    bool leave = false;                           // whether grains may leave
+    std::int64_t dumps = 0;                       // that a whole run writes
+    std::vector<std::string> changes;             // what and why
     std::filesystem::path dump;                   // full path
 };
 // Whether the folder has a handover.toml.

@@ -1,6 +1,7 @@
 // The grains with which another engine begins.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "engine/handover/carried_scene.hpp"

@@ -1,0 +1,181 @@
+#include "engine/handover/handover_folder.hpp"
+
+#include <toml++/toml.h>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/files/mesh_copies.hpp"
+#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/lammps_deck.hpp"
+#include "engine/handover/liggghts_deck.hpp"
+#include "engine/handover/run_scripts.hpp"
+#include "engine/handover/triangle_walls.hpp"
+#include "engine/plan/resolved_scene.hpp"
+#include "engine/scene/text/toml_text.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* facts_name = "handover.toml";
+
+bool grains_leave(const CarriedScene& carried) {
+    return !carried.scene.exits.empty() ||
+           (carried.scene.container.outlet && !carried.scene.container.tray);
+}
+
+std::string facts_text(const CarriedScene& carried, const StartState& start, const std::string& version) {
+    SceneText out;
+    std::int64_t glued = 0, fed = 0;
+    for (const StartState::Grain& grain : start.grains)
+        glued += carried.types[static_cast<std::size_t>(grain.type - 1)].glued;
+    for (const Species& one : carried.scene.species) fed += one.fed;
+    out.comment("What was handed over, and what was changed for it. `render` and `inspect` of this folder read it.");
+    out.put("scene", quoted("scene.toml"));
+    out.put("from", quoted(carried.scene.file));
+    out.put("engine", quoted(key_of(carried.engine)));
+    out.put("written_for", quoted(version_of(carried.engine)));
+    out.put("written_by", quoted("grainreel " + version));
+    out.put("ranks", std::to_string(carried.ranks));
+    out.put("frame", quoted(carried.frame == RunFrame::container ? "container" : "lab"));
+    out.put("step", toml_number(carried.step));
+    out.put("shift", std::to_string(carried.shift()));
+    out.put("first", std::to_string(carried.first));
+    out.put("last", std::to_string(carried.last));
+    out.put("grains", std::to_string(static_cast<std::int64_t>(start.grains.size()) - glued));
+    out.put("glued", std::to_string(glued));
+    out.put("fed", std::to_string(fed));
+    out.put("leave", grains_leave(carried) ? "true" : "false");
+    out.put("dumps", std::to_string(carried.dumps.size()));
+    out.put("dump", quoted(dump_name(carried.engine)));
+    for (const CarryNote& note : carried.changes) {
+        out.element("change");
+        if (!note.where.empty()) out.put("where", quoted(note.where));
+        out.put("what", quoted(note.what));
+        out.put("why", quoted(note.why));
+    }
+    return out.take();
+}
+
+[[noreturn]] void fail(const fs::path& file, const toml::source_region& at, const std::string& what) {
+    throw UserError(fmt::format("{}:{}:{}: {}", file.string(), at.begin.line, at.begin.column, what));
+}
+
+// A value that must be there.
+class FactsReader {
+  public:
+    FactsReader(const fs::path& file, const toml::table& table) : file_(file), table_(table) {}
+
+    std::string word(const char* key) const {
+        const toml::node& node = at(key);
+        if (const auto value = node.value<std::string>()) return *value;
+        fail(file_, node.source(), fmt::format("'{}' is no text", key));
+    }
+    std::int64_t whole(const char* key, std::int64_t least = 0) const {
+        const toml::node& node = at(key);
+        const auto value = node.value<std::int64_t>();
+        if (!value || *value < least)
+            fail(file_, node.source(), fmt::format("'{}' is no whole number from {} on", key, least));
+        return *value;
+    }
+    double number(const char* key) const {
+        const toml::node& node = at(key);
+        const auto value = node.value<double>();
+        if (!value || !(*value > 0)) fail(file_, node.source(), fmt::format("'{}' is no positive number", key));
+        return *value;
+    }
+    std::string choice(const char* key, const char* first, const char* second) const {
+        const std::string text = word(key);
+        if (text != first && text != second)
+            fail(file_, at(key).source(),
+                 fmt::format("'{}' is \"{}\"; it is \"{}\" or \"{}\"", key, text, first, second));
+        return text;
+    }
+    bool truth(const char* key) const { return at(key).value<bool>().value_or(false); }
+
+  private:
+    const toml::node& at(const char* key) const {
+        const toml::node* node = table_.get(key);
+        if (node == nullptr)
+            throw UserError(fmt::format("{}:1:1: '{}' is missing; hand the scene over again", file_.string(), key));
+        return *node;
+    }
+    const fs::path& file_;
+    const toml::table& table_;
+};
+
+std::vector<std::string> changes_of(const toml::table& table) {
+    std::vector<std::string> all;
+    const toml::array* changes = table["change"].as_array();
+    if (changes == nullptr) return all;
+    for (const toml::node& one : *changes) {
+        const toml::table* change = one.as_table();
+        if (change == nullptr) continue;
+        all.push_back(fmt::format("{} ({})", (*change)["what"].value_or(std::string()),
+                                  (*change)["why"].value_or(std::string())));
+    }
+    return all;
+}
+
+void make_executable(const fs::path& file) {
+    std::error_code ignored;
+    fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                    fs::perm_options::add, ignored);
+}
+
+}  // namespace
+
+void write_handover(const fs::path& folder, const CarriedScene& carried, const StartState& start,
+                    const std::string& version) {
+    const bool lammps = carried.engine == PeerEngine::lammps;
+    write_data_file(folder / data_name, carried, start,
+                    lammps ? carried.type_count() : liggghts_types(carried));
+    if (!lammps) write_triangle_walls(folder, carried);
+    replace_file(folder / deck_name(carried.engine), lammps ? lammps_deck(carried) : liggghts_deck(carried));
+    keep_mesh_files(carried.scene, folder);
+    replace_file(folder / "scene.toml", resolved_scene(carried.scene, carried.plan));
+    replace_file(folder / "run.sh", run_script(carried));
+    make_executable(folder / "run.sh");
+    replace_file(folder / "job.slurm", slurm_script(carried));
+    // The last, so that a folder that has it is whole.
+    replace_file(folder / facts_name, facts_text(carried, start, version));
+}
+
+bool is_handover(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::is_regular_file(folder / facts_name, ignored);
+}
+
+HandoverFacts read_handover(const fs::path& folder) {
+    const fs::path file = folder / facts_name;
+    toml::table table;
+    try {
+        table = toml::parse_file(file.string());
+    } catch (const toml::parse_error& error) {
+        fail(file, error.source(), std::string(error.description()));
+    }
+    const FactsReader facts(file, table);
+    HandoverFacts all;
+    all.engine =
+        facts.choice("engine", "lammps", "liggghts") == "lammps" ? PeerEngine::lammps : PeerEngine::liggghts;
+    all.frame = facts.choice("frame", "container", "lab") == "lab" ? RunFrame::lab : RunFrame::container;
+    all.ranks = static_cast<int>(std::min<std::int64_t>(facts.whole("ranks", 1), 1'000'000'000));
+    all.step = facts.number("step");
+    all.shift = facts.whole("shift");
+    all.first = facts.whole("first");
+    all.last = facts.whole("last");
+    all.grains = facts.whole("grains");
+    all.glued = facts.whole("glued");
+    all.fed = facts.whole("fed");
+    all.leave = facts.truth("leave");
+    all.dumps = facts.whole("dumps");
+    all.dump = folder / fs::path(facts.word("dump")).filename();
+    all.changes = changes_of(table);
+    return all;
+}
+
+}  // namespace grainreel

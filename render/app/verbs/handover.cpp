@@ -1,0 +1,170 @@
+// The verb `handover`: a scene as a folder that LAMMPS or LIGGGHTS runs, here or on a cluster.
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+
+#include "build_info.hpp"
+#include "engine/base/error.hpp"
+#include "engine/files/run_folder.hpp"
+#include "engine/handover/carry.hpp"
+#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/handover_folder.hpp"
+#include "engine/handover/peer_rates.hpp"
+#include "engine/handover/start_state.hpp"
+#include "engine/handover/triangle_walls.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/run/folder/progress.hpp"
+#include "engine/scene/text/data_size.hpp"
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/report/stop_signal.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/scene/read_scene.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Steps of all pictures, and of those that they are exposed over.
+std::vector<std::int64_t> picture_steps(const FilmedScene& scene, const Plan& plan) {
+    std::vector<std::int64_t> steps;
+    const std::vector<FilmSegment> segments = segments_of(scene.film);
+    for (const Shot& shot : film_schedule(scene, plan.clock, plan.steps)) {
+        steps.push_back(shot.step);
+        const FilmSegment& segment = segments[static_cast<std::size_t>(shot.segment)];
+        for (const auto& more : {exposed_steps(shot, segment, plan.clock), averaged_steps(shot, segment, plan.clock)})
+            steps.insert(steps.end(), more.begin(), more.end());
+    }
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    std::erase_if(steps, [](std::int64_t step) { return step < 0; });
+    return steps;
+}
+
+class Handover final : public Verb {
+  public:
+    Handover()
+        : Verb("handover", "Write a scene as a folder that LAMMPS or LIGGGHTS runs under MPI",
+               "The folder has the data file, the deck, walls, run.sh, job.slurm for sbatch, and\n"
+               "handover.toml, which says what was changed and why. Its path goes to stdout.\n"
+               "Then:   sh DIR/run.sh        or   cd DIR && sbatch job.slurm\n"
+               "        ./movie render DIR\n"
+               "What cannot be carried is told at once, each with its line of the scene; then nothing is "
+               "written.\n\n" +
+                   std::string(exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser.add_option("--to", engine_, "Engine: lammps or liggghts")
+            ->required()
+            ->type_name("ENGINE")
+            ->check(CLI::IsMember({"lammps", "liggghts"}));
+        parser.add_option("--ranks", request_.ranks, "Ranks that run.sh starts [1]")
+            ->check(CLI::Range(1, 1'000'000))
+            ->type_name("N");
+        parser
+            .add_option("--accept", accepted_,
+                        "law: a contact law that the engine has not becomes the nearest that it has")
+            ->check(CLI::IsMember({"law"}))
+            ->type_name("WHAT");
+        parser
+            .add_option("--law", law_, "edinburgh: LIGGGHTS on one rank keeps Walton-Braun, its model edinburgh")
+            ->check(CLI::IsMember({"edinburgh"}))
+            ->type_name("LAW");
+        parser
+            .add_option("--pack-there", request_.packs_above,
+                        "Above so many grains the deck packs by itself [1000000]")
+            ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
+            ->type_name("N");
+        parser.add_flag("--force", folder_.force, "Replace a hand-over of before in DIR");
+        add_out_folder(parser, folder_.out, "Folder that is made [output/NAME-ENGINE]");
+        add_scene(parser, scene_, sets_);
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        const FilmedScene scene = read_filmed_scene(scene_, sets_, measurable_in);
+        const Plan plan = plan_with_film(scene);
+        request_.engine = engine_ == "lammps" ? PeerEngine::lammps : PeerEngine::liggghts;
+        request_.accept_law = !accepted_.empty();
+        request_.edinburgh = law_ == "edinburgh";
+        check_schedule(scene, count_film(scene, plan.clock, plan.steps));
+        request_.dumps = picture_steps(scene, plan);
+        CarriedScene carried = carry(scene, plan, request_);
+        throw_refusals(carried);
+        folder_.name = fmt::format("{}-{}", scene.name, engine_);
+        folder_.base = output_base();
+        folder_.command = command;
+        check_replaceable();
+        const StartState start = start_state(carried, scene.run.threads, watcher(reporter));
+        if (start.stopped) return 128 + stop_signal();
+        if (carried.engine == PeerEngine::liggghts) make_room_for_walls(carried);
+        if (folder_.force && folder_.out) fs::remove_all(*folder_.out);
+        const RunFolder folder(folder_);
+        write_handover(folder.path(), carried, start, build_info::version);
+        tell(reporter, carried, start, folder.path());
+        print_exact(folder.path().string() + "\n");
+        return 0;
+    }
+
+  private:
+    // A folder in whose place ours would come must be a hand-over, and nothing else.
+    void check_replaceable() {
+        std::error_code ignored;
+        if (!folder_.out || !folder_.force || !fs::exists(*folder_.out, ignored)) return;
+        if (fs::is_directory(*folder_.out, ignored) &&
+            (is_handover(*folder_.out) || fs::is_empty(*folder_.out, ignored)))
+            return;
+        throw UserError(fmt::format("--out {}: holds no hand-over, and nothing else is replaced; name another folder",
+                                    folder_.out->string()));
+    }
+
+    PackingWatcher watcher(Reporter& reporter) const {
+        return [&reporter](const PackingProgress& packing) {
+            Progress progress;
+            progress.stage = packing.stage == PackingProgress::Stage::growing   ? Progress::Stage::growing
+                             : packing.stage == PackingProgress::Stage::raining ? Progress::Stage::raining
+                                                                                : Progress::Stage::settling;
+            progress.done = packing.done;
+            reporter.progress(progress);
+            return stop_signal() == 0;
+        };
+    }
+
+    static void tell(Reporter& reporter, const CarriedScene& carried, const StartState& start,
+                     const fs::path& folder) {
+        reporter.clear();
+        for (const CarryNote& note : carried.changes)
+            reporter.info(fmt::format("{}{}{}: {}", note.where, note.where.empty() ? "" : ": ", note.what, note.why));
+        if (!start.settled)
+            reporter.warning("the grains had not come to rest when the time limit of settling ended");
+        const double seconds =
+            peer_seconds(carried.engine, carried.frame, carried.grains(),
+                         carried.last - carried.first + carried.packing_steps, carried.ranks);
+        reporter.info(fmt::format("{} for {} on {} rank{}, about {:.2g} hours there; {} dumps", folder.string(),
+                                  name_of(carried.engine), carried.ranks, carried.ranks == 1 ? "" : "s",
+                                  seconds / 3600, carried.dumps.size()));
+        reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
+                                  folder.string(), folder.string()));
+        reporter.info(fmt::format("draw it:     ./movie render {}", folder.string()));
+    }
+
+    fs::path scene_;
+    Assignments sets_;
+    std::string engine_, accepted_, law_;
+    CarryRequest request_;
+    RunFolderRequest folder_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> handover_verb() {
+    return std::make_unique<Handover>();
+}
+
+}  // namespace grainreel
