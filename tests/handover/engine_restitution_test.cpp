@@ -8,10 +8,11 @@
 
 #include "engine/handover/back/dump_tail.hpp"
 #include "engine/handover/carry.hpp"
+#include "engine/handover/deck_parts.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/runner/engine_job.hpp"
 #include "engine/handover/start_state.hpp"
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/triangle_walls.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -82,6 +83,7 @@ Impacts run(PeerEngine engine, int ranks, double speed, const std::string& law) 
     CarriedScene carried = carry(scene, make_plan(scene), request);
     throw_refusals(carried);
     const StartState start = start_state(carried, 1, [](const PackingProgress&) { return true; });
+    if (engine == PeerEngine::liggghts) make_room_for_walls(carried);
     write_handover(folder.path(), carried, start, "test");
     EngineJob job(engine, ranks, deck_name(engine));
     job.start(folder.path());
