@@ -1,5 +1,6 @@
 #include "engine/handover/back/grain_count.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,13 +15,19 @@ constexpr double kSlack = 1.5;  // of the way in free fall, for pushes from othe
 
 }  // namespace
 
-// It can be at the exit by then. Others push it, but not by much.
+// It can be at an exit by then. Others push it, but not by much.
 bool GrainCount::may_leave(const Frame& before, std::size_t row, double seconds) const {
-    const Container& container = scene_.container;
-    if (!container.outlet || container.tray) return false;
+    const Vec3& at = before.position[row];
     const double way = before.velocity[row].norm() * seconds + scene_.gravity.norm() * seconds * seconds / 2;
-    const double height = before.position[row].z() + container.outlet->exit_depth;
-    return height <= kSlack * way + 4 * before.radius[row];
+    const double reach = kSlack * way + 4 * before.radius[row];
+    const Container& container = scene_.container;
+    if (container.outlet && !container.tray && at.z() + container.outlet->exit_depth <= reach) return true;
+    for (const ExitBox& exit : scene_.exits) {
+        const double inside = std::min((at - exit.low).minCoeff(), (exit.high - at).minCoeff());
+        const double outside = (exit.low - at).cwiseMax(at - exit.high).cwiseMax(0).norm();
+        if (exit.outside ? inside <= reach : outside <= reach) return true;
+    }
+    return false;
 }
 
 GrainCount::Change GrainCount::compare(const Frame* before, const Frame& now) const {

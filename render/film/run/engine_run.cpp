@@ -14,6 +14,7 @@
 #include "engine/handover/deck_parts.hpp"
 #include "engine/handover/dump_pace.hpp"
 #include "engine/handover/start_state.hpp"
+#include "engine/handover/triangle_walls.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/film_limits.hpp"
@@ -25,14 +26,6 @@ namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::int64_t> picture_steps(const FilmedScene& scene, const Plan& plan) {
-    std::vector<std::int64_t> steps;
-    for (const Shot& shot :
-         shots_at(instants_of(scene, plan.clock, plan.steps), scene.film.segments, plan.clock, plan.steps))
-        steps.push_back(shot.step);
-    return steps;
-}
 
 std::vector<std::int64_t> ordered(std::vector<std::int64_t> steps) {
     std::sort(steps.begin(), steps.end());
@@ -48,9 +41,24 @@ FilmedScene as_carried(FilmedScene scene, const CarriedScene& carried) {
 
 }  // namespace
 
+std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
+    std::vector<std::int64_t> needed;
+    const std::vector<FilmSegment> segments = segments_of(scene.film);
+    for (const Shot& shot : film_schedule(scene, clock, steps)) {
+        needed.push_back(shot.step);
+        const FilmSegment& segment = segments[static_cast<std::size_t>(shot.segment)];
+        for (const auto& more : {exposed_steps(shot, segment, clock), averaged_steps(shot, segment, clock)})
+            needed.insert(needed.end(), more.begin(), more.end());
+    }
+    std::sort(needed.begin(), needed.end());
+    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+    std::erase_if(needed, [](std::int64_t step) { return step < 0; });
+    return needed;
+}
+
 void want_pictures(CarriedScene& carried, const FilmedScene& scene) {
     constexpr std::size_t most_paces = 200;
-    std::vector<std::int64_t> pictures = picture_steps(scene, carried.plan);
+    std::vector<std::int64_t> pictures = needed_steps(scene, carried.plan.clock, carried.plan.steps);
     if (pictures.empty()) return;
     pictures.push_back(carried.first);
     pictures.push_back(carried.last);
@@ -67,9 +75,13 @@ EngineRun::EngineRun(const FilmRequest& request, RunListener& listener, const Fi
       carried_(std::move(carried)),
       scene_(as_carried(scene, carried_)),
       job_(carried_.engine, carried_.ranks, deck_name(carried_.engine)) {
-    film_.check(scene_, std::ssize(picture_steps(scene_, carried_.plan)));
+    film_.check(scene_, pictures());
     film_.use_threads(drawing_threads(scene_.run.threads));
     make_folder({scene_.name, request_.base, request_.out, request_.force});
+}
+
+std::int64_t EngineRun::pictures() const {
+    return std::ssize(film_schedule(scene_, carried_.plan.clock, carried_.plan.steps));
 }
 
 std::vector<std::string> EngineRun::warnings() const {
@@ -78,7 +90,7 @@ std::vector<std::string> EngineRun::warnings() const {
         all.push_back(fmt::format("{}{}{}{}", change.where.empty() ? "" : change.where + ": ", change.what,
                                   change.why.empty() ? "" : "; ", change.why));
     all.insert(all.end(), job_.notes().begin(), job_.notes().end());
-    for (const std::string& one : film_warnings(scene_, std::ssize(picture_steps(scene_, carried_.plan))))
+    for (const std::string& one : film_warnings(scene_, pictures()))
         if (film_.wanted()) all.push_back(one);
     return all;
 }
@@ -132,6 +144,7 @@ bool EngineRun::hand_over() {
     };
     const StartState start = start_state(carried_, usable_processors(), watcher);
     if (start.stopped) return false;
+    if (carried_.engine == PeerEngine::liggghts) make_room_for_walls(carried_);
     const fs::path place = folder() / ReturnedRun::kFolder;
     fs::create_directories(place);
     write_handover(place, carried_, start, desk_.record.version);

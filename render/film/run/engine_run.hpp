@@ -16,6 +16,10 @@
 
 namespace grainreel {
 
+// Steps of all pictures of a run from step 0 on, with those that they are exposed over or averaged over; by
+// rising step.
+std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
+
 // carried.dumps also has the steps of the film's pictures; those of the trajectory are left out where both
 // together would end the engine's run too often.
 void want_pictures(CarriedScene& carried, const FilmedScene& scene);
@@ -33,6 +37,7 @@ class EngineRun final : public FilmRun {
     std::string stopped_text() const override;
     void report_written() override;
 
+    std::int64_t pictures() const;
     std::vector<std::string> warnings() const;
     bool hand_over();
     void follow();
