@@ -1,10 +1,13 @@
-// A .vtp file of VTK (PolyData): arrays in the appended section, raw, each packed by zlib in blocks.
+// Files of VTK in XML: .vtp (PolyData) and .vti (ImageData). Arrays lie in the appended section, raw, each
+// packed by zlib in blocks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grainreel {
@@ -20,6 +23,12 @@ struct VtkArray {
     static VtkArray integers(std::string name, const std::vector<std::int64_t>& values);
 };
 
+// What a file says as a whole (FieldData).
+struct VtkFacts {
+    std::optional<double> time;                                           // s, as TimeValue
+    std::vector<std::pair<std::string, std::vector<std::string>>> words;  // "species": names
+};
+
 // A piece of PolyData. Connectivity and offsets as VTK has them, for one of vertices, lines and triangles.
 struct VtkPolyData {
     enum class Cells { vertices, lines, triangles };
@@ -28,11 +37,21 @@ struct VtkPolyData {
     std::vector<std::int64_t> connectivity;
     std::int64_t points_a_cell = 1;
     std::vector<VtkArray> point_data, cell_data;
-    std::optional<double> time;  // s, as TimeValue
+    VtkFacts facts;
 };
 
-// The file's text and bytes. Packs the blocks on several threads.
-std::string vtk_bytes(const VtkPolyData& data);
+// A grid of equal cells, a value or a vector for each; x runs fastest.
+struct VtkImage {
+    std::array<std::size_t, 3> cells{1, 1, 1};
+    std::array<double, 3> origin{}, spacing{1, 1, 1};  // m; the origin is the lowest corner
+    std::vector<VtkArray> cell_data;
+    VtkFacts facts;
+};
+
+// The file's text and bytes. Packs the blocks on as many threads; 0: as many as there are processors. The
+// bytes do not depend on that.
+std::string vtk_bytes(const VtkPolyData& data, int threads = 0);
+std::string vtk_bytes(const VtkImage& image, int threads = 0);
 
 // An unpacked file's name and time, for a .pvd.
 struct VtkEntry {
