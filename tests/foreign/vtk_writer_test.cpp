@@ -25,7 +25,7 @@ TEST(VtkWriter, BytesDoNotDependOnThreads) {
     VtkPolyData data;
     data.points = many_numbers(3 * points);
     for (std::size_t i = 0; i < points; ++i) data.connectivity.push_back(static_cast<std::int64_t>(i));
-    data.point_data = {VtkArray::doubles("radius", many_numbers(points))};
+    data.point_data = {VtkList::doubles("radius", many_numbers(points))};
     data.facts.words = {{"species", {"small", "big"}}};
     const std::string one = vtk_bytes(data, 1);
     EXPECT_GT(one.size(), points * 8);
@@ -33,7 +33,7 @@ TEST(VtkWriter, BytesDoNotDependOnThreads) {
 
     VtkImage image;
     image.cells = {50, 40, 20};
-    image.cell_data = {VtkArray::doubles("velocity", many_numbers(3 * points), 3)};
+    image.cell_data = {VtkList::doubles("velocity", many_numbers(3 * points), 3)};
     EXPECT_EQ(vtk_bytes(image, 5), vtk_bytes(image, 1));
 }
 

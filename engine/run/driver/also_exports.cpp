@@ -49,9 +49,9 @@ void remove_parts(const fs::path& also) {
 void check_also(const Scene& scene) {
     const std::vector<std::string> also = names_of(scene.output.also);
     if (std::find(also.begin(), also.end(), "stl") != also.end() && surfaces_of(world_of(scene)).empty())
-        throw UserError(fmt::format(
-            "{}: 'output.also' names \"stl\", which has walls alone, and this scene has none; remove it",
-            scene.where("output.also")));
+        throw UserError(
+            fmt::format("{}: 'also' names \"stl\", which has walls alone, and this scene has none; remove it",
+                        scene.where("output.also")));
 }
 
 std::string name_in_also(const std::string& format) {

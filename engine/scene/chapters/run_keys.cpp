@@ -125,9 +125,7 @@ std::string also_text(const Output& from, const Scene&) {
 }
 
 const char* without_record(const Output& output) {
-    return output.trajectory ? nullptr
-                             : "no trajectory is kept, and other formats are made of the trajectory; let "
-                               "output.trajectory be true";
+    return output.trajectory ? nullptr : "no trajectory is kept, and other formats are made of it";
 }
 
 const KeyTable<Output>& output_table() {

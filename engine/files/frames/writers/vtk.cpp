@@ -42,15 +42,15 @@ VtkPolyData grains_of(const Frame& frame, const World& world, const FrameSupply&
         add(spin, frame.spin[i]);
         if (i < frame.contact_number.size()) contacts.push_back(frame.contact_number[i]);
     }
-    data.point_data = {VtkArray::doubles("radius", radius), VtkArray::integers("id", id),
-                       VtkArray::integers("type", type)};
+    data.point_data = {VtkList::doubles("radius", radius), VtkList::integers("id", id),
+                       VtkList::integers("type", type)};
     if (supply.velocities) {
-        data.point_data.push_back(VtkArray::doubles("velocity", velocity, 3));
-        data.point_data.push_back(VtkArray::doubles("omega", spin, 3));
+        data.point_data.push_back(VtkList::doubles("velocity", velocity, 3));
+        data.point_data.push_back(VtkList::doubles("omega", spin, 3));
     }
     if (supply.contact_numbers) {
         contacts.resize(frame.size(), -1);
-        data.point_data.push_back(VtkArray::integers("contact_number", contacts));
+        data.point_data.push_back(VtkList::integers("contact_number", contacts));
     }
     std::vector<std::string> names;
     for (const WorldSpecies& species : world.species) names.push_back(species.name);
@@ -58,12 +58,12 @@ VtkPolyData grains_of(const Frame& frame, const World& world, const FrameSupply&
     return data;
 }
 
-VtkArray force_array(const Frame& frame, const std::optional<std::vector<Vec3>>& forces) {
+VtkList force_array(const Frame& frame, const std::optional<std::vector<Vec3>>& forces) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> numbers;
     for (std::size_t i = 0; i < frame.size(); ++i)
         add(numbers, forces ? (*forces)[i] : Vec3(none, none, none));
-    return VtkArray::doubles("force", numbers, 3);
+    return VtkList::doubles("force", numbers, 3);
 }
 
 VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const Frame& frame) {
@@ -82,14 +82,14 @@ VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const Frame& fra
         }
         names.push_back(surfaces[s].name);
     }
-    data.cell_data = {VtkArray::integers("wall", number)};
+    data.cell_data = {VtkList::integers("wall", number)};
     data.facts.words.emplace_back("walls", names);
     return data;
 }
 
 // One array for the components of a vector or tensor, in VTK's order; what has no such parts stays alone.
-std::vector<VtkArray> joined(const std::vector<std::string>& names,
-                             const std::vector<std::vector<double>>& values) {
+std::vector<VtkList> joined(const std::vector<std::string>& names,
+                            const std::vector<std::vector<double>>& values) {
     const std::vector<std::vector<std::string>> kinds{
         {"_xx", "_xy", "_xz", "_yx", "_yy", "_yz", "_zx", "_zy", "_zz"},
         {"_xx", "_yy", "_zz", "_xy", "_yz", "_xz"},
@@ -97,7 +97,7 @@ std::vector<VtkArray> joined(const std::vector<std::string>& names,
     std::map<std::string, std::size_t> place;
     for (std::size_t k = 0; k < names.size(); ++k) place[names[k]] = k;
     std::vector<bool> taken(names.size(), false);
-    std::vector<VtkArray> arrays;
+    std::vector<VtkList> arrays;
     for (std::size_t k = 0; k < names.size(); ++k) {
         if (taken[k]) continue;
         std::vector<std::size_t> parts{k};
@@ -117,7 +117,7 @@ std::vector<VtkArray> joined(const std::vector<std::string>& names,
         for (std::size_t cell = 0; cell < values[k].size(); ++cell)
             for (const std::size_t part : parts) numbers.push_back(values[part][cell]);
         for (const std::size_t part : parts) taken[part] = true;
-        arrays.push_back(VtkArray::doubles(name, numbers, static_cast<int>(parts.size())));
+        arrays.push_back(VtkList::doubles(name, numbers, static_cast<int>(parts.size())));
     }
     return arrays;
 }
@@ -201,6 +201,7 @@ class Vtk final : public FrameWriter {
         // Frames without times are counted.
         const double time = world_.time_known ? frame.time : static_cast<double>(frames_);
         if (world_.time_known) data.facts.time = time;
+        data.facts.step = frame.step;
         const std::string file = fmt::format("{}_{:06d}.vtp", name, frames_);
         TextFile(folder_ / file).write(vtk_bytes(data));
         entries_.push_back({time, part, file});

@@ -59,8 +59,8 @@ class Lines {
         wall_.push_back(second < 0 ? 1 : 0);
     }
     VtkPolyData data() {
-        data_.cell_data = {VtkArray::doubles("normal_force", normal_), VtkArray::integers("id1", first_),
-                           VtkArray::integers("id2", second_), VtkArray::integers("to_wall", wall_)};
+        data_.cell_data = {VtkList::doubles("normal_force", normal_), VtkList::integers("id1", first_),
+                           VtkList::integers("id2", second_), VtkList::integers("to_wall", wall_)};
         return std::move(data_);
     }
 
@@ -86,8 +86,8 @@ VtkPolyData contact_lines(const Frame& frame, const std::vector<ContactRecord>& 
         put(force, contact.normal * direction(way) + contact.tangential);
     }
     VtkPolyData data = lines.data();
-    data.cell_data.push_back(VtkArray::doubles("tangential_force", tangential, 3));
-    data.cell_data.push_back(VtkArray::doubles("force", force, 3));
+    data.cell_data.push_back(VtkList::doubles("tangential_force", tangential, 3));
+    data.cell_data.push_back(VtkList::doubles("force", force, 3));
     return data;
 }
 

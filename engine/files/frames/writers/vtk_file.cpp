@@ -38,13 +38,13 @@ std::string packed(const char* bytes, std::size_t size) {
 }
 
 struct Block {
-    const VtkArray* array;
+    const VtkList* array;
     std::size_t from, size;
     std::string out;
 };
 
 // Header of a packed array: blocks, size of a block, size of the last one (0: it is full), packed sizes.
-std::string with_header(const VtkArray& array, const std::vector<Block>& blocks) {
+std::string with_header(const VtkList& array, const std::vector<Block>& blocks) {
     std::vector<std::uint64_t> head{0, kBlock, array.bytes.size() % kBlock};
     std::string body;
     for (const Block& block : blocks) {
@@ -56,7 +56,7 @@ std::string with_header(const VtkArray& array, const std::vector<Block>& blocks)
     return bytes_of(head) + body;
 }
 
-std::string one_array(const VtkArray& array, std::uint64_t offset) {
+std::string one_array(const VtkList& array, std::uint64_t offset) {
     return fmt::format(
         "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
         "offset=\"{}\"/>\n",
@@ -66,23 +66,23 @@ std::string one_array(const VtkArray& array, std::uint64_t offset) {
 // The packed arrays of a file, and where each is.
 class Appended {
   public:
-    Appended(const std::vector<const std::vector<VtkArray>*>& lists, int threads) {
+    Appended(const std::vector<const std::vector<VtkList>*>& lists, int threads) {
         std::vector<Block> blocks;
-        for (const std::vector<VtkArray>* list : lists)
-            for (const VtkArray& array : *list)
+        for (const std::vector<VtkList>* list : lists)
+            for (const VtkList& array : *list)
                 for (std::size_t from = 0; from < array.bytes.size(); from += kBlock)
                     blocks.push_back({&array, from, std::min(kBlock, array.bytes.size() - from), {}});
         pack(blocks, threads);
-        for (const std::vector<VtkArray>* list : lists)
-            for (const VtkArray& array : *list) {
+        for (const std::vector<VtkList>* list : lists)
+            for (const VtkList& array : *list) {
                 place_[&array] = bytes_.size();
                 bytes_ += with_header(array, blocks);
             }
     }
 
-    std::string section(const char* name, const std::vector<VtkArray>& list) const {
+    std::string section(const char* name, const std::vector<VtkList>& list) const {
         std::string text = fmt::format("      <{}>\n", name);
-        for (const VtkArray& array : list) text += one_array(array, place_.at(&array));
+        for (const VtkList& array : list) text += one_array(array, place_.at(&array));
         return text + fmt::format("      </{}>\n", name);
     }
     // The section and the file's end.
@@ -101,7 +101,7 @@ class Appended {
         });
     }
 
-    std::map<const VtkArray*, std::uint64_t> place_;
+    std::map<const VtkList*, std::uint64_t> place_;
     std::string bytes_;
 };
 
@@ -120,6 +120,11 @@ std::string facts_text(const VtkFacts& facts) {
             "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
             "format=\"ascii\">{}</DataArray>\n",
             *facts.time);
+    if (facts.step)
+        text += fmt::format(
+            "      <DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
+            "format=\"ascii\">{}</DataArray>\n",
+            *facts.step);
     for (const auto& [name, words] : facts.words) {
         text +=
             fmt::format("      <Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
@@ -135,16 +140,16 @@ std::string facts_text(const VtkFacts& facts) {
 
 }  // namespace
 
-VtkArray VtkArray::doubles(std::string name, const std::vector<double>& values, int components) {
+VtkList VtkList::doubles(std::string name, const std::vector<double>& values, int components) {
     return {std::move(name), "Float64", components, bytes_of(values)};
 }
 
-VtkArray VtkArray::floats(std::string name, const std::vector<double>& values, int components) {
+VtkList VtkList::floats(std::string name, const std::vector<double>& values, int components) {
     return {std::move(name), "Float32", components,
             bytes_of(std::vector<float>(values.begin(), values.end()))};
 }
 
-VtkArray VtkArray::integers(std::string name, const std::vector<std::int64_t>& values) {
+VtkList VtkList::integers(std::string name, const std::vector<std::int64_t>& values) {
     return {std::move(name), "Int64", 1, bytes_of(values)};
 }
 
@@ -153,9 +158,9 @@ std::string vtk_bytes(const VtkPolyData& data, int threads) {
     std::vector<std::int64_t> offsets(cells);
     for (std::size_t c = 0; c < cells; ++c)
         offsets[c] = static_cast<std::int64_t>(c + 1) * data.points_a_cell;
-    const std::vector<VtkArray> points{VtkArray::doubles("Points", data.points, 3)};
-    const std::vector<VtkArray> topology{VtkArray::integers("connectivity", data.connectivity),
-                                         VtkArray::integers("offsets", offsets)};
+    const std::vector<VtkList> points{VtkList::doubles("Points", data.points, 3)};
+    const std::vector<VtkList> topology{VtkList::integers("connectivity", data.connectivity),
+                                        VtkList::integers("offsets", offsets)};
     const auto count = [&](VtkPolyData::Cells kind) { return data.cells == kind ? cells : 0; };
     Appended arrays({&points, &data.point_data, &data.cell_data, &topology}, threads);
     std::string text = head("PolyData") + "  <PolyData>\n" + facts_text(data.facts);

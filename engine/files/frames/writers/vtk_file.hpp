@@ -12,20 +12,21 @@
 
 namespace grainreel {
 
-struct VtkArray {
+struct VtkList {
     std::string name;
     std::string type;  // "Float64", "Float32", "Int64", "Int32", "UInt8"
     int components = 1;
     std::string bytes;  // the numbers as they lie in memory, little endian
 
-    static VtkArray doubles(std::string name, const std::vector<double>& values, int components = 1);
-    static VtkArray floats(std::string name, const std::vector<double>& values, int components = 1);
-    static VtkArray integers(std::string name, const std::vector<std::int64_t>& values);
+    static VtkList doubles(std::string name, const std::vector<double>& values, int components = 1);
+    static VtkList floats(std::string name, const std::vector<double>& values, int components = 1);
+    static VtkList integers(std::string name, const std::vector<std::int64_t>& values);
 };
 
 // What a file says as a whole (FieldData).
 struct VtkFacts {
     std::optional<double> time;                                           // s, as TimeValue
+    std::optional<std::int64_t> step;                                     // as CYCLE
     std::vector<std::pair<std::string, std::vector<std::string>>> words;  // "species": names
 };
 
@@ -36,7 +37,7 @@ struct VtkPolyData {
     std::vector<double> points;  // x y z
     std::vector<std::int64_t> connectivity;
     std::int64_t points_a_cell = 1;
-    std::vector<VtkArray> point_data, cell_data;
+    std::vector<VtkList> point_data, cell_data;
     VtkFacts facts;
 };
 
@@ -44,7 +45,7 @@ struct VtkPolyData {
 struct VtkImage {
     std::array<std::size_t, 3> cells{1, 1, 1};
     std::array<double, 3> origin{}, spacing{1, 1, 1};  // m; the origin is the lowest corner
-    std::vector<VtkArray> cell_data;
+    std::vector<VtkList> cell_data;
     VtkFacts facts;
 };
 
