@@ -205,6 +205,9 @@ struct ContactsReader::Impl {
         return rows;
     }
 
+    // Those of a frame of the trajectory, in the order of the file.
+    std::vector<Row> rows_of(std::size_t frame) const;
+
     std::string source;  // for messages
     NetcdfFile file;
     bool checksums = false, meshes = false;
@@ -239,19 +242,33 @@ bool ContactsReader::has_checksums() const {
     return impl_->checksums;
 }
 
-std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
-    if (!has_all(frame)) return {};
-    const std::vector<int>& frames = impl_->frame_of;
+std::vector<Row> ContactsReader::Impl::rows_of(std::size_t frame) const {
+    const std::vector<int>& frames = frame_of;
     const auto [low, high] = std::equal_range(frames.begin(), frames.end(), static_cast<int>(frame));
     // With one row more on each side: damage to a number of a frame may have moved a row to its neighbour.
     const auto from = low - (low == frames.begin() ? 0 : 1), to = high + (high == frames.end() ? 0 : 1);
     if (from == to) return {};
-    const std::vector<Row> rows =
-        impl_->read(static_cast<std::size_t>(from - frames.begin()), static_cast<std::size_t>(to - from));
+    std::vector<Row> rows =
+        read(static_cast<std::size_t>(from - frames.begin()), static_cast<std::size_t>(to - from));
+    std::erase_if(rows, [&](const Row& row) { return row.frame != static_cast<int>(frame); });
+    return rows;
+}
+
+std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
     std::vector<Touch> touches;
-    for (const Row& row : rows)
-        if (row.frame == static_cast<int>(frame)) touches.push_back({row.first, row.second, row.normal});
+    if (!has_all(frame)) return touches;
+    for (const Row& row : impl_->rows_of(frame)) touches.push_back({row.first, row.second, row.normal});
     return touches;
+}
+
+std::vector<ContactRecord> ContactsReader::contacts(std::size_t frame) const {
+    std::vector<ContactRecord> contacts;
+    if (!has_all(frame)) return contacts;
+    const auto vector = [](const std::array<float, 3>& v) { return Vec3(v[0], v[1], v[2]); };
+    for (const Row& row : impl_->rows_of(frame))
+        contacts.push_back(
+            {row.first, row.second, row.normal, vector(row.tangential), vector(row.point), row.triangle});
+    return contacts;
 }
 
 }  // namespace grainreel

@@ -53,6 +53,8 @@ class ContactsReader {
     // Those of a frame of the trajectory, as they were written; none where has_all() is false. Throws
     // UserError, with the row, when one of them is damaged.
     std::vector<Touch> touches(std::size_t frame) const;
+    // The same with their points and tangential forces.
+    std::vector<ContactRecord> contacts(std::size_t frame) const;
     // False for the frames of a file that was cut off from the last one on that has rows: rows of it may be
     // missing.
     bool has_all(std::size_t frame) const;

@@ -120,8 +120,9 @@ bool is_folder(const fs::path& path) {
     return other_than_file(path, false) == "a folder";
 }
 
+// also/ is written when a run ends, by then past its former end.
 bool is_kept_folder(const fs::path& name) {
-    return is_folder_of_runs(name) && name != kFormerRun && name != kFormerRunPart;
+    return is_folder_of_runs(name) && name != kFormerRun && name != kFormerRunPart && name != kAlsoFolder;
 }
 
 std::vector<fs::path> names_in(const fs::path& folder) {

@@ -66,6 +66,14 @@ std::optional<fs::path> first_foreign(const fs::path& folder, const IsOurs& ours
     return error ? folder : first;
 }
 
+// A folder of a format holds nothing but that format's files.
+bool is_ours_in_also(const fs::directory_entry& entry) {
+    if (!is_real_folder(entry)) return is_in_also(entry.path().filename());
+    return !first_foreign(entry.path(), [](const fs::directory_entry& inside) {
+        return !is_real_folder(inside) && is_in_also(inside.path().filename());
+    });
+}
+
 // What the scene beside it names, or has left there unfinished.
 IsOurs is_ours_in_meshes(const fs::path& run) {
     std::ifstream file = read_plain(run / "scene.toml");
@@ -95,6 +103,9 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
     const fs::path checkpoints = run / "checkpoints";
     if (is_real_folder(fs::directory_entry(checkpoints)))
         if (auto foreign = first_foreign(checkpoints, is_ours_in_checkpoints)) return foreign;
+    const fs::path also = run / kAlsoFolder;
+    if (is_real_folder(fs::directory_entry(also)))
+        if (auto foreign = first_foreign(also, is_ours_in_also)) return foreign;
     const fs::path meshes = run / kMeshFolder;
     if (is_real_folder(fs::directory_entry(meshes)))
         if (auto foreign = first_foreign(meshes, is_ours_in_meshes(run))) return foreign;

@@ -57,8 +57,8 @@ constexpr std::array<std::string_view, 35> files_of_runs{".lock",
 
 // movie.work has what a film needs while it is made.
 // handover has the deck of a run by another engine, and what that engine wrote.
-constexpr std::array<std::string_view, 7> folders_of_runs{
-    "frames", "movie.work", "checkpoints", "handover", kMeshFolder, kFormerRun, kFormerRunPart};
+constexpr std::array<std::string_view, 8> folders_of_runs{
+    "frames", "movie.work", "checkpoints", "handover", kMeshFolder, kFormerRun, kFormerRunPart, kAlsoFolder};
 
 constexpr std::array<std::string_view, 9> growing_files{
     "trajectory.nc",   "contacts.nc",    "measures.csv",    "outflow.csv", "fields.nc",
@@ -117,6 +117,19 @@ bool is_checkpoint_of_ring(const fs::path& name) {
     const std::string end = text.substr(digits.size());
     return !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos &&
            (end == ".grs" || end == ".grs.part");
+}
+
+bool is_in_also(const fs::path& name) {
+    constexpr std::array<std::string_view, 8> endings{".vtp", ".vti", ".pvd",  ".nc",
+                                                      ".xyz", ".csv", ".dump", ".data"};
+    constexpr std::array<std::string_view, 6> more{".stl", ".gsd", ".glb", ".json", ".bin", ".py"};
+    const auto known = [&](const auto& list) {
+        return std::any_of(list.begin(), list.end(),
+                           [&](std::string_view ending) { return name.extension() == ending; });
+    };
+    const bool unfinished =
+        name.string().starts_with('.') && name.string().find(".part") != std::string::npos;
+    return unfinished || known(endings) || known(more);
 }
 
 bool grows(const fs::path& name) {

@@ -15,10 +15,15 @@ inline constexpr const char *kKeyMoments = "key_moments.nc", *kKeyContacts = "ke
 // Where FormerRun keeps what a run was, and where it makes that ready.
 inline constexpr const char *kFormerRun = ".before", *kFormerRunPart = ".before.part";
 
+// The run in formats of other programs ([output] also).
+inline constexpr const char* kAlsoFolder = "also";
+
 bool is_file_of_runs(const std::filesystem::path& name);        // "movie.mp4"
 bool is_folder_of_runs(const std::filesystem::path& name);      // "frames"
 bool is_frame(const std::filesystem::path& name);               // "000123.png", in frames/
 bool is_checkpoint_of_ring(const std::filesystem::path& name);  // "000000012345.grs", in checkpoints/
+// A file in also/ or in a folder there, by its ending; one that is not finished too.
+bool is_in_also(const std::filesystem::path& name);
 
 // Whether a run writes on at the end of that file, instead of putting another in its place.
 bool grows(const std::filesystem::path& name);

@@ -12,6 +12,7 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/mesh/room.hpp"
+#include "engine/scene/also_formats.hpp"
 #include "engine/scene/field_output.hpp"
 #include "engine/scene/measure_columns.hpp"
 #include "engine/scene/motion/path.hpp"
@@ -324,6 +325,7 @@ struct Output {
     bool trajectory = true;
     // Keep the moments of the film's pictures in film_moments.nc; where they are few when empty.
     std::optional<bool> film_moments;
+    AlsoFormats also;  // formats of other programs that the run leaves too
     // Bytes of all checkpoints that are kept of a run's way; none are kept when empty.
     std::optional<std::int64_t> checkpoints = 64'000'000;
     std::vector<std::string> instruments;  // what is measured beside the usual columns

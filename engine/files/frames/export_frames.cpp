@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/fields_reader.hpp"
 #include "engine/files/frames/write_frames.hpp"
 
 namespace grainreel {
@@ -31,6 +32,23 @@ std::vector<std::size_t> chosen(const FrameArchive& frames, const ExportChoice& 
         throw UserError(fmt::format("{}: no frame lies there; they go from {:.6g} to {:.6g} s",
                                     frames.path().string(), moments.front().time, moments.back().time));
     return all;
+}
+
+void add_fields(const FrameArchive& frames, const std::vector<std::size_t>& wanted, FrameWriter& writer) {
+    const std::shared_ptr<const FieldsReader> fields = frames.fields();
+    if (!fields) return;
+    const double hair = 1e-9;
+    std::vector<std::size_t> records;
+    for (std::size_t record = 0; record < fields->records(); ++record) {
+        const auto [begin, end] = fields->span(record);
+        const bool has_frame =
+            std::any_of(wanted.begin(), wanted.end(), [&, from = begin, to = end](std::size_t k) {
+                const double time = frames.moments()[k].time;
+                return time >= from - hair && time <= to + hair;
+            });
+        if (has_frame) records.push_back(record);
+    }
+    writer.fields(*fields, records);
 }
 
 std::uintmax_t bytes_of(const fs::path& path) {
@@ -80,12 +98,16 @@ Exported export_frames(const FrameArchive& frames, const std::string& format, co
         Frame frame = frames.grains(wanted[k]);
         if (std::optional<std::vector<Touch>> touches = frames.touches(wanted[k]))
             frame.touches = std::move(*touches);
+        if (writer->takes_all())
+            if (const std::optional<std::vector<ContactRecord>> all = frames.contacts(wanted[k]))
+                writer->contacts(*all);
         writer->frame(frame);
         if (!watcher(static_cast<double>(k + 1) / static_cast<double>(wanted.size())))
             throw RunError("stopped while frames were written; nothing is left of them");
     }
+    if (writer->takes_all()) add_fields(frames, wanted, *writer);
     writer->end();
-    fs::remove_all(path, error);
+    if (fs::is_directory(path, error)) fs::remove_all(path, error);
     fs::rename(part.path(), path, error);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
     return {path, static_cast<std::int64_t>(wanted.size()), bytes_of(path)};

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +12,11 @@
 #include "engine/files/frames/damaged_frame.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
+#include "engine/state/contact_record.hpp"
 
 namespace grainreel {
+
+class FieldsReader;  // engine/files/fields_reader.hpp
 
 // What the frames of a record have beside ids, species, radii and places.
 struct FrameSupply {
@@ -68,6 +72,13 @@ class FrameArchive {
     virtual std::vector<std::string> damage() const { return {}; }
     // What the user is to know of it, a line each: damage, and what there is not.
     virtual std::vector<std::string> news() const { return damage(); }
+
+    // What only other formats want. The contacts of touches() with their points and tangential forces;
+    // nothing where these are not known. Throws UserError where they are damaged.
+    virtual std::optional<std::vector<ContactRecord>> contacts(std::size_t) const { return std::nullopt; }
+    // Means on grids that were kept beside the frames; null where there are none. Throws UserError where they
+    // are damaged.
+    virtual std::shared_ptr<const FieldsReader> fields() const { return nullptr; }
 
     // All of these need a moment.
     std::size_t nearest(double time) const;  // s

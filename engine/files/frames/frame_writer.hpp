@@ -21,6 +21,13 @@ class FrameWriter {
     virtual void begin(const World& world, const FrameSupply& supply) = 0;
     virtual void frame(const Frame& frame) = 0;
     virtual void end() = 0;
+
+    // For formats that have them. Before frame(): the contacts of that frame, where the record knows their
+    // points and tangential forces. Before end(): those records of the fields that are means over a time with
+    // one of the frames in it.
+    virtual bool takes_all() const { return false; }
+    virtual void contacts(const std::vector<ContactRecord>&) {}
+    virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
 };
 
 struct FrameFormat {

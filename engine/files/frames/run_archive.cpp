@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/fields_reader.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/frames/clock_of.hpp"
 #include "engine/files/frames/same_run.hpp"
@@ -194,6 +195,17 @@ bool RunArchive::has_contacts_of(std::size_t index) const {
 std::optional<std::vector<Touch>> RunArchive::touches(std::size_t index) const {
     if (!contacts_ || (for_questions_ && !has_contacts_of(index))) return std::nullopt;
     return contacts_->touches(places_.at(index));
+}
+
+std::optional<std::vector<ContactRecord>> RunArchive::contacts(std::size_t index) const {
+    if (!has_contacts_of(index)) return std::nullopt;
+    return contacts_->contacts(places_.at(index));
+}
+
+std::shared_ptr<const FieldsReader> RunArchive::fields() const {
+    std::error_code ignored;
+    if (!fs::exists(folder_ / "fields.nc", ignored)) return nullptr;
+    return std::make_shared<const FieldsReader>(folder_ / "fields.nc");
 }
 
 // A run that goes on writes a frame's contacts after the frame.

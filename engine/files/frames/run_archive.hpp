@@ -49,7 +49,9 @@ class RunArchive final : public FrameArchive {
     const std::vector<Frame>& moments() const override { return moments_; }
     Frame grains(std::size_t index) const override;
     std::optional<std::vector<Touch>> touches(std::size_t index) const override;
+    std::optional<std::vector<ContactRecord>> contacts(std::size_t index) const override;
     bool has_contacts_of(std::size_t index) const override;
+    std::shared_ptr<const FieldsReader> fields() const override;
     // The row of measures.csv that is nearest to the moment; none without rows.
     std::optional<MeasuredRow> measured_near(std::size_t index) const override;
     std::size_t place(std::size_t index) const override { return places_.at(index); }

@@ -41,6 +41,11 @@ void set_record_count(const std::filesystem::path& path, std::size_t records) {
     ::close(file);
 }
 
+void known(int status, const std::filesystem::path& path) {
+    if (status != NC_NOERR)
+        throw UserError(fmt::format("{}: cannot be read: {}", path.string(), nc_strerror(status)));
+}
+
 }  // namespace
 
 NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat format) {
@@ -161,6 +166,32 @@ int NetcdfFile::find_variable(const std::string& name) const {
 bool NetcdfFile::has_variable(const std::string& name) const {
     int id = -1;
     return nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR;
+}
+
+std::vector<std::string> NetcdfFile::variables() const {
+    int count = 0;
+    known(nc_inq_nvars(id_, &count), path_);
+    std::vector<std::string> names;
+    for (int variable = 0; variable < count; ++variable) {
+        std::array<char, NC_MAX_NAME + 1> name{};
+        known(nc_inq_varname(id_, variable, name.data()), path_);
+        names.emplace_back(name.data());
+    }
+    return names;
+}
+
+std::vector<std::string> NetcdfFile::dimensions_of(int variable) const {
+    int count = 0;
+    known(nc_inq_varndims(id_, variable, &count), path_);
+    std::vector<int> ids(static_cast<std::size_t>(count));
+    known(nc_inq_vardimid(id_, variable, ids.data()), path_);
+    std::vector<std::string> names;
+    for (const int dimension : ids) {
+        std::array<char, NC_MAX_NAME + 1> name{};
+        known(nc_inq_dimname(id_, dimension, name.data()), path_);
+        names.emplace_back(name.data());
+    }
+    return names;
 }
 
 std::size_t NetcdfFile::length(const std::string& dimension) const {

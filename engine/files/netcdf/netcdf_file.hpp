@@ -46,7 +46,9 @@ class NetcdfFile {
 
     int find_variable(const std::string& name) const;  // UserError when there is none
     bool has_variable(const std::string& name) const;
-    std::size_t length(const std::string& dimension) const;                   // UserError when there is none
+    std::vector<std::string> variables() const;                  // their names, in the file's order
+    std::vector<std::string> dimensions_of(int variable) const;  // names; the last one runs fastest
+    std::size_t length(const std::string& dimension) const;      // UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
     bool has_records() const {
         return header_.record > 0;

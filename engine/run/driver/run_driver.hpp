@@ -80,6 +80,10 @@ class RunDriver {
     const std::optional<RunFiles>& files() const { return files_; }            // from start() on
     const std::filesystem::path& folder() const { return folder_->folder(); }  // from use_folder() on
     bool packed() const { return packed_; }
+    // Whether the scene asks for formats of other programs, and there are frames to write in them.
+    bool has_other_formats() const {
+        return scene_.output.also.any() && files_ && files_->trajectory_frames() > 0;
+    }
     bool goes_on() const { return goes_on_; }                // in the folder of an earlier run, which it is
     std::int64_t first_step() const { return first_step_; }  // at which the drive began, once it is packed
     // Frames of film_moments.nc that were handed out before, for a run that goes on.

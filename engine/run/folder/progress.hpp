@@ -17,7 +17,8 @@ struct Progress {
         drawing,
         studying,
         replaying,
-        paging
+        paging,
+        exporting
     };
     Stage stage = Stage::growing;
     double done = 0;                              // of this stage, 0 to 1

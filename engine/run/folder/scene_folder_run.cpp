@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/run/driver/also_exports.hpp"
 #include "engine/run/driver/useful_threads.hpp"
 #include "engine/run/folder/segregation_text.hpp"
 
@@ -27,11 +28,15 @@ Progress::Stage stage_of(const PackingProgress& packing) {
 
 SceneFolderRun::SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene,
                                const Plan& plan, int threads)
-    : FolderRun(request, listener), driver_(scene, plan, threads) {}
+    : FolderRun(request, listener), driver_(scene, plan, threads) {
+    check_also(scene);
+}
 
 SceneFolderRun::SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene,
                                const Plan& plan, ResumePoint point)
-    : FolderRun(request, listener), driver_(scene, plan, std::move(point)) {}
+    : FolderRun(request, listener), driver_(scene, plan, std::move(point)) {
+    check_also(scene);
+}
 
 SceneFolderRun::SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene,
                                const Plan& plan)
@@ -131,6 +136,26 @@ void SceneFolderRun::show_progress() {
     if (progress.done > 0 && vibrating > 1)
         progress.remaining = vibrating * (1 - progress.done) / progress.done;
     desk_.listener.progress(progress);
+}
+
+void SceneFolderRun::side_work_closed() {
+    if (!driver_.has_other_formats()) return;
+    const Stopwatch writing;
+    const std::string written =
+        write_also(folder(), driver_.scene(), [&](const std::string& format, double share) {
+            Progress progress;
+            progress.stage = Progress::Stage::exporting;
+            progress.what = format;
+            progress.done = share;
+            progress.elapsed = desk_.watch.seconds();
+            desk_.listener.progress(progress);
+            return !desk_.listener.in_a_hurry() && desk_.folder->lock().is_there();
+        });
+    desk_.times.add("writing other formats", writing.seconds());
+    if (!written.empty()) desk_.listener.info(fmt::format("wrote {}: {}", folder().string(), written));
+    if (desk_.listener.in_a_hurry())
+        desk_.listener.info(fmt::format(
+            "{}: not all formats of output.also were written; `export` writes them", folder().string()));
 }
 
 void SceneFolderRun::conclude() {

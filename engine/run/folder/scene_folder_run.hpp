@@ -55,6 +55,8 @@ class SceneFolderRun : public FolderRun {
 
     bool work() override;
     void keep_state() override { driver_.close(desk_.failure); }
+    // Writes the other formats that the scene asks for.
+    void side_work_closed() override;
     void conclude() override;
     bool is_behind_former() const override { return driver_.is_behind_former(); }
     void put_back() override { driver_.put_back(); }

@@ -1,8 +1,11 @@
 // The keys of [run] and [output].
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "engine/base/utf8.hpp"
+#include "engine/scene/also_formats.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -103,6 +106,28 @@ std::string checkpoints_text(const Output& from, const Scene&) {
     return quoted(from.checkpoints ? fmt::format("{} B", *from.checkpoints) : "none");
 }
 
+void read_also(Document& document, const Scene&, const std::string& path, Output& into) {
+    into.also = {};
+    for (const std::string& name : document.name_list(path)) {
+        const auto found = std::find(kAlsoFormats.begin(), kAlsoFormats.end(), name);
+        if (found == kAlsoFormats.end())
+            document.fail(path, fmt::format("names \"{}\", which is no format; there is {}", excerpt(name),
+                                            fmt::join(kAlsoFormats, ", ")));
+        into.also.add(static_cast<std::size_t>(found - kAlsoFormats.begin()));
+    }
+}
+
+std::string also_text(const Output& from, const Scene&) {
+    std::vector<std::string> names;
+    for (std::size_t format = 0; format < kAlsoFormats.size(); ++format)
+        if (from.also.has(format)) names.emplace_back(kAlsoFormats[format]);
+    return names_text(names);
+}
+
+const char* without_record(const Output& output) {
+    return output.trajectory ? nullptr : "no trajectory is kept, and other formats are made of it";
+}
+
 const KeyTable<Output>& output_table() {
     using O = Output;
     static const KeyTable<O> table{
@@ -136,6 +161,14 @@ const KeyTable<Output>& output_table() {
                 into.instruments = document.name_list(path);
             },
             [](const O&, const Scene& scene) { return names_text(scene.instruments()); })
+            .written_at(1),
+        bound_by<O>(
+            entry("also", KeyKind::name_list, note("none"),
+                  "Formats of other programs that the run's frames are written in when it ends, in the "
+                  "folder also: \"vtk\", \"gsd\" and the others of `export --to`."),
+            read_also, also_text)
+            .useless_for(without_record)
+            .unwritten_if([](const O& output) { return !output.also.any(); })
             .written_at(1),
     };
     return table;

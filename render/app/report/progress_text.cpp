@@ -26,6 +26,8 @@ std::string to_string(Progress::Stage stage) {
             return "studying";
         case Progress::Stage::replaying:
             return "replaying";
+        case Progress::Stage::exporting:
+            return "exporting";
         case Progress::Stage::paging:
             return "page";
         case Progress::Stage::vibrating:

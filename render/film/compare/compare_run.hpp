@@ -17,6 +17,7 @@ class CompareRun final : public FilmRun {
   private:
     bool work() override;
     void keep_state() override;
+    void side_work_closed() override;
     void conclude() override;
     std::string stopped_text() const override;
     void report_written() override;

@@ -6,13 +6,16 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/run/driver/also_exports.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 ComparedMember::ComparedMember(const FilmedScene& scene, const Plan& plan, int threads)
     : driver_(std::make_unique<RunDriver>(scene, plan, threads)),
-      source_(std::make_unique<SceneRun>(scene, *driver_)) {}
+      source_(std::make_unique<SceneRun>(scene, *driver_)) {
+    check_also(scene);
+}
 
 std::string ComparedMember::place() const {
     return driver_ ? scene().name : std::filesystem::absolute(archive()->path()).string();
@@ -66,6 +69,11 @@ FramePtr ComparedMember::next(const GoOn& go_on) {
 
 void ComparedMember::keep_state() {
     if (folder_ && folder_->follow()) driver_->close(failed_);
+}
+
+void ComparedMember::write_other_formats(const std::function<bool(const std::string&, double)>& watcher) {
+    if (!folder_ || !folder_->is_there() || !driver_->has_other_formats()) return;
+    failed_.attempt([&] { write_also(folder_->folder(), driver_->scene(), watcher); });
 }
 
 void ComparedMember::close(RunStatus status, int exit_status, FirstFailure& failure) {

@@ -46,6 +46,8 @@ class ComparedMember {
     // After all that, whatever happened: the end state; then the record of its run. status: of the whole;
     // where another member has failed, this one was interrupted. close() may be called twice.
     void keep_state();
+    // Formats of other programs that its scene asks for. watcher: as in write_also().
+    void write_other_formats(const std::function<bool(const std::string&, double)>& watcher);
     void close(RunStatus status, int exit_status, FirstFailure& failure);
     void note_failure(const std::string& what) { failed_.note(what); }
 

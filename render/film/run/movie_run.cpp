@@ -107,6 +107,7 @@ void MovieRun::add_progress(Progress& progress) const {
 
 void MovieRun::side_work_closed() {
     if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.report().frames);
+    SceneFolderRun::side_work_closed();
 }
 
 void MovieRun::put_back() {

@@ -1,5 +1,7 @@
 // `grainreel export`: from a file of another program to each format, and back where the format is read.
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 
 #include <gmock/gmock.h>
 
@@ -65,6 +67,19 @@ TEST_F(ForeignExport, WhatIsReadBackHasTheSameGrains) {
     }
 }
 
+// What comes back of a run of ours that went through a format.
+struct Returned {
+    const char* format;
+    const char* inside;  // what is read of a folder
+    double precision;    // m, of places and radii of some centimetres: 0 for doubles, 2^-24 of it for floats
+    bool names;          // whether species have their names, and not only their numbers
+};
+
+constexpr Returned returned_formats[] = {
+    {"lammps-dump", "", 0, false},   {"xyz", "", 0, true},    {"csv", "", 0, false},
+    {"vtk", "grains.pvd", 0, false}, {"gsd", "", 4e-9, true}, {"netcdf", "", 0, true},
+};
+
 // Ours, theirs made of ours, and both in one picture.
 TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
     std::string scene = small_scene_text;
@@ -74,14 +89,53 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
     const Ended run = program(
         {"movie", "fifty.toml", "--out", "ours", "--no-film", "--set", "output.trajectory_interval=0.01"});
     ASSERT_EQ(run.status, 0) << run.err;
-    ASSERT_EQ(program({"export", "ours", "--to", "lammps-dump", "--out", "ours.dump"}).status, 0);
-    const auto wanted = open_frames(here / "ours"), found = open_frames(here / "ours.dump");
-    ASSERT_EQ(found->moments().size(), wanted->moments().size());
-    for (std::size_t k = 0; k < wanted->moments().size(); ++k)
-        expect_same_grains(wanted->grains(k), found->grains(k), 1e-15);
-    const Ended both =
-        program({"compare", "ours", "ours.dump", "--at", "0.01", "--size", "640x360", "--out", "both"});
+    const auto wanted = open_frames(here / "ours");
+    for (const Returned& one : returned_formats) {
+        SCOPED_TRACE(one.format);
+        const std::string name = std::string("through-") + one.format;
+        ASSERT_EQ(program({"export", "ours", "--to", one.format, "--out", name}).status, 0);
+        const auto found = open_frames(here / name / one.inside);
+        ASSERT_EQ(found->moments().size(), wanted->moments().size());
+        for (std::size_t k = 0; k < wanted->moments().size(); ++k) {
+            const Frame a = wanted->grains(k), b = found->grains(k);
+            ASSERT_EQ(a.id, b.id);
+            EXPECT_NEAR(b.time, a.time, 1e-12);
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                const auto species = [&](const FrameArchive& archive, const Frame& frame) {
+                    return archive.world().species.at(static_cast<std::size_t>(frame.species[i])).name;
+                };
+                if (one.names) ASSERT_EQ(species(*found, b), species(*wanted, a)) << a.id[i];
+                if (!one.names) ASSERT_EQ(b.species[i], a.species[i]) << a.id[i];
+                ASSERT_LE((a.position[i] - b.position[i]).norm(), one.precision) << a.id[i];
+                ASSERT_LE(std::abs(a.radius[i] - b.radius[i]), one.precision) << a.id[i];
+            }
+        }
+    }
+    const Ended both = program(
+        {"compare", "ours", "through-lammps-dump", "--at", "0.01", "--size", "640x360", "--out", "both"});
     EXPECT_EQ(both.status, 0) << both.err;
+}
+
+// read_data: section Atoms of atom_style sphere has id, type, diameter, density, x, y, z.
+TEST_F(ForeignExport, ADataFileOfLammpsHasTheLastFrame) {
+    const fs::path made = exported("bed.dump", "lammps-data");
+    FrameRequest request;
+    request.reading.time_step = kForeignStep;
+    const auto frames = open_frames(here / "bed.dump", request);
+    const Frame last = frames->grains(frames->moments().size() - 1);
+    std::ifstream file(made);
+    std::string line;
+    while (std::getline(file, line) && line != "Atoms # sphere") continue;
+    for (std::size_t i = 0; i < last.size(); ++i) {
+        int id = 0, type = 0;
+        double diameter = 0, density = 0;
+        Vec3 place;
+        ASSERT_TRUE(file >> id >> type >> diameter >> density >> place.x() >> place.y() >> place.z());
+        EXPECT_EQ(id, last.id[i]);
+        EXPECT_EQ(type, last.species[i] + 1);
+        EXPECT_DOUBLE_EQ(diameter, 2 * last.radius[i]);
+        EXPECT_EQ(place, last.position[i]);
+    }
 }
 
 TEST_F(ForeignExport, NeverWritesOverWhatIsThere) {

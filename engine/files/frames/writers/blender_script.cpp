@@ -124,10 +124,10 @@ for wall in head["walls"]:
 middle, size = Vector((low + high) / 2), float(np.linalg.norm(high - low))
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
 camera.data.clip_start, camera.data.clip_end = size / 1000, size * 100
-camera.location = middle + Vector((1.3, -0.5, 0.35)) * size
+camera.location = middle + Vector((1.3, -0.5, 0.35)).normalized() * 2.2 * size  # all of the container is seen
 camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
 sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-sun.data.energy = 3
+sun.data.energy = 2
 sun.rotation_euler = (0.6, 0.3, 0.8)
 for thing in (camera, sun):
     bpy.context.collection.objects.link(thing)
@@ -137,13 +137,16 @@ scene.world.use_nodes = True
 background = scene.world.node_tree.nodes.get("Background")
 if background:
     background.inputs["Color"].default_value = (1, 1, 1, 1)
+    background.inputs["Strength"].default_value = 0.6
 
 words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
 if words[:1] == ["--render"]:
     scene.frame_set(int(words[1]))
     show(scene)
     scene.render.engine = "CYCLES"
-    scene.cycles.samples = 16
+    scene.cycles.samples = 24
+    scene.cycles.use_denoising = False  # Debian's Blender has none
+    scene.view_settings.view_transform = "Standard"
     scene.render.resolution_x, scene.render.resolution_y = 960, 540
     scene.render.filepath = os.path.abspath(words[2])
     bpy.ops.render.render(write_still=True)

@@ -1,14 +1,21 @@
-// A folder for ParaView and VTK: grains.pvd, walls.pvd and contacts.pvd with a .vtp file for each moment, and
-// run.pvd with all of them as parts.
+// A folder for ParaView and VTK: grains.pvd, walls.pvd and contacts.pvd with a .vtp file for each moment,
+// run.pvd with all of them as parts, and fields.pvd with a .vti file for each record of fields.nc. Arrays
+// have the names that this program and others read: id, type (counts from 1, as LAMMPS has it), omega.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text_file.hpp"
+#include "engine/files/fields_reader.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/world_surfaces.hpp"
+#include "engine/files/frames/writers/vtk_contacts.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
 
 namespace grainreel {
@@ -21,57 +28,42 @@ void add(std::vector<double>& to, const Vec3& v) {
     to.insert(to.end(), {v.x(), v.y(), v.z()});
 }
 
-VtkPolyData grains_of(const Frame& frame, const FrameSupply& supply) {
+VtkPolyData grains_of(const Frame& frame, const World& world, const FrameSupply& supply) {
     VtkPolyData data;
     std::vector<double> radius, velocity, spin;
-    std::vector<std::int64_t> id, species, contacts;
+    std::vector<std::int64_t> id, type, contacts;
     for (std::size_t i = 0; i < frame.size(); ++i) {
         add(data.points, frame.position[i]);
         data.connectivity.push_back(static_cast<std::int64_t>(i));
         radius.push_back(frame.radius[i]);
         id.push_back(frame.id[i]);
-        species.push_back(frame.species[i]);
+        type.push_back(frame.species[i] + 1);
         add(velocity, frame.velocity[i]);
         add(spin, frame.spin[i]);
         if (i < frame.contact_number.size()) contacts.push_back(frame.contact_number[i]);
     }
-    data.point_data = {VtkArray::doubles("radius", radius), VtkArray::integers("id", id),
-                       VtkArray::integers("type", species)};
+    data.point_data = {VtkList::doubles("radius", radius), VtkList::integers("id", id),
+                       VtkList::integers("type", type)};
     if (supply.velocities) {
-        data.point_data.push_back(VtkArray::doubles("velocity", velocity, 3));
-        data.point_data.push_back(VtkArray::doubles("omega", spin, 3));
+        data.point_data.push_back(VtkList::doubles("velocity", velocity, 3));
+        data.point_data.push_back(VtkList::doubles("omega", spin, 3));
     }
-    if (contacts.size() == frame.size() && !contacts.empty())
-        data.point_data.push_back(VtkArray::integers("contact_number", contacts));
+    if (supply.contact_numbers) {
+        contacts.resize(frame.size(), -1);
+        data.point_data.push_back(VtkList::integers("contact_number", contacts));
+    }
+    std::vector<std::string> names;
+    for (const WorldSpecies& species : world.species) names.push_back(species.name);
+    data.facts.words.emplace_back("species", names);
     return data;
 }
 
-// Lines from centre to centre; to walls from the centre down to nothing, so these are left out.
-VtkPolyData contacts_of(const Frame& frame) {
-    VtkPolyData data;
-    data.cells = VtkPolyData::Cells::lines;
-    data.points_a_cell = 2;
-    std::vector<double> force;
-    std::vector<std::int64_t> first, second;
-    const auto row = [&](std::int32_t id) {
-        const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        return found == frame.id.end() || *found != id ? frame.size()
-                                                       : static_cast<std::size_t>(found - frame.id.begin());
-    };
-    for (const Touch& touch : frame.touches) {
-        const std::size_t a = row(touch.first), b = touch.second < 0 ? frame.size() : row(touch.second);
-        if (a == frame.size() || b == frame.size()) continue;
-        for (const std::size_t end : {a, b}) {
-            data.connectivity.push_back(static_cast<std::int64_t>(data.points.size() / 3));
-            add(data.points, frame.position[end]);
-        }
-        force.push_back(touch.force);
-        first.push_back(touch.first);
-        second.push_back(touch.second);
-    }
-    data.cell_data = {VtkArray::doubles("normal_force", force), VtkArray::integers("id1", first),
-                      VtkArray::integers("id2", second)};
-    return data;
+VtkList force_array(const Frame& frame, const std::optional<std::vector<Vec3>>& forces) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        add(numbers, forces ? (*forces)[i] : Vec3(none, none, none));
+    return VtkList::doubles("force", numbers, 3);
 }
 
 VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const Frame& frame) {
@@ -79,6 +71,7 @@ VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const Frame& fra
     data.cells = VtkPolyData::Cells::triangles;
     data.points_a_cell = 3;
     std::vector<std::int64_t> number;
+    std::vector<std::string> names;
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
         const TriangleMesh mesh = moved(surfaces[s], frame);
         const auto first = static_cast<std::int64_t>(data.points.size() / 3);
@@ -87,9 +80,61 @@ VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const Frame& fra
             for (const std::int32_t vertex : triangle) data.connectivity.push_back(first + vertex);
             number.push_back(static_cast<std::int64_t>(s));
         }
+        names.push_back(surfaces[s].name);
     }
-    data.cell_data = {VtkArray::integers("wall", number)};
+    data.cell_data = {VtkList::integers("wall", number)};
+    data.facts.words.emplace_back("walls", names);
     return data;
+}
+
+// One array for the components of a vector or tensor, in VTK's order; what has no such parts stays alone.
+std::vector<VtkList> joined(const std::vector<std::string>& names,
+                            const std::vector<std::vector<double>>& values) {
+    const std::vector<std::vector<std::string>> kinds{
+        {"_xx", "_xy", "_xz", "_yx", "_yy", "_yz", "_zx", "_zy", "_zz"},
+        {"_xx", "_yy", "_zz", "_xy", "_yz", "_xz"},
+        {"_x", "_y", "_z"}};
+    std::map<std::string, std::size_t> place;
+    for (std::size_t k = 0; k < names.size(); ++k) place[names[k]] = k;
+    std::vector<bool> taken(names.size(), false);
+    std::vector<VtkList> arrays;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (taken[k]) continue;
+        std::vector<std::size_t> parts{k};
+        std::string name = names[k];
+        for (const std::vector<std::string>& ends : kinds) {
+            if (!names[k].ends_with(ends.front())) continue;
+            const std::string stem = names[k].substr(0, names[k].size() - ends.front().size());
+            std::vector<std::size_t> found;
+            for (const std::string& end : ends)
+                if (const auto at = place.find(stem + end); at != place.end()) found.push_back(at->second);
+            if (found.size() != ends.size()) continue;
+            parts = found;
+            name = stem;
+            break;
+        }
+        std::vector<double> numbers;
+        for (std::size_t cell = 0; cell < values[k].size(); ++cell)
+            for (const std::size_t part : parts) numbers.push_back(values[part][cell]);
+        for (const std::size_t part : parts) taken[part] = true;
+        arrays.push_back(VtkList::doubles(name, numbers, static_cast<int>(parts.size())));
+    }
+    return arrays;
+}
+
+// Along an axis without cells the image has one, as wide as the world.
+VtkImage grid_of(const FieldsReader& fields, const World& world) {
+    VtkImage image;
+    const std::array<double, 3> cell = fields.cell();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<Eigen::Index>(axis);
+        const std::vector<double>& middles = fields.middles()[axis];
+        const double width = world.high[a] - world.low[a];
+        image.cells[axis] = std::max<std::size_t>(1, middles.size());
+        image.spacing[axis] = !middles.empty() ? cell[axis] : width > 0 ? width : 1;
+        image.origin[axis] = !middles.empty() ? middles.front() - 0.5 * cell[axis] : world.low[a];
+    }
+    return image;
 }
 
 class Vtk final : public FrameWriter {
@@ -101,14 +146,44 @@ class Vtk final : public FrameWriter {
     }
 
     void begin(const World& world, const FrameSupply& supply) override {
+        world_ = world;
         supply_ = supply;
         surfaces_ = surfaces_of(world);
     }
+    bool takes_all() const override { return true; }
+    void contacts(const std::vector<ContactRecord>& contacts) override {
+        contacts_ = contacts;
+        has_forces_ = true;
+    }
     void frame(const Frame& frame) override {
-        write("grains", 0, frame, grains_of(frame, supply_));
+        VtkPolyData grains = grains_of(frame, world_, supply_);
+        if (has_forces_) {
+            std::optional<std::vector<Vec3>> forces;
+            if (contacts_) forces = forces_on_grains(frame, *contacts_, world_);
+            grains.point_data.push_back(force_array(frame, forces));
+        }
+        write("grains", 0, frame, std::move(grains));
         if (!surfaces_.empty()) write("walls", 1, frame, walls_of(surfaces_, frame));
-        if (supply_.contacts) write("contacts", 2, frame, contacts_of(frame));
+        if (supply_.contacts)
+            write("contacts", 2, frame,
+                  has_forces_ ? contact_lines(frame, contacts_.value_or(std::vector<ContactRecord>()), world_)
+                              : contact_lines(frame, frame.touches, world_));
+        contacts_.reset();
         ++frames_;
+    }
+    void fields(const FieldsReader& fields, const std::vector<std::size_t>& records) override {
+        if (fields.names().empty()) return;
+        std::vector<VtkEntry> entries;
+        for (const std::size_t record : records) {
+            const auto [begin, end] = fields.span(record);
+            VtkImage image = grid_of(fields, world_);
+            image.cell_data = joined(fields.names(), fields.read(record));
+            image.facts.time = 0.5 * (begin + end);
+            const std::string file = fmt::format("fields_{:06d}.vti", entries.size());
+            TextFile(folder_ / file).write(vtk_bytes(image));
+            entries.push_back({*image.facts.time, 0, file});
+        }
+        if (!entries.empty()) TextFile(folder_ / "fields.pvd").write(pvd_text(entries));
     }
     void end() override {
         const char* names[] = {"grains", "walls", "contacts"};
@@ -123,15 +198,21 @@ class Vtk final : public FrameWriter {
 
   private:
     void write(const char* name, int part, const Frame& frame, VtkPolyData data) {
-        data.time = frame.time;
+        // Frames without times are counted.
+        const double time = world_.time_known ? frame.time : static_cast<double>(frames_);
+        if (world_.time_known) data.facts.time = time;
+        data.facts.step = frame.step;
         const std::string file = fmt::format("{}_{:06d}.vtp", name, frames_);
         TextFile(folder_ / file).write(vtk_bytes(data));
-        entries_.push_back({frame.time, part, file});
+        entries_.push_back({time, part, file});
     }
 
     fs::path folder_;
+    World world_;
     FrameSupply supply_;
     std::vector<WorldSurface> surfaces_;
+    std::optional<std::vector<ContactRecord>> contacts_;  // of the frame that comes
+    bool has_forces_ = false;                             // of this frame or one before
     std::vector<VtkEntry> entries_;
     std::int64_t frames_ = 0;
 };
@@ -143,7 +224,8 @@ std::unique_ptr<FrameWriter> make(const fs::path& path) {
 }  // namespace
 
 FrameFormat vtk_format() {
-    return {"vtk", "folder for ParaView and VTK: grains, walls, contacts (.pvd, .vtp)", "-vtk", make};
+    return {"vtk", "folder for ParaView and VTK: grains, walls, contacts, fields (.pvd, .vtp, .vti)", "-vtk",
+            make};
 }
 
 }  // namespace grainreel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <map>
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -37,13 +38,13 @@ std::string packed(const char* bytes, std::size_t size) {
 }
 
 struct Block {
-    const VtkArray* array;
+    const VtkList* array;
     std::size_t from, size;
     std::string out;
 };
 
 // Header of a packed array: blocks, size of a block, size of the last one (0: it is full), packed sizes.
-std::string with_header(const VtkArray& array, const std::vector<Block>& blocks) {
+std::string with_header(const VtkList& array, const std::vector<Block>& blocks) {
     std::vector<std::uint64_t> head{0, kBlock, array.bytes.size() % kBlock};
     std::string body;
     for (const Block& block : blocks) {
@@ -55,87 +56,138 @@ std::string with_header(const VtkArray& array, const std::vector<Block>& blocks)
     return bytes_of(head) + body;
 }
 
-std::string one_array(const VtkArray& array, std::uint64_t offset) {
+std::string one_array(const VtkList& array, std::uint64_t offset) {
     return fmt::format(
         "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
         "offset=\"{}\"/>\n",
         array.type, array.name, array.components, offset);
 }
 
+// The packed arrays of a file, and where each is.
+class Appended {
+  public:
+    Appended(const std::vector<const std::vector<VtkList>*>& lists, int threads) {
+        std::vector<Block> blocks;
+        for (const std::vector<VtkList>* list : lists)
+            for (const VtkList& array : *list)
+                for (std::size_t from = 0; from < array.bytes.size(); from += kBlock)
+                    blocks.push_back({&array, from, std::min(kBlock, array.bytes.size() - from), {}});
+        pack(blocks, threads);
+        for (const std::vector<VtkList>* list : lists)
+            for (const VtkList& array : *list) {
+                place_[&array] = bytes_.size();
+                bytes_ += with_header(array, blocks);
+            }
+    }
+
+    std::string section(const char* name, const std::vector<VtkList>& list) const {
+        std::string text = fmt::format("      <{}>\n", name);
+        for (const VtkList& array : list) text += one_array(array, place_.at(&array));
+        return text + fmt::format("      </{}>\n", name);
+    }
+    // The section and the file's end.
+    std::string text() const {
+        return "  <AppendedData encoding=\"raw\">\n_" + bytes_ + "\n  </AppendedData>\n</VTKFile>\n";
+    }
+
+  private:
+    static void pack(std::vector<Block>& blocks, int threads) {
+        const int most = threads > 0 ? threads : usable_processors();
+        Team team(std::max(1, std::min(most, static_cast<int>(blocks.size()))));
+        team.run([&](int member) {
+            for (std::size_t b = static_cast<std::size_t>(member); b < blocks.size();
+                 b += static_cast<std::size_t>(team.size()))
+                blocks[b].out = packed(blocks[b].array->bytes.data() + blocks[b].from, blocks[b].size);
+        });
+    }
+
+    std::map<const VtkList*, std::uint64_t> place_;
+    std::string bytes_;
+};
+
+std::string head(const char* type) {
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n",
+        type);
+}
+
+// Words are the bytes of their letters in UTF-8 and a 0, each as a number.
+std::string facts_text(const VtkFacts& facts) {
+    std::string text;
+    if (facts.time)
+        text += fmt::format(
+            "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+            "format=\"ascii\">{}</DataArray>\n",
+            *facts.time);
+    if (facts.step)
+        text += fmt::format(
+            "      <DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
+            "format=\"ascii\">{}</DataArray>\n",
+            *facts.step);
+    for (const auto& [name, words] : facts.words) {
+        text +=
+            fmt::format("      <Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
+                        name, words.size());
+        for (const std::string& word : words) {
+            for (const char c : word) text += fmt::format("{} ", static_cast<unsigned char>(c));
+            text += "0 ";
+        }
+        text += "</Array>\n";
+    }
+    return text.empty() ? text : "    <FieldData>\n" + text + "    </FieldData>\n";
+}
+
 }  // namespace
 
-VtkArray VtkArray::doubles(std::string name, const std::vector<double>& values, int components) {
+VtkList VtkList::doubles(std::string name, const std::vector<double>& values, int components) {
     return {std::move(name), "Float64", components, bytes_of(values)};
 }
 
-VtkArray VtkArray::floats(std::string name, const std::vector<double>& values, int components) {
+VtkList VtkList::floats(std::string name, const std::vector<double>& values, int components) {
     return {std::move(name), "Float32", components,
             bytes_of(std::vector<float>(values.begin(), values.end()))};
 }
 
-VtkArray VtkArray::integers(std::string name, const std::vector<std::int64_t>& values) {
+VtkList VtkList::integers(std::string name, const std::vector<std::int64_t>& values) {
     return {std::move(name), "Int64", 1, bytes_of(values)};
 }
 
-std::string vtk_bytes(const VtkPolyData& data) {
+std::string vtk_bytes(const VtkPolyData& data, int threads) {
     const std::size_t cells = data.connectivity.size() / static_cast<std::size_t>(data.points_a_cell);
     std::vector<std::int64_t> offsets(cells);
     for (std::size_t c = 0; c < cells; ++c)
         offsets[c] = static_cast<std::int64_t>(c + 1) * data.points_a_cell;
-    std::vector<VtkArray> arrays{VtkArray::doubles("Points", data.points, 3)};
-    arrays.insert(arrays.end(), data.point_data.begin(), data.point_data.end());
-    arrays.insert(arrays.end(), data.cell_data.begin(), data.cell_data.end());
-    arrays.push_back(VtkArray::integers("connectivity", data.connectivity));
-    arrays.push_back(VtkArray::integers("offsets", offsets));
-
-    std::vector<Block> blocks;
-    for (const VtkArray& array : arrays)
-        for (std::size_t from = 0; from < array.bytes.size(); from += kBlock)
-            blocks.push_back({&array, from, std::min(kBlock, array.bytes.size() - from), {}});
-    Team team(std::max(1, std::min<int>(usable_processors(), static_cast<int>(blocks.size()))));
-    team.run([&](int member) {
-        for (std::size_t b = static_cast<std::size_t>(member); b < blocks.size();
-             b += static_cast<std::size_t>(team.size()))
-            blocks[b].out = packed(blocks[b].array->bytes.data() + blocks[b].from, blocks[b].size);
-    });
-    std::vector<std::uint64_t> place;
-    std::string appended;
-    for (const VtkArray& array : arrays) {
-        place.push_back(appended.size());
-        appended += with_header(array, blocks);
-    }
-
-    const std::size_t points = data.points.size() / 3;
+    const std::vector<VtkList> points{VtkList::doubles("Points", data.points, 3)};
+    const std::vector<VtkList> topology{VtkList::integers("connectivity", data.connectivity),
+                                        VtkList::integers("offsets", offsets)};
     const auto count = [&](VtkPolyData::Cells kind) { return data.cells == kind ? cells : 0; };
-    std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-        "header_type=\"UInt64\" "
-        "compressor=\"vtkZLibDataCompressor\">\n  <PolyData>\n";
-    if (data.time)
-        text += fmt::format(
-            "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-            "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",
-            *data.time);
+    Appended arrays({&points, &data.point_data, &data.cell_data, &topology}, threads);
+    std::string text = head("PolyData") + "  <PolyData>\n" + facts_text(data.facts);
     text += fmt::format(
         "    <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"{}\">\n",
-        points, count(VtkPolyData::Cells::vertices), count(VtkPolyData::Cells::lines),
+        data.points.size() / 3, count(VtkPolyData::Cells::vertices), count(VtkPolyData::Cells::lines),
         count(VtkPolyData::Cells::triangles));
-    std::size_t next = 1;
-    const auto listed = [&](const char* section, std::size_t size) {
-        text += fmt::format("      <{}>\n", section);
-        for (std::size_t k = 0; k < size; ++k, ++next) text += one_array(arrays[next], place[next]);
-        text += fmt::format("      </{}>\n", section);
-    };
-    listed("PointData", data.point_data.size());
-    listed("CellData", data.cell_data.size());
-    text += "      <Points>\n" + one_array(arrays[0], place[0]) + "      </Points>\n";
+    text += arrays.section("PointData", data.point_data) + arrays.section("CellData", data.cell_data) +
+            arrays.section("Points", points);
     const char* section = data.cells == VtkPolyData::Cells::vertices ? "Verts"
                           : data.cells == VtkPolyData::Cells::lines  ? "Lines"
                                                                      : "Polys";
-    listed(section, 2);
-    text += "    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
-    return text + appended + "\n  </AppendedData>\n</VTKFile>\n";
+    text += arrays.section(section, topology) + "    </Piece>\n  </PolyData>\n";
+    return text + arrays.text();
+}
+
+std::string vtk_bytes(const VtkImage& image, int threads) {
+    const std::string extent = fmt::format("0 {} 0 {} 0 {}", image.cells[0], image.cells[1], image.cells[2]);
+    Appended arrays({&image.cell_data}, threads);
+    std::string text = head("ImageData");
+    text += fmt::format("  <ImageData WholeExtent=\"{}\" Origin=\"{} {} {}\" Spacing=\"{} {} {}\">\n", extent,
+                        image.origin[0], image.origin[1], image.origin[2], image.spacing[0], image.spacing[1],
+                        image.spacing[2]);
+    text += facts_text(image.facts) + fmt::format("    <Piece Extent=\"{}\">\n", extent);
+    text += arrays.section("CellData", image.cell_data) + "    </Piece>\n  </ImageData>\n";
+    return text + arrays.text();
 }
 
 std::string pvd_text(const std::vector<VtkEntry>& entries) {

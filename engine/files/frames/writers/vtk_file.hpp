@@ -1,23 +1,33 @@
-// A .vtp file of VTK (PolyData): arrays in the appended section, raw, each packed by zlib in blocks.
+// Files of VTK in XML: .vtp (PolyData) and .vti (ImageData). Arrays lie in the appended section, raw, each
+// packed by zlib in blocks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grainreel {
 
-struct VtkArray {
+struct VtkList {
     std::string name;
     std::string type;  // "Float64", "Float32", "Int64", "Int32", "UInt8"
     int components = 1;
     std::string bytes;  // the numbers as they lie in memory, little endian
 
-    static VtkArray doubles(std::string name, const std::vector<double>& values, int components = 1);
-    static VtkArray floats(std::string name, const std::vector<double>& values, int components = 1);
-    static VtkArray integers(std::string name, const std::vector<std::int64_t>& values);
+    static VtkList doubles(std::string name, const std::vector<double>& values, int components = 1);
+    static VtkList floats(std::string name, const std::vector<double>& values, int components = 1);
+    static VtkList integers(std::string name, const std::vector<std::int64_t>& values);
+};
+
+// What a file says as a whole (FieldData).
+struct VtkFacts {
+    std::optional<double> time;                                           // s, as TimeValue
+    std::optional<std::int64_t> step;                                     // as CYCLE
+    std::vector<std::pair<std::string, std::vector<std::string>>> words;  // "species": names
 };
 
 // A piece of PolyData. Connectivity and offsets as VTK has them, for one of vertices, lines and triangles.
@@ -27,12 +37,22 @@ struct VtkPolyData {
     std::vector<double> points;  // x y z
     std::vector<std::int64_t> connectivity;
     std::int64_t points_a_cell = 1;
-    std::vector<VtkArray> point_data, cell_data;
-    std::optional<double> time;  // s, as TimeValue
+    std::vector<VtkList> point_data, cell_data;
+    VtkFacts facts;
 };
 
-// The file's text and bytes. Packs the blocks on several threads.
-std::string vtk_bytes(const VtkPolyData& data);
+// A grid of equal cells, a value or a vector for each; x runs fastest.
+struct VtkImage {
+    std::array<std::size_t, 3> cells{1, 1, 1};
+    std::array<double, 3> origin{}, spacing{1, 1, 1};  // m; the origin is the lowest corner
+    std::vector<VtkList> cell_data;
+    VtkFacts facts;
+};
+
+// The file's text and bytes. Packs the blocks on as many threads; 0: as many as there are processors. The
+// bytes do not depend on that.
+std::string vtk_bytes(const VtkPolyData& data, int threads = 0);
+std::string vtk_bytes(const VtkImage& image, int threads = 0);
 
 // An unpacked file's name and time, for a .pvd.
 struct VtkEntry {

@@ -1,5 +1,6 @@
-// Extended XYZ, by the rules of ASE and OVITO: columns species, pos, radius, velo, id; Lattice and pbc where
-// there is a periodic box.
+// Extended XYZ, by the rules of ASE and OVITO: columns element, pos, radius, velo, omega, id; Lattice and pbc
+// where there is a periodic box. Names of species stand in `element`: ASE takes those in `species` for
+// symbols of the periodic table, and ends at "Small".
 #include <fmt/format.h>
 
 #include "engine/files/frames/frame_writer.hpp"
@@ -24,7 +25,7 @@ class Xyz final : public FrameWriter {
         const auto flag = [&](std::size_t axis) { return box.periodic[axis] ? 'T' : 'F'; };
         text += fmt::format(
             "{}\nLattice=\"{} {} {}\" Origin=\"{}\" pbc=\"{} {} {}\" "
-            "Properties=species:S:1:pos:R:3:radius:R:1{}:id:I:1 Step={}{}\n",
+            "Properties=element:S:1:pos:R:3:radius:R:1{}:id:I:1 Step={}{}\n",
             frame.size(), edge(box.edges[0]), edge(box.edges[1]), edge(box.edges[2]), edge(box.origin),
             flag(0), flag(1), flag(2), supply_.velocities ? ":velo:R:3:omega:R:3" : "", frame.step,
             world_.time_known ? fmt::format(" Time={}", frame.time) : "");
