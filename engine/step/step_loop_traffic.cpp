@@ -65,7 +65,8 @@ bool StepLoop::may_leave(int member, double step) const {
     constexpr double kPushed = 0.01;  // of a radius
     if (around_.exits.empty()) return false;
     const bool moves = scheme_.moves_after_forces();
-    // A grain is mostly outside of the half-space that the grain before it is outside of, for both are neighbours.
+    // A grain is mostly outside of the half-space that the grain before it is outside of, for both are
+    // neighbours.
     for (const Exit& exit : around_.exits) {
         if (exit.sides.empty()) continue;
         Exit::HalfSpace far = exit.sides.front();
@@ -74,9 +75,8 @@ bool StepLoop::may_leave(int member, double step) const {
             double reach = 0;
             if (moves) reach = kPushed * grains_.place[i].radius + step * grains_.motion[i].velocity.norm();
             if (!is_in(far, centre, reach)) continue;
-            const auto other = std::find_if_not(exit.sides.begin(), exit.sides.end(), [&](const auto& side) {
-                return is_in(side, centre, reach);
-            });
+            const auto other = std::find_if_not(exit.sides.begin(), exit.sides.end(),
+                                                [&](const auto& side) { return is_in(side, centre, reach); });
             if (other == exit.sides.end()) return true;
             far = *other;
         }

@@ -302,7 +302,8 @@ TEST(MeshSides, AClosedBodyIsSolidUnlessItIsTheVessel) {
         EXPECT_TRUE(sides.front == Face::glass && sides.back == Face::solid);
 }
 
-// A drum about z with eight bars along its wall, a quarter of its radius high: a closed sheet, dented from outside.
+// A drum about z with eight bars along its wall, a quarter of its radius high: a closed sheet, dented from
+// outside.
 TriangleMesh drum_with_bars(double radius, double half_length) {
     std::vector<Vec3> ring;
     const auto add = [&](double r, double degrees) {
@@ -318,7 +319,8 @@ TriangleMesh drum_with_bars(double radius, double half_length) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec3 &here = ring[i], &next = ring[(i + 1) % ring.size()];
         add_quad(mesh, here - up, next - up, next + up, here + up);
-        for (const Vec3& corner : {up, Vec3(here + up), Vec3(next + up), Vec3(-up), Vec3(next - up), Vec3(here - up)})
+        for (const Vec3& corner :
+             {up, Vec3(here + up), Vec3(next + up), Vec3(-up), Vec3(next - up), Vec3(here - up)})
             mesh.vertices.push_back(corner);
         const auto first = static_cast<std::int32_t>(mesh.vertices.size() - 6);
         mesh.triangles.push_back({first, first + 1, first + 2});

@@ -21,7 +21,8 @@ constexpr std::size_t kPlacesOfPatch = 8;
 constexpr double kEnclosed = 0.5, kSurelyEnclosed = 0.6;
 // Of an open sheet: how much more one side must see than the other.
 constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
-constexpr double kHoldsRoom = 0.5, kInRoom = 0.9;  // of a closed part: the room is within it, or all around it
+constexpr double kHoldsRoom = 0.5,
+                 kInRoom = 0.9;       // of a closed part: the room is within it, or all around it
 constexpr double kShellShare = 0.15;  // of the area of walls with a thickness, that looks into the room
 
 // Directions around z, as a matt surface takes its light.
@@ -38,9 +39,9 @@ std::array<Vec3, kRays> make_directions() {
 
 // What was seen from the places asked of one patch, or of all that hangs together.
 struct Seen {
-    double area = 0;             // m2, of all
-    double weight = 0;           // of the places asked
-    double front = 0, back = 0;  // times the share that is surface
+    double area = 0;                       // m2, of all
+    double weight = 0;                     // of the places asked
+    double front = 0, back = 0;            // times the share that is surface
     double room_front = 0, room_back = 0;  // weights of the places beside which the vessel's room is
     double front_share() const { return weight > 0 ? front / weight : 0; }
     double back_share() const { return weight > 0 ? back / weight : 0; }
@@ -60,7 +61,8 @@ class SideFinder {
           patch_(smooth_patches(surface, edge_angle)) {
         find_parts();
         const bool any_closed = std::find(part_closed_.begin(), part_closed_.end(), 1) != part_closed_.end();
-        if (look_ == MeshLook::vessel && any_closed) room_.emplace(std::shared_ptr<const Surface>(std::shared_ptr<void>(), &surface_));
+        if (look_ == MeshLook::vessel && any_closed)
+            room_.emplace(std::shared_ptr<const Surface>(std::shared_ptr<void>(), &surface_));
     }
 
     std::vector<MeshShape::Sides> find() {
@@ -183,8 +185,8 @@ class SideFinder {
         return visible_share(patch_seen_[patch], part_of_patch_[patch]) >= kEnclosed;
     }
 
-    // Of a vessel, a closed part with the room on one of its sides: a sheet around it, whatever its bars and dents see
-    // of each other from outside, or a body in it. Returns whether it is one.
+    // Of a vessel, a closed part with the room on one of its sides: a sheet around it, whatever its bars and
+    // dents see of each other from outside, or a body in it. Returns whether it is one.
     bool settle_beside_room(std::size_t part) {
         const Seen& seen = part_seen_[part];
         const bool in_front = seen.room_front > seen.room_back;
@@ -267,7 +269,7 @@ class SideFinder {
     std::vector<Seen> patch_seen_, part_seen_;
     std::vector<char> part_closed_, visible_front_;
     std::vector<int> around_front_, around_back_;  // of a part: how many closed parts are around each side
-    std::optional<EnclosedRoom> room_;  // of a vessel with closed parts
+    std::optional<EnclosedRoom> room_;             // of a vessel with closed parts
 };
 
 }  // namespace

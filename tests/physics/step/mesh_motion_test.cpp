@@ -201,7 +201,8 @@ TEST(TurningBox, OfTrianglesPushesAsThatOfPlanes) {
         const Vec3 velocity(one(random), one(random), one(random));
         const Vec3 spin = 100 * Vec3(one(random), one(random), one(random));
         const Vec3 axis = Vec3(one(random), one(random), one(random)).normalized();
-        const BodyTurn turn = turn_about(axis, 40 * one(random), 0.02 * Vec3(one(random), one(random), one(random)));
+        const BodyTurn turn =
+            turn_about(axis, 40 * one(random), 0.02 * Vec3(one(random), one(random), one(random)));
         const auto pushed = [&](bool triangles) {
             World w = in_turning_box(triangles, turn, walton_braun_pair(0.9, 0.4));
             w.grains.add(0, 0, at, kRadius, kDensity);
@@ -213,7 +214,8 @@ TEST(TurningBox, OfTrianglesPushesAsThatOfPlanes) {
         };
         const Load planes = pushed(false), mesh = pushed(true);
         touched += planes.force.norm() > 0 && planes.torque.norm() > 0;
-        EXPECT_LT((planes.force - mesh.force).norm(), of_rounding(1e-9, 1e-5) * (scale + planes.force.norm())) << state;
+        EXPECT_LT((planes.force - mesh.force).norm(), of_rounding(1e-9, 1e-5) * (scale + planes.force.norm()))
+            << state;
         EXPECT_LT((planes.torque - mesh.torque).norm(),
                   of_rounding(1e-9, 1e-5) * (scale * kRadius + planes.torque.norm()))
             << state;
@@ -221,8 +223,8 @@ TEST(TurningBox, OfTrianglesPushesAsThatOfPlanes) {
     EXPECT_GT(touched, 200);
 }
 
-// A ball too heavy to move, and a side that turns into it: the force is k times the overlap with the turned plane,
-// along its turned normal.
+// A ball too heavy to move, and a side that turns into it: the force is k times the overlap with the turned
+// plane, along its turned normal.
 TEST(TurningBox, PressesAsTheTurnedPlaneDoes) {
     const BodyTurn turn = turn_about(Vec3(2, -1, 2) / 3, 20, Vec3(-0.004, 0.007, 0.011));
     const Vec3 normal(-1, 0, 0), on_side(0.01, 0, 0), at(0.01 - kRadius + 1e-6, 0.002, 0.03);
