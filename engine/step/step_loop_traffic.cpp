@@ -44,6 +44,10 @@ Departure departure_of(const Grains& grains, std::size_t i, const Vec3& gravity,
     return gone;
 }
 
+bool is_in(const Exit::HalfSpace& side, const Vec3& centre, double reach) {
+    return side.normal.dot(centre) < side.distance + reach;
+}
+
 }  // namespace
 
 bool StepLoop::in_exit(std::int32_t i) const {
@@ -61,15 +65,20 @@ bool StepLoop::may_leave(int member, double step) const {
     constexpr double kPushed = 0.01;  // of a radius
     if (around_.exits.empty()) return false;
     const bool moves = scheme_.moves_after_forces();
-    // Of most exits the first half-space tells that a grain is not in them.
+    // A grain is mostly outside of the half-space that the grain before it is outside of, for both are
+    // neighbours.
     for (const Exit& exit : around_.exits) {
         if (exit.sides.empty()) continue;
-        const Exit::HalfSpace first = exit.sides.front();
+        Exit::HalfSpace far = exit.sides.front();
         for (std::int32_t i = lists_.begin(member); i < lists_.end(member); ++i) {
             const Vec3& centre = grains_.place[i].position;
             double reach = 0;
             if (moves) reach = kPushed * grains_.place[i].radius + step * grains_.motion[i].velocity.norm();
-            if (first.normal.dot(centre) < first.distance + reach && exit.holds(centre, reach)) return true;
+            if (!is_in(far, centre, reach)) continue;
+            const auto other = std::find_if_not(exit.sides.begin(), exit.sides.end(),
+                                                [&](const auto& side) { return is_in(side, centre, reach); });
+            if (other == exit.sides.end()) return true;
+            far = *other;
         }
     }
     return false;

@@ -61,10 +61,16 @@ def revolved(profile, facets):
     return [t for low, high in zip(rings, rings[1:]) for t in between(low, high)]
 
 
-def prism(ring, half_length):
-    """A closed body from z = -half_length to half_length; every point of the ring sees the axis."""
+def prism(ring, half_length, rings=1):
+    """A closed body from z = -half_length to half_length; every point of the ring sees the axis.
+
+    Its ends are cut into so many rings of triangles, so that wear on them shows where it is.
+    """
+    def end(z):
+        nested = [[(x * k / rings, y * k / rings, z) for x, y in ring] for k in range(1, rings + 1)]
+        return fan((0.0, 0.0, z), nested[0]) + turned([t for a, b in zip(nested, nested[1:]) for t in between(a, b)])
     low, high = ([(x, y, z) for x, y in ring] for z in (-half_length, half_length))
-    return between(low, high) + fan((0.0, 0.0, half_length), high) + turned(fan((0.0, 0.0, -half_length), low))
+    return between(low, high) + end(half_length) + turned(end(-half_length))
 
 
 def channel(section, start, end, wall):
@@ -104,8 +110,9 @@ def drum(radius=0.1, length=0.03, facets=72):
     return along_x(prism(ring, length / 2))
 
 
-def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.015, base=10.0, tip=5.0):
-    """The same with bars along its wall, `lifter` high, so many degrees wide at base and tip."""
+def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.015, base=10.0, tip=5.0,
+                      rings=8):
+    """The same with bars along its wall, `lifter` high, so many degrees wide at base and tip, and ends in `rings`."""
     step, ring = 360 / facets, []
     for k in range(lifters):
         middle = 360 * k / lifters
@@ -114,7 +121,7 @@ def drum_with_lifters(radius=0.1, length=0.03, facets=72, lifters=8, lifter=0.01
         free, count = 360 / lifters - base, round((360 / lifters - base) / step)
         corners += [(radius, middle + base / 2 + free * i / count) for i in range(count)]
         ring += [(r * cos(radians(angle)), r * sin(radians(angle))) for r, angle in corners]
-    return along_x(prism(ring, length / 2))
+    return along_x(prism(ring, length / 2, rings))
 
 
 def screw(radius=0.0235, shaft=0.005, pitch=0.04, turns=5.0, thickness=0.002, facets=40):
@@ -201,7 +208,7 @@ def wedge(half_width=0.05, depth=0.03, height=0.12, half_angle=20.0, slant_heigh
 
 SHAPES = {shape.__name__: shape for shape in
           (hopper, plate, drum, drum_with_lifters, screw, screw_trough, trough, impeller, box, wedge)}
-SHIPPED = {"cone_hopper.stl": hopper(), "gate.stl": plate(), "drum.stl": drum(),
+SHIPPED = {"cone_hopper.stl": hopper(), "gate.stl": plate(), "drum.stl": drum(), "long_drum.stl": drum(length=0.06),
            "drum_with_lifters.stl": drum_with_lifters(), "screw.stl": screw(), "screw_trough.stl": screw_trough(),
            "trough.stl": trough()}
 

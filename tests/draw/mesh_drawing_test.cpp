@@ -302,6 +302,50 @@ TEST(MeshSides, AClosedBodyIsSolidUnlessItIsTheVessel) {
         EXPECT_TRUE(sides.front == Face::glass && sides.back == Face::solid);
 }
 
+// A drum about z with eight bars along its wall, a quarter of its radius high: a closed sheet, dented from
+// outside.
+TriangleMesh drum_with_bars(double radius, double half_length) {
+    std::vector<Vec3> ring;
+    const auto add = [&](double r, double degrees) {
+        ring.push_back({r * std::cos(degrees * pi / 180), r * std::sin(degrees * pi / 180), 0});
+    };
+    for (int bar = 0; bar < 8; ++bar) {
+        add(radius, 45 * bar - 5), add(0.75 * radius, 45 * bar - 2.5);
+        add(0.75 * radius, 45 * bar + 2.5), add(radius, 45 * bar + 5);
+        for (int i = 1; i < 7; ++i) add(radius, 45 * bar + 5 + 5 * i);
+    }
+    const Vec3 up(0, 0, half_length);
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec3 &here = ring[i], &next = ring[(i + 1) % ring.size()];
+        add_quad(mesh, here - up, next - up, next + up, here + up);
+        for (const Vec3& corner :
+             {up, Vec3(here + up), Vec3(next + up), Vec3(-up), Vec3(next - up), Vec3(here - up)})
+            mesh.vertices.push_back(corner);
+        const auto first = static_cast<std::int32_t>(mesh.vertices.size() - 6);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first + 3, first + 4, first + 5});
+    }
+    return mesh;
+}
+
+TEST(MeshSides, AVesselWithDeepBarsIsGlassAllRoundAndABarThatFloatsInItIsSolid) {
+    TriangleMesh mesh = drum_with_bars(0.1, 0.03);
+    const auto drum = mesh.triangles.size(), first = mesh.vertices.size();
+    const TriangleMesh bar = box({-0.01, -0.02, -0.01}, {0.01, 0.02, 0.01});
+    mesh.vertices.insert(mesh.vertices.end(), bar.vertices.begin(), bar.vertices.end());
+    for (TriangleMesh::Triangle corners : bar.triangles) {
+        for (auto& corner : corners) corner += static_cast<std::int32_t>(first);
+        mesh.triangles.push_back(corners);
+    }
+    const auto shape = shape_of(mesh, MeshLook::vessel);
+    ASSERT_EQ(shape->sides.size(), drum + bar.triangles.size());
+    for (std::size_t t = 0; t < drum; ++t)
+        ASSERT_TRUE(shape->sides[t].front == Face::glass && shape->sides[t].back == Face::solid) << t;
+    for (std::size_t t = drum; t < shape->sides.size(); ++t)
+        ASSERT_TRUE(shape->sides[t].front == Face::solid && shape->sides[t].back == Face::unseen) << t;
+}
+
 TEST(MeshSides, AFlatPlateIsSolidFromBothSides) {
     TriangleMesh plate;
     add_quad(plate, {0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0});

@@ -132,7 +132,8 @@ class Ply {
                 continue;
             }
             const double value = body_.next(property.type);
-            if (!std::isfinite(value)) body_.fail("a coordinate that is not a finite number");
+            if (!std::isfinite(value))
+                body_.fail("has a coordinate that is no finite number; export the mesh again");
             if (std::abs(value) > largest_coordinate) body_.fail(too_far(value));
             place[k] = value;
         }

@@ -101,7 +101,8 @@ Vec3 corner_at(const fs::path& file, std::string_view bytes, std::size_t at) {
     std::memcpy(values, bytes.data() + at, sizeof values);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t byte = at + k * sizeof(float);
-        if (!std::isfinite(values[k])) refuse_byte(file, byte, "a coordinate that is not a finite number");
+        if (!std::isfinite(values[k]))
+            refuse_byte(file, byte, "has a coordinate that is no finite number; export the mesh again");
         if (std::abs(values[k]) > largest_coordinate) refuse_byte(file, byte, too_far(values[k]));
     }
     return Vec3(values[0], values[1], values[2]);

@@ -106,7 +106,7 @@ double decimal_of(float value) {
 
 std::string no_number(std::string_view word) {
     if (word.empty()) return "a number is missing";
-    return fmt::format("\"{}\" is not a finite number", excerpt(word));
+    return fmt::format("\"{}\" is not a finite number; correct it, or export the mesh again", excerpt(word));
 }
 
 std::string too_far(double coordinate) {

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
+
+#include "engine/mesh/room.hpp"
 
 namespace grainreel {
 namespace {
@@ -17,6 +21,8 @@ constexpr std::size_t kPlacesOfPatch = 8;
 constexpr double kEnclosed = 0.5, kSurelyEnclosed = 0.6;
 // Of an open sheet: how much more one side must see than the other.
 constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
+constexpr double kHoldsRoom = 0.5,
+                 kInRoom = 0.9;       // of a closed part: the room is within it, or all around it
 constexpr double kShellShare = 0.15;  // of the area of walls with a thickness, that looks into the room
 
 // Directions around z, as a matt surface takes its light.
@@ -33,14 +39,16 @@ std::array<Vec3, kRays> make_directions() {
 
 // What was seen from the places asked of one patch, or of all that hangs together.
 struct Seen {
-    double area = 0;             // m2, of all
-    double weight = 0;           // of the places asked
-    double front = 0, back = 0;  // times the share that is surface
+    double area = 0;                       // m2, of all
+    double weight = 0;                     // of the places asked
+    double front = 0, back = 0;            // times the share that is surface
+    double room_front = 0, room_back = 0;  // weights of the places beside which the vessel's room is
     double front_share() const { return weight > 0 ? front / weight : 0; }
     double back_share() const { return weight > 0 ? back / weight : 0; }
     void add(const Seen& other) {
         area += other.area, weight += other.weight;
         front += other.front, back += other.back;
+        room_front += other.room_front, room_back += other.room_back;
     }
 };
 
@@ -52,6 +60,9 @@ class SideFinder {
           small_(1e-6 * (surface.facts().high - surface.facts().low).norm()),
           patch_(smooth_patches(surface, edge_angle)) {
         find_parts();
+        const bool any_closed = std::find(part_closed_.begin(), part_closed_.end(), 1) != part_closed_.end();
+        if (look_ == MeshLook::vessel && any_closed)
+            room_.emplace(std::shared_ptr<const Surface>(std::shared_ptr<void>(), &surface_));
     }
 
     std::vector<MeshShape::Sides> find() {
@@ -62,10 +73,12 @@ class SideFinder {
                 settle(part, Face::glass, Face::glass);
             else if (look_ != MeshLook::solid && !part_closed_[part])
                 settle_sheet(part);
+            else if (settle_beside_room(part))
+                continue;
             else if (look_ != MeshLook::solid && part_closed_[part] && is_shell(part))
                 settle_shell(part);
             else if (look_ == MeshLook::vessel)
-                settle_closed(part, Face::glass, Face::solid);  // a closed sheet
+                settle_closed(part, Face::glass, Face::solid);
             else if (part_closed_[part])
                 settle_closed(part, Face::solid, Face::unseen);
         }
@@ -89,6 +102,8 @@ class SideFinder {
         part_seen_.resize(count(part));
         part_closed_.assign(part_seen_.size(), 1);
         visible_front_.assign(part_seen_.size(), 1);
+        around_front_.assign(part_seen_.size(), 0);
+        around_back_.assign(part_seen_.size(), 0);
         for (std::int32_t t = 0; t < surface_.size(); ++t) {
             const auto at = static_cast<std::size_t>(t), p = static_cast<std::size_t>(patch_[at]);
             members_[p].push_back(t);
@@ -100,6 +115,10 @@ class SideFinder {
         }
         patches_.resize(part_seen_.size());
         for (std::size_t p = 0; p < members_.size(); ++p) patches_[part_of_patch_[p]].push_back(p);
+    }
+
+    std::size_t part_of(std::int32_t t) const {
+        return part_of_patch_[static_cast<std::size_t>(patch_[static_cast<std::size_t>(t)])];
     }
 
     Vec3 middle(std::int32_t t) const {
@@ -140,6 +159,9 @@ class SideFinder {
         seen.weight += weight;
         seen.front += weight * surface_seen(middle(t) + small_ * normal, normal);
         seen.back += weight * surface_seen(middle(t) - small_ * normal, -normal);
+        if (!room_) return;
+        seen.room_front += room_->holds(middle(t) + small_ * normal) ? weight : 0;
+        seen.room_back += room_->holds(middle(t) - small_ * normal) ? weight : 0;
     }
 
     // Of what is closed, the side that can be seen is the one from which a ray crosses an even number of
@@ -150,6 +172,10 @@ class SideFinder {
         surface_.all_hits(middle(t) + small_ * normal, (normal + 0.1 * normal.unitOrthogonal()).normalized(),
                           hits);
         visible_front_[part] = hits.size() % 2 == 0;
+        around_front_[part] = 0;
+        for (const Surface::Hit& hit : hits)
+            if (part_closed_[part_of(hit.triangle)]) around_front_[part] += hit.front ? -1 : 1;
+        around_back_[part] = around_front_[part] + 1;
     }
 
     double visible_share(const Seen& seen, std::size_t part) const {
@@ -157,6 +183,19 @@ class SideFinder {
     }
     bool is_inner(std::size_t patch) const {
         return visible_share(patch_seen_[patch], part_of_patch_[patch]) >= kEnclosed;
+    }
+
+    // Of a vessel, a closed part with the room on one of its sides: a sheet around it, whatever its bars and
+    // dents see of each other from outside, or a body in it. Returns whether it is one.
+    bool settle_beside_room(std::size_t part) {
+        const Seen& seen = part_seen_[part];
+        const bool in_front = seen.room_front > seen.room_back;
+        const double share = std::max(seen.room_front, seen.room_back) / std::max(seen.weight, 1e-300);
+        const bool sheet = (in_front ? around_back_[part] : around_front_[part]) == 0;
+        if (share < (sheet ? kHoldsRoom : kInRoom)) return false;
+        const Face other = sheet ? Face::glass : Face::unseen;
+        settle(part, in_front ? Face::solid : other, in_front ? other : Face::solid);
+        return true;
     }
 
     bool is_shell(std::size_t part) const {
@@ -229,6 +268,8 @@ class SideFinder {
     std::vector<std::size_t> part_of_patch_;
     std::vector<Seen> patch_seen_, part_seen_;
     std::vector<char> part_closed_, visible_front_;
+    std::vector<int> around_front_, around_back_;  // of a part: how many closed parts are around each side
+    std::optional<EnclosedRoom> room_;             // of a vessel with closed parts
 };
 
 }  // namespace

@@ -55,7 +55,9 @@ const KeyTable<Camera>& camera_table() {
         quantity("field_of_view", &C::field_of_view, Dimension::degrees, {0, 120, false, false}, initial(),
                  "Vertical; 0 for orthographic.")
             .written_at(of_angles),
-        quantity("zoom", &C::zoom, Dimension::number, magnification, initial(), "Over the automatic framing.")
+        quantity("zoom", &C::zoom, Dimension::number, magnification, initial(),
+                 "Over the automatic framing: between the gutters at 1, otherwise in the whole frame, as "
+                 "film.words says.")
             .written_at(of_angles),
         flag("follow", &C::follow, initial(), "Stand in the container's own frame.").written_at(of_angles),
         choice("frame", &C::frame, camera_frame_words, initial(),

@@ -166,6 +166,88 @@ TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
     }
 }
 
+// A box of 20 mm by 40 mm by 40 mm that turns, of planes or of triangles, with one ball in it.
+World in_turning_box(bool triangles, const BodyTurn& turn, const PairPlan& pair) {
+    World w = make_world(pair, 1e-6);
+    Container box;
+    box.shape = Container::Shape::box;
+    box.half_width = box.depth = 0.02;
+    box.height = 0.04;
+    if (triangles) {
+        add_mesh(w, "box", box_mesh(Vec3(-0.01, -0.02, 0), Vec3(0.01, 0.02, 0.04), 7)).body.turn = turn;
+        return w;
+    }
+    w.around.faces = container_faces(box, Drive{});
+    for (Face& face : w.around.faces) {
+        face.body.turn = turn;
+        face.reach = 0.1;
+    }
+    start_clock(w);
+    return w;
+}
+
+// Balls beside a side, an edge or a corner, at any velocity and spin, in a box that turns about any axis.
+TEST(TurningBox, OfTrianglesPushesAsThatOfPlanes) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> one(-1, 1);
+    const double in = kRadius - 1e-5, scale = kStiffness * 1e-5;
+    int touched = 0;
+    for (int state = 0; state < 300; ++state) {
+        Vec3 at(0.006 * one(random), 0.016 * one(random), 0.02 + 0.016 * one(random));
+        const int walls = 1 + state % 3;
+        if (walls > 0) at.x() = 0.01 - in;
+        if (walls > 1) at.y() = in - 0.02;
+        if (walls > 2) at.z() = in;
+        const Vec3 velocity(one(random), one(random), one(random));
+        const Vec3 spin = 100 * Vec3(one(random), one(random), one(random));
+        const Vec3 axis = Vec3(one(random), one(random), one(random)).normalized();
+        const BodyTurn turn =
+            turn_about(axis, 40 * one(random), 0.02 * Vec3(one(random), one(random), one(random)));
+        const auto pushed = [&](bool triangles) {
+            World w = in_turning_box(triangles, turn, walton_braun_pair(0.9, 0.4));
+            w.grains.add(0, 0, at, kRadius, kDensity);
+            w.grains.motion[0].velocity = velocity;
+            w.grains.motion[0].spin = spin;
+            w.start();
+            w.run(8);
+            return w.grains.load[0];
+        };
+        const Load planes = pushed(false), mesh = pushed(true);
+        touched += planes.force.norm() > 0 && planes.torque.norm() > 0;
+        EXPECT_LT((planes.force - mesh.force).norm(), of_rounding(1e-9, 1e-5) * (scale + planes.force.norm()))
+            << state;
+        EXPECT_LT((planes.torque - mesh.torque).norm(),
+                  of_rounding(1e-9, 1e-5) * (scale * kRadius + planes.torque.norm()))
+            << state;
+    }
+    EXPECT_GT(touched, 200);
+}
+
+// A ball too heavy to move, and a side that turns into it: the force is k times the overlap with the turned
+// plane, along its turned normal.
+TEST(TurningBox, PressesAsTheTurnedPlaneDoes) {
+    const BodyTurn turn = turn_about(Vec3(2, -1, 2) / 3, 20, Vec3(-0.004, 0.007, 0.011));
+    const Vec3 normal(-1, 0, 0), on_side(0.01, 0, 0), at(0.01 - kRadius + 1e-6, 0.002, 0.03);
+    for (const bool triangles : {false, true}) {
+        World w = in_turning_box(triangles, turn, walton_braun_pair(0.9, 0));
+        w.grains.add(0, 0, at, kRadius, 1e18);
+        w.start();
+        double last = 0;
+        for (int k = 1; k <= 40; ++k) {
+            w.run(50);
+            const Eigen::Matrix3d turned =
+                Eigen::AngleAxisd(turn.rate * w.plan.clock.step * 50 * k, turn.axis).toRotationMatrix();
+            const Vec3 n = turned * normal, there = turn.through + turned * (on_side - turn.through);
+            const double overlap = kRadius - n.dot(at - there);
+            ASSERT_GT(overlap, last);  // it is loaded all the time
+            last = overlap;
+            EXPECT_LT((w.grains.load[0].force - kStiffness * overlap * n).norm(),
+                      of_rounding(1e-9, 1e-4) * kStiffness * overlap)
+                << triangles << " " << k;
+        }
+    }
+}
+
 // A bed in a closed box with a vane that turns and a tube that is shaken.
 World bed(int threads) {
     PairPlan pair = walton_braun_pair(0.4, 0.5);
