@@ -67,7 +67,9 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
         return asked;
     };
     if (request.at) return named(*request.at, request.at_option);
-    if (request.frame && record_.frames().scene() == nullptr) return kept_frame(*request.frame);
+    if (request.frame && record_.frames().scene() == nullptr)
+        return kept_frame(*request.frame, record_.frames().path().string());
+    if (request.frame && request.frame_of_file) return kept_frame(*request.frame, record_.scene().title);
     if (request.frame) return named(clock.time(step_of_frame(request)), "--frame");
     if (request.cycle) {
         if (!record_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
@@ -77,12 +79,12 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
 }
 
 // A file of frames alone has no film: its frames are counted as they lie in it.
-AskedMoment MomentFinder::kept_frame(std::int64_t frame) const {
+AskedMoment MomentFinder::kept_frame(std::int64_t frame, const std::string& name) const {
     const std::vector<Frame>& moments = record_.moments();
     const auto count = static_cast<std::int64_t>(moments.size());
     if (frame < 0 || frame >= count)
-        throw UserError(fmt::format("--frame: {} has the frames 0 to {}, but {} is asked for",
-                                    record_.frames().path().string(), count - 1, frame));
+        throw UserError(
+            fmt::format("--frame: {} has the frames 0 to {}, but {} is asked for", name, count - 1, frame));
     const auto index = static_cast<std::size_t>(frame);
     return {moments[index].step, moments[index].time, index, index, frame + 1 == count};
 }

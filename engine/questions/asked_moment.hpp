@@ -17,7 +17,8 @@ struct MomentRequest {
     std::optional<double> at{};           // s
     std::optional<double> cycle{};        // periods of the drive
     std::optional<std::int64_t> frame{};  // of the film, from 0
-    const char* at_option = "--at";       // where `at` comes from, for messages
+    bool frame_of_file = false;      // frame counts the moments of an imported file in place of the film's
+    const char* at_option = "--at";  // where `at` comes from, for messages
     // How many frames more the film shows the picture of a moment (s; they come by rising time); none: each
     // picture is one frame.
     std::function<std::int64_t(double time)> held{};
@@ -56,7 +57,7 @@ class MomentFinder {
     bool is_checkpoint(const AskedMoment& moment) const;
 
   private:
-    AskedMoment kept_frame(std::int64_t frame) const;
+    AskedMoment kept_frame(std::int64_t frame, const std::string& name) const;
     void check_can_bring_back(const AskedMoment& moment) const;
     std::int64_t step_of_frame(const MomentRequest& request) const;
     double last_time() const;

@@ -239,5 +239,67 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                              return text;
                          });
 
+// A hundred frames, and one of them has a grain of another type.
+TEST(Archive, ATypeOfOneFrameAmongManyIsASpecies) {
+    const TemporaryFolder folder;
+    std::string text;
+    for (int k = 0; k < 100; ++k)
+        text += dump(k, "id type x y z radius", {fmt::format("1 {} 1 1 1 0.1", k == 51 ? 7 : 2)});
+    write(folder / "a.dump", text);
+    const ForeignArchive archive(folder / "a.dump", {});
+    ASSERT_EQ(archive.world().species.size(), 2u);
+    EXPECT_EQ(archive.grains(50).species[0], 0);
+    EXPECT_EQ(archive.grains(51).species[0], 1);
+    EXPECT_EQ(archive.world().species[1].name, "type 7");
+}
+
+std::string contacts_without_names() {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS pp pp pp\n0 2\n0 2\n0 2\nITEM: "
+           "ENTRIES c_pl[1] c_pl[2] c_pl[3]\n1 2 0.5\n";
+}
+
+TEST(Archive, ContactsThatNoNameExplainsAreLeftOutWithAWord) {
+    const TemporaryFolder folder;
+    write(folder / "a.dump", dump(0, "id type x y z radius", {"1 1 1 1 1 0.1", "2 1 1.2 1 1 0.1"}));
+    write(folder / "c.dump", contacts_without_names());
+    ReadingOptions options;
+    options.contacts = {(folder / "c.dump").string()};
+    const ForeignArchive nameless(folder / "a.dump", options);
+    EXPECT_FALSE(nameless.supply().contacts);
+    EXPECT_THAT(nameless.news(), testing::Contains(HasSubstr("as in --columns id1=c_1[1],id2=c_1[2]")));
+    options.columns = {{"id1", "c_pl[1]"}, {"id2", "c_pl[2]"}, {"force", "c_pl[3]"}};
+    const ForeignArchive named(folder / "a.dump", options);
+    ASSERT_TRUE(named.supply().contacts);
+    ASSERT_EQ(named.touches(0)->size(), 1u);
+    EXPECT_EQ(named.touches(0)->front().force, 0.5);
+}
+
+TEST(Archive, AFileOfContactsAloneSaysWhereItBelongs) {
+    const TemporaryFolder folder;
+    write(folder / "c.dump", contacts_without_names());
+    EXPECT_THAT(ForeignArchive(folder / "c.dump", {}).news(),
+                testing::Contains(HasSubstr("has contacts and no grains; open the file of the grains")));
+}
+
+TEST(Archive, VelocitiesHaveTheUnitOfTheirNames) {
+    const TemporaryFolder folder;
+    write(folder / "a.csv", "x [mm],y [mm],z [mm],radius [mm],vx [mm/s],vy [mm/s],vz\n1,2,3,4,5,6,7\n");
+    const Frame frame = ForeignArchive(folder / "a.csv", {}).grains(0);
+    EXPECT_NEAR(frame.velocity[0].x(), 0.005, 1e-15);
+    EXPECT_NEAR(frame.velocity[0].z(), 7, 1e-12);
+    EXPECT_NEAR(frame.radius[0], 0.004, 1e-15);
+}
+
+// A restart appended the last frame again.
+TEST(Archive, OfTwoFramesOfOneTimeTheLaterCounts) {
+    const TemporaryFolder folder;
+    const std::string row = " 0.2 0.3 1 2 3 0.5 0 0 0 7 8 9 1\n", box = " 0 0 0 1 1 1\n";
+    write(folder / "a.data", "1 0" + box + "0.1" + row + "1 0.5" + box + "0.2" + row + "1 0.5" + box + "0.3" +
+                                 row + "1 1" + box + "0.4" + row);
+    const ForeignArchive archive(folder / "a.data", {});
+    ASSERT_EQ(archive.moments().size(), 3u);
+    EXPECT_EQ(archive.grains(1).position[0].x(), 0.3);
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -129,6 +129,10 @@ TEST(TextDump, OldFilesWithoutNames) {
     EXPECT_FALSE(scaled->read(0).box->periodic[0]);
     const auto in_metres = open_text(folder.write("b", old_frame("-9 12\n", "1 1 3 0.2 0.3\n", 1)));
     EXPECT_THAT(names_in(*in_metres), ElementsAre("id", "type", "x", "y", "z"));
+    // In a box of 2 m grains up to 0.75 fill more of it as shares.
+    const auto few =
+        open_text(folder.write("d", old_frame("0 2\n", "1 1 0.5 0.5 0.25\n2 1 0.75 0.5 0.25\n", 2)));
+    EXPECT_THAT(names_in(*few), ElementsAre("id", "type", "xs", "ys", "zs"));
     // Within 0 and 1, but it is the box that is small.
     const auto small = open_text(
         folder.write("c", old_frame("0 0.02\n", "1 1 0.01 0.015 0.002\n2 1 0.019 0.001 0.01\n", 2)));

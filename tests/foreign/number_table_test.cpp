@@ -39,6 +39,28 @@ TEST(NumberTable, UnitsStayInNames) {
     EXPECT_THAT(column(table, "Position X (mm)"), ElementsAre(1.5));
 }
 
+TEST(NumberTable, ARowOfUnitsGoesToTheNames) {
+    for (const std::string bytes : {"x,y,r,n\nmm,mm,m,-\n1,2,3,4\n", "x,y,r,n\n[mm],(mm),[m],\n1,2,3,4\n"}) {
+        const RawTable table = table_of(bytes);
+        EXPECT_THAT(names(table), ElementsAre("x [mm]", "y [mm]", "r [m]", "n")) << bytes;
+        EXPECT_THAT(column(table, "y [mm]"), ElementsAre(2)) << bytes;
+    }
+    // Materials that are called like units.
+    EXPECT_THAT(words(table_of("kind,x,y\nm,1,2\ns,3,4\n"), "kind"), ElementsAre("m", "s"));
+}
+
+TEST(NumberTable, AWordAmongPlacesIsAMistakeInItsRow) {
+    EXPECT_THAT(complaint_of(number_table_format(), "x,y,q\n1,2,3\n1,abc,3\n4,5,6\n7,8,9\n"),
+                StartsWith("grains:3: column 2 (y) has \"abc\", which is no number"));
+    EXPECT_THAT(words(table_of("x,y,kind\n1,2,3\n1,2,a\n4,5,6\n7,8,9\n"), "kind"),
+                ElementsAre("3", "a", "6", "9"));
+}
+
+TEST(NumberTable, MeasuresOfOursAreNoGrains) {
+    EXPECT_THAT(complaint_of(number_table_format(), "step,time_s,cycles,height_difference\n0,0,0,0.5\n"),
+                HasSubstr("the table of measures of a run of ours, a row a moment, and holds no grains"));
+}
+
 TEST(NumberTable, AnIndexWithoutANameIsNumbered) {
     EXPECT_THAT(names(table_of(",x,y\n0,1,2\n1,3,4\n")), ElementsAre("c1", "x", "y"));
 }

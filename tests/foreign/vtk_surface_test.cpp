@@ -1,3 +1,6 @@
+#include <cstring>
+#include <limits>
+
 #include "tests/foreign/vtk_files.hpp"
 
 namespace grainreel {
@@ -27,6 +30,18 @@ std::string binary_stl(std::string head, std::size_t triangles) {
         head += as_bytes_all<float>({0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, static_cast<double>(i)}, false) +
                 std::string(2, '\0');
     return head;
+}
+
+// The size of the file is that of its packed bytes, and the first bytes are not all.
+TEST(WallSurface, ALargeStlThatWasPackedIsKnownByItsFacets) {
+    FileHead head = head_of(binary_stl("mesh", 2000));
+    ASSERT_EQ(head.bytes.size(), kHeadBytes);
+    EXPECT_TRUE(wall_surface_format().takes(head));
+    head.size = 4000;
+    EXPECT_TRUE(wall_surface_format().takes(head));
+    const float nowhere = std::numeric_limits<float>::infinity();
+    std::memcpy(head.bytes.data() + 84 + 50 * 700 + 12, &nowhere, sizeof nowhere);
+    EXPECT_FALSE(wall_surface_format().takes(head));
 }
 
 TEST(WallSurface, SolidsOfOneStl) {

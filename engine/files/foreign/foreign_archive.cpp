@@ -65,8 +65,8 @@ bool is_foreign(const fs::path& path) {
     return false;
 }
 
-ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& options)
-    : path_(path), options_(options) {
+ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& options, Looks looks)
+    : path_(path), options_(options), looks_(looks) {
     choose_files();
     for (std::string& line : grains_->news()) news_.push_back(std::move(line));
     list_moments();
@@ -248,11 +248,19 @@ const RawFrame& ForeignArchive::raw(std::size_t index) const {
     return last_->second;
 }
 
+// Frames in which types are looked for.
+std::size_t ForeignArchive::most_looks() const {
+    constexpr std::uintmax_t small = 32 << 20;  // bytes, read in a moment
+    std::uintmax_t bytes = 0;
+    std::error_code ignored;
+    for (const fs::path& file : grains_->files()) bytes += fs::file_size(file, ignored);
+    return looks_ == Looks::all || bytes <= small ? moments_.size() : 64;
+}
+
 // Which types there are, how many grains, and what the columns mean. Of many frames some are looked at.
 void ForeignArchive::survey() {
-    constexpr std::size_t most_looks = 64;
-    const std::size_t frames = moments_.size();
-    const std::size_t stride = std::max<std::size_t>(1, (frames + most_looks - 1) / most_looks);
+    const std::size_t frames = moments_.size(), most = std::max<std::size_t>(1, most_looks());
+    const std::size_t stride = std::max<std::size_t>(1, (frames + most - 1) / most);
     std::vector<std::size_t> looks;
     for (std::size_t k = 0; k < frames; k += stride) looks.push_back(k);
     if (frames > 0 && looks.back() != frames - 1) looks.push_back(frames - 1);
@@ -269,11 +277,23 @@ void ForeignArchive::survey() {
         RawFrame empty;
         empty.grains.columns = {{"id", {}}, {"x", {}}, {"y", {}}, {"z", {}}, {"radius", {}}};
         meaning_.emplace(grains_->facts(), empty, ReadingOptions(), path_.string());
-        news_.push_back(fmt::format("{}: has no grain in any frame", path_.string()));
+        const bool contacts = std::any_of(grains_->moments().begin(), grains_->moments().end(),
+                                          [](const RawMoment& one) { return one.has_contacts; });
+        news_.push_back(contacts
+                            ? fmt::format("{}: has contacts and no grains; open the file of the grains, and "
+                                          "name this one by --contacts",
+                                          path_.string())
+                            : fmt::format("{}: has no grain in any frame", path_.string()));
     }
     for (const std::string& line : meaning_->guesses()) news_.push_back(line);
     if (!meaning_->has_ids() && frames > 1)
         news_.push_back(fmt::format("{}: has no ids; its grains are counted by their rows", path_.string()));
+    survey_contacts();
+    if (has_contacts_) check_contact_columns();
+}
+
+void ForeignArchive::survey_contacts() {
+    const std::size_t frames = moments_.size();
     for (std::size_t k = 0; k < frames && !has_contacts_; ++k)
         has_contacts_ = grains_->moments()[k].has_contacts;
     if (!contacts_) return;
@@ -290,6 +310,25 @@ void ForeignArchive::survey() {
         if (step) contacts_at_.emplace(*step, k);
     }
     has_contacts_ = !contacts_at_.empty();
+}
+
+// Columns of a dump local have any names. Where they do not say who touches whom, there are no contacts.
+void ForeignArchive::check_contact_columns() {
+    const RawSeries& from = contacts_ ? *contacts_ : *grains_;
+    for (std::size_t k = 0; k < from.moments().size(); ++k) {
+        if (!from.moments()[k].has_contacts) continue;
+        const RawTable contacts = from.read(k).contacts;
+        if (contacts.rows == 0) continue;
+        const std::string name = from.files().front().string();
+        has_contacts_ =
+            column_for("id1", contacts, options_, name) && column_for("id2", contacts, options_, name);
+        if (!has_contacts_)
+            news_.push_back(fmt::format(
+                "{}: its contacts are left out: no columns say who touches whom; name them as in --columns "
+                "id1=c_1[1],id2=c_1[2],force=c_2[1]; it has {}",
+                name, names_in(contacts)));
+        return;
+    }
 }
 
 void ForeignArchive::make_world() {
@@ -429,6 +468,12 @@ void ForeignArchive::match_walls() {
         for (std::size_t w = 0; w < walls_.size(); ++w)
             moment.bodies[kFirstPlaneBody + w] = walls_[w].poses[wall_at_[k][w]];
     }
+}
+
+const RawTable* ForeignArchive::wall_cells(std::size_t index, std::size_t wall) const {
+    const std::vector<RawTable>& cells = walls_.at(wall).cells;
+    const std::size_t at = wall_at_.at(index).at(wall);
+    return at < cells.size() ? &cells[at] : nullptr;
 }
 
 Frame ForeignArchive::read(std::size_t index) const {

@@ -25,9 +25,14 @@ bool is_foreign(const std::filesystem::path& path);
 
 class ForeignArchive final : public FrameArchive {
   public:
+    // How many frames are looked at for the types that there are. some: all of small files, and 64 of others,
+    // so that a question to one frame need not wait; a frame with another type throws UnknownType.
+    enum class Looks { some, all };
+
     // path: a file, a pattern, or a folder. Throws UserError where nothing there can be read, and for what
     // its reader finds wrong.
-    ForeignArchive(const std::filesystem::path& path, const ReadingOptions& options);
+    ForeignArchive(const std::filesystem::path& path, const ReadingOptions& options,
+                   Looks looks = Looks::some);
 
     const std::filesystem::path& path() const override { return path_; }
     const World& world() const override { return world_; }
@@ -40,6 +45,9 @@ class ForeignArchive final : public FrameArchive {
 
     // Walls by their bodies, from kFirstPlaneBody on.
     const std::vector<MovingWall>& walls() const { return walls_; }
+    // What a wall says of its triangles at a moment, a row each; null where it says nothing.
+    const RawTable* wall_cells(std::size_t index, std::size_t wall) const;
+    const UnitSystem& units() const { return meaning_->units(); }
     // All files that were read.
     const std::vector<std::filesystem::path>& files() const { return all_files_; }
     // "LAMMPS text dump".
@@ -53,6 +61,9 @@ class ForeignArchive final : public FrameArchive {
     void add_companions(const std::filesystem::path& file);
     void list_moments();
     void survey();
+    std::size_t most_looks() const;
+    void survey_contacts();
+    void check_contact_columns();
     void make_world();
     void read_walls();
     void add_box();
@@ -64,6 +75,7 @@ class ForeignArchive final : public FrameArchive {
 
     std::filesystem::path path_;
     ReadingOptions options_;
+    Looks looks_;
     std::unique_ptr<RawSeries> grains_,
         contacts_;  // contacts: null where the grains' files have them, or nobody
     std::vector<std::vector<std::filesystem::path>> wall_files_;

@@ -27,6 +27,10 @@ namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // of all imports together
 
+fs::path temporary_imports() {
+    return fs::temp_directory_path() / fmt::format("grainreel-imports-{}", ::getuid());
+}
+
 // The folder of all imports, made where it is not there.
 fs::path import_folder() {
     std::error_code error;
@@ -34,7 +38,7 @@ fs::path import_folder() {
     if (!cache.empty() && (fs::create_directories(imports, error), !error) &&
         ::access(imports.c_str(), W_OK) == 0)
         return imports;
-    return fs::temp_directory_path() / fmt::format("grainreel-imports-{}", ::getuid());
+    return temporary_imports();
 }
 
 // All files that may have a say in what is imported.
@@ -93,9 +97,16 @@ std::string key_of(const ImportRequest& request) {
 std::uintmax_t size_of(const fs::path& folder) {
     std::uintmax_t bytes = 0;
     std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
         if (entry.is_regular_file(error)) bytes += entry.file_size(error);
     return bytes;
+}
+
+// Another process may be at work on it. What is older than a day was left by one that was killed.
+bool is_being_made(const fs::path& folder) {
+    std::error_code error;
+    return folder.extension() == ".part" &&
+           fs::file_time_type::clock::now() - fs::last_write_time(folder, error) < std::chrono::hours(24);
 }
 
 // Removes what was not used for longest.
@@ -116,7 +127,7 @@ void make_room(const fs::path& imports, const fs::path& keep) {
     std::sort(all.begin(), all.end(), [](const One& a, const One& b) { return a.used < b.used; });
     for (const One& one : all) {
         if (bytes <= kMostBytes) return;
-        if (one.folder == keep) continue;
+        if (one.folder == keep || is_being_made(one.folder)) continue;
         fs::remove_all(one.folder, error);
         bytes -= one.bytes;
     }
@@ -129,7 +140,7 @@ ImportedRun found(const fs::path& folder) {
     for (std::string line; std::getline(news, line);)
         if (!line.empty()) run.news.push_back(line);
     std::error_code ignored;
-    fs::last_write_time(folder, fs::file_time_type::clock::now(), ignored);
+    fs::last_write_time(folder.parent_path(), fs::file_time_type::clock::now(), ignored);
     return run;
 }
 
@@ -172,6 +183,20 @@ ImportedRun cached_import(ImportRequest request) {
         fs::remove_all(part, ignored);
         throw;
     }
+}
+
+ImportsKept imports_kept() {
+    std::error_code error;
+    ImportsKept kept;
+    const fs::path cache = cache_folder();
+    kept.folder = cache.empty() ? temporary_imports() : cache / "imports";
+    kept.most_bytes = kMostBytes;
+    for (const fs::directory_entry& entry : fs::directory_iterator(kept.folder, error)) {
+        if (!entry.is_directory(error)) continue;
+        ++kept.imports;
+        kept.bytes += size_of(entry.path());
+    }
+    return kept;
 }
 
 }  // namespace grainreel

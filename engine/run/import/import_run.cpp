@@ -18,6 +18,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/run/import/import_scene.hpp"
+#include "engine/run/import/import_wear.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/state/body.hpp"
@@ -152,8 +153,9 @@ Scene scene_of(const fs::path& file, const ImportRequest& request) {
 
 }  // namespace
 
-ImportedRun import_run(const ImportRequest& request) {
-    const ForeignArchive archive(request.from, request.reading);
+namespace {
+
+ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archive) {
     ImportedRun run;
     run.news = archive.news();
     const double frames = static_cast<double>(archive.moments().size());
@@ -183,6 +185,11 @@ ImportedRun import_run(const ImportRequest& request) {
                          file_facts(scene));
     ImportMeasures measures(scene, as_run.clock(), supply);
     MeasuresWriter table(folder.path() / "measures.csv", measures.names());
+    std::optional<ImportWear> wear;
+    if (ImportWear::known(archive)) {
+        wear.emplace(folder.path() / "fields.nc", scene, archive, request.program_version);
+        for (std::string& line : wear->news()) run.news.push_back(std::move(line));
+    }
     std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
     for (std::size_t k = 0; k < archive.moments().size(); ++k) {
         Frame frame = archive.grains(k);
@@ -195,12 +202,24 @@ ImportedRun import_run(const ImportRequest& request) {
         const std::vector<Touch> touches = archive.touches(k).value_or(std::vector<Touch>());
         if (contacts) contacts->write(run.frames, records_of(touches, frame));
         table.write(measures.row(frame, touches));
+        if (wear) wear->write(k);
         ++run.frames;
         tell(frames + static_cast<double>(k));
     }
     run.folder = folder.path();
     folder.keep();
     return run;
+}
+
+}  // namespace
+
+// Of long files some frames say which types there are. Where another one has more, all are asked.
+ImportedRun import_run(const ImportRequest& request) {
+    try {
+        return import_of(request, ForeignArchive(request.from, request.reading));
+    } catch (const UnknownType&) {
+        return import_of(request, ForeignArchive(request.from, request.reading, ForeignArchive::Looks::all));
+    }
 }
 
 }  // namespace grainreel

@@ -41,4 +41,12 @@ ImportedRun import_run(const ImportRequest& request);
 // temporary folder.
 ImportedRun cached_import(ImportRequest request);
 
+// What that folder holds.
+struct ImportsKept {
+    std::filesystem::path folder;
+    std::size_t imports = 0;
+    std::uintmax_t bytes = 0, most_bytes = 0;  // of all together, and how many are kept
+};
+ImportsKept imports_kept();
+
 }  // namespace grainreel

@@ -11,8 +11,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/shell_word.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/lattice_speed.hpp"
+#include "engine/run/import/import_run.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/picture/gl/context.hpp"
@@ -118,6 +120,19 @@ std::vector<Finding> find_films() {
         found.back().needed = format == FilmFormat::mp4;
     }
     return found;
+}
+
+// Nothing is wrong with a full cache: it makes room by itself.
+std::vector<Finding> find_imports() {
+    constexpr double megabyte = 1e6;
+    const ImportsKept kept = imports_kept();
+    const std::string of = kept.folder.string();
+    if (kept.imports == 0) return {{"imported files", fmt::format("none in {}", of)}};
+    return {{"imported files",
+             fmt::format(
+                 "{} of other programs, {:.1f} MB in {} (at most {:.0f} MB are kept); to empty it: rm -r {}",
+                 kept.imports, static_cast<double>(kept.bytes) / megabyte, of,
+                 static_cast<double>(kept.most_bytes) / megabyte, shell_word(of))}};
 }
 
 std::vector<Finding> find_programs() {

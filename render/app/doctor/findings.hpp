@@ -20,6 +20,7 @@ std::vector<Finding> find_processors();                            // number, ve
 std::vector<Finding> find_drawing();                               // OpenGL
 std::vector<Finding> find_films();                                 // an encoder a format
 std::vector<Finding> find_programs();                              // gnuplot
+std::vector<Finding> find_imports();                               // copies of other programs' files
 std::vector<Finding> find_letters();                               // scripts that words on films can have
 std::vector<Finding> find_room(const std::filesystem::path& out);  // memory, and disk where films go
 

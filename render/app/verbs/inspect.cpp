@@ -122,7 +122,7 @@ class Inspect final : public Verb {
     int run(Reporter& reporter) override {
         if (!picture_.empty()) check_picture_file(picture_);
         check_options();
-        open();
+        open(reporter);
         const Record* const record = asked_->record;
         tell_news(*record, reporter);
         MomentFinder finder(*record);
@@ -139,6 +139,8 @@ class Inspect final : public Verb {
     bool ends_in_good_order() const override { return false; }
 
   private:
+    bool draws() const { return !picture_.empty() || !pixel_.empty(); }
+
     // What would be accepted and do nothing.
     void check_options() const {
         if (average_ && compare_)
@@ -150,11 +152,10 @@ class Inspect final : public Verb {
             throw UserError("--over-time: is of all kept moments; leave the moment out");
         if (average_ && !pixel_.empty())
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
-        const bool draws = !picture_.empty() || !pixel_.empty();
-        if (film_time_ && !draws)
+        if (film_time_ && !draws())
             throw UserError("--film-time: says what a picture shows; add --png or --pixel");
         for (const Assignment& set : sets_)
-            if (!draws && set.key() != "run.threads")
+            if (!draws() && set.key() != "run.threads")
                 throw UserError(
                     fmt::format("{}: says how a picture is drawn; add --png or --pixel", set.place()));
     }
@@ -232,7 +233,7 @@ class Inspect final : public Verb {
         return {all.grains, all.forces, all.words, !snapshot.forces};
     }
 
-    void open() {
+    void open(Reporter& reporter) {
         std::error_code ignored;
         const bool foreign = is_foreign(run_);
         if (const std::string option = given_reading(reading_); !foreign && !option.empty())
@@ -241,13 +242,22 @@ class Inspect final : public Verb {
                             option, run_.string()));
         // Frames are counted in the file that was named, so it is read without its series.
         reading_.one = true;
-        asked_ = foreign || fs::is_regular_file(run_, ignored) ? open_filmed_state(run_, sets_, reading_)
-                                                               : open_filmed_run(run_, sets_for_contacts());
+        if (foreign && draws()) return open_import(reporter);
+        asked_ = foreign || fs::is_regular_file(run_, ignored)
+                     ? open_filmed_state(run_, sets_, reading_)
+                     : open_filmed_run(run_, sets_for_contacts(run_));
         // A trajectory of ours alone is no file of another program here.
         foreign_ = dynamic_cast<const ForeignArchive*>(&asked_->record->frames()) != nullptr;
         no_replay_ = no_replay_ || foreign_;
         CaptionHolds holds(asked_->scene().film);
         moment_.held = [holds](double time) mutable { return holds.begin_at(time); };
+    }
+
+    // Pictures of another program's files are those of render, so they are of the import.
+    void open_import(Reporter& reporter) {
+        const RunToRead read = run_to_read(run_, reading_, reporter);
+        asked_ = open_filmed_run(read.folder, sets_for_contacts(read.folder));
+        foreign_ = no_replay_ = moment_.frame_of_file = true;
     }
 
     // What is damaged or not of this run is left out of answers, and the user is to know.
@@ -262,10 +272,10 @@ class Inspect final : public Verb {
     }
 
     // With what has contacts read, when the run kept them.
-    Assignments sets_for_contacts() const {
+    Assignments sets_for_contacts(const fs::path& folder) const {
         std::error_code ignored;
         Assignments sets = sets_;
-        if (fs::exists(run_ / "contacts.nc", ignored))
+        if (fs::exists(folder / "contacts.nc", ignored))
             sets.push_back({"film.force_chains=true", "contacts.nc"});
         return sets;
     }

@@ -64,13 +64,20 @@ class Render final : public Verb {
                 ->check(CLI::Range(1, 1000000000))
                 ->type_name("N");
         CLI::Option* at = add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file");
+        CLI::Option* frame =
+            parser
+                .add_option("--frame", request_.frame,
+                            "Draw this frame of the film alone, or of the files of another program, counted "
+                            "from 0, to a PNG file")
+                ->type_name("N")
+                ->excludes(at);
         for (const auto& [flag, into, about, type] :
              {std::tuple("--dpi", &request_.dpi,
                          "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]",
                          "N"),
               {"--width-mm", &request_.width_mm,
                "With --at: width on paper; the picture gets the pixels that this needs", "MM"}})
-            parser.add_option(flag, *into, about)->needs(at)->check(CLI::Range(1.0, 1e5))->type_name(type);
+            parser.add_option(flag, *into, about)->check(CLI::Range(1.0, 1e5))->type_name(type);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
@@ -83,26 +90,30 @@ class Render final : public Verb {
             ->needs(follow)
             ->check(CLI::Range(0.5, 1e6))
             ->type_name("SECONDS");
-        for (CLI::Option* other : {at, from, to, every}) follow->excludes(other);
+        for (CLI::Option* other : {at, frame, from, to, every}) follow->excludes(other);
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
         for (CLI::Option* other :
              {from, to, every, parser.get_option("--frames"), parser.get_option("--no-film")})
-            at->excludes(other);
+            at->excludes(other), frame->excludes(other);
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
         film_.command = command;
+        if (!is_still() && (request_.dpi || request_.width_mm))
+            throw UserError(fmt::format("{}: is for one picture; add --at or --frame",
+                                        request_.dpi ? "--dpi" : "--width-mm"));
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
         if (follow_) return follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
         if (read.imported) request_.beside = read.beside;
-        if (read.imported && !request_.at && !request_.every) request_.every = 1;
-        if (request_.at) return draw_one(reporter);
+        request_.frame_of_file = read.imported;
+        if (read.imported && !is_still() && !request_.every) request_.every = 1;
+        if (is_still()) return draw_one(reporter);
         if (request_.every) check_no_segments(request_.sets);
         RevisitedRun source(request_.run, request_.sets, request_.replay);
         source.leave_out_damaged();
@@ -112,6 +123,8 @@ class Render final : public Verb {
     }
 
   private:
+    bool is_still() const { return request_.at || request_.frame; }
+
     int follow(Reporter& reporter) const {
         std::error_code ignored;
         if (std::filesystem::exists(request_.run / "scene.toml", ignored))

@@ -70,6 +70,11 @@ void check_options(const FollowRequest& what, const FilmRequest& request) {
     if (!what.reading.container.empty())
         throw UserError(
             "--container: its walls move with the drive, which --follow does not do; leave one out");
+    for (const Assignment& set : what.sets)
+        if (set.key().rfind("film.walls.colour", 0) == 0 && set.value() != "plain")
+            throw UserError(fmt::format(
+                "{}: stress and wear of walls are known once all files are read; leave out --follow",
+                set.place()));
     if (!request.film && !request.frames)
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
 }
@@ -86,8 +91,14 @@ FollowRun::FollowRun(const FilmRequest& request, const FollowRequest& what, RunL
     make_folder({scene_.name + "-render", what.beside, request.out, request.force});
 }
 
-bool FollowRun::draw_new() {
-    for (; drawn_ < frames_->moments().size(); ++drawn_) {
+// A table says nowhere how many rows a moment has: its last moment waits for the next one, or for the end.
+std::size_t FollowRun::whole_frames(bool at_end) const {
+    const bool open = frames_->format().starts_with("table") && frames_->files().size() == 1;
+    return frames_->moments().size() - (open && !at_end ? 1 : 0);
+}
+
+bool FollowRun::draw_new(bool at_end) {
+    for (const std::size_t whole = whole_frames(at_end); drawn_ < whole; ++drawn_) {
         if (desk_.listener.stop_signal() != 0) return false;
         desk_.folder->lock().check_there();
         Frame frame = frames_->grains(drawn_);
@@ -142,9 +153,10 @@ bool FollowRun::work() {
     Steady::time_point last = Steady::now();
     while (true) {
         const std::size_t before = drawn_;
-        if (!draw_new()) return false;
+        if (!draw_new(false)) return false;
         if (drawn_ > before) last = Steady::now();
         if (seconds_since(last) >= what_.idle) {
+            if (wrong_.empty() && !draw_new(true)) return false;
             if (wrong_.empty()) break;
             throw RunError(
                 fmt::format("{} ({} frames were drawn; it was truncated or replaced)", wrong_, drawn_));

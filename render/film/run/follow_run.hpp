@@ -32,8 +32,9 @@ class FollowRun final : public FilmRun {
     bool work() override;
     std::string stopped_text() const override;
     void report_written() override;
+    std::size_t whole_frames(bool at_end) const;
     // Draws all frames that have come. False when told to stop.
-    bool draw_new();
+    bool draw_new(bool at_end);
     void show_progress();
     // Looks for more; throws RunError where files were truncated or replaced.
     void look_again();

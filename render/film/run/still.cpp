@@ -9,6 +9,7 @@
 #include "engine/questions/asked_moment.hpp"
 #include "engine/run/driver/stage_times.hpp"
 #include "engine/run/folder/replay_progress.hpp"
+#include "render/film/production/caption_holds.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/film_limits.hpp"
@@ -53,9 +54,13 @@ struct Chosen {
 };
 
 // One that stands for another lies no further from it than the kept moments do from each other.
-Chosen choose(double at, const RevisitedRun& source) {
+Chosen choose(const RenderRequest& what, const RevisitedRun& source) {
     const RecordedRun& run = source.record();
-    const AskedMoment asked = MomentFinder(run.record()).find({.at = at});
+    MomentRequest request{.at = what.at, .frame = what.frame, .frame_of_file = what.frame_of_file};
+    request.held = [holds = CaptionHolds(run.scene().film)](double time) mutable {
+        return holds.begin_at(time);
+    };
+    const AskedMoment asked = MomentFinder(run.record()).find(request);
     Chosen chosen{source.shown(asked.step), "", std::nullopt};
     const double time = source.film().moment(chosen.step).time;
     if (chosen.step != asked.step) {
@@ -63,13 +68,15 @@ Chosen choose(double at, const RevisitedRun& source) {
         const double apart =
             kept.size() < 2 ? 0
                             : (kept.back().time - kept.front().time) / static_cast<double>(kept.size() - 1);
-        const std::string what = fmt::format("--at: {:.6g} s was not kept ({})", at, source.why_not_all());
+        const std::string lack =
+            fmt::format("{}: {:.6g} s was not kept ({})", what.frame ? "--frame" : "--at",
+                        what.at.value_or(asked.time), source.why_not_all());
         if (std::abs(time - asked.time) > apart)
             throw UserError(
                 fmt::format("{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
                             "for it; choose that one",
-                            what, time));
-        chosen.instead = fmt::format("{}; {:.6g} s is drawn, the kept moment that is nearest", what, time);
+                            lack, time));
+        chosen.instead = fmt::format("{}; {:.6g} s is drawn, the kept moment that is nearest", lack, time);
     }
     const std::size_t index = run.frames().nearest(time);
     if (run.moments()[index].step == chosen.step)
@@ -147,8 +154,10 @@ std::string seconds_in_names(double time) {
 
 std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what,
                                    RunListener& listener, RevisitedRun& source) {
-    if (request.to_stdout) throw UserError("--out -: with --at, name a file that ends in .png");
-    const Chosen chosen = choose(what.at.value(), source);
+    if (request.to_stdout)
+        throw UserError(
+            fmt::format("--out -: with {}, name a file that ends in .png", what.frame ? "--frame" : "--at"));
+    const Chosen chosen = choose(what, source);
     if (request.out) check_free(*request.out, request.force);
     for (const std::string& line : source.news()) listener.warning(line);
     if (chosen.instead) listener.warning(*chosen.instead);

@@ -1,6 +1,7 @@
 #include "render/film/sources/recorded_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -132,13 +133,21 @@ void RecordedRun::read_outflow_of_run() {
 
 // Walls without their colours would look as if nothing touched them.
 void RecordedRun::read_wear_of_run() {
+    const bool imported = fs::exists(name_of(kImportNews));
     try {
-        if (const std::string name = name_of("fields.nc"); !fs::exists(name))
+        const std::string name = name_of("fields.nc");
+        if (imported && !fs::exists(name))
+            throw UserError(
+                fmt::format("{}: its walls say no stress or wear of their triangles, and the film colours "
+                            "walls by it; name files that do by --walls",
+                            scene_.title));
+        if (!fs::exists(name))
             throw UserError(fmt::format(
                 "{}: is missing, and the film colours walls by it; run the scene with output.instruments = "
                 "[\"wear\"]",
                 name));
-        wear_.emplace(name_of("fields.nc"), scene_);
+        wear_.emplace(name, scene_);
+        if (imported) fit_range_of_import();
     } catch (const UserError& lack) {
         if (!for_questions_)
             throw UserError(fmt::format("{}, or draw walls without colours, by --set film.walls.colour=plain",
@@ -146,6 +155,27 @@ void RecordedRun::read_wear_of_run() {
         scene_.film.look.walls.colour = FilmWalls::Colour::plain;
         archive_->note(fmt::format("{}; walls are plain", lack.what()));
     }
+}
+
+// The scene of an import knows no bed and no motion from which a range could be estimated. The largest value
+// of all moments is known instead.
+void RecordedRun::fit_range_of_import() {
+    FilmWalls& walls = scene_.film.look.walls;
+    const bool by_pressure = walls.colour == FilmWalls::Colour::pressure;
+    double most = 0;
+    bool any = false;
+    for (const Frame& moment : moments())
+        for (const MeshWear& mesh : *wear_->until(moment.time))
+            for (const double value : by_pressure ? mesh.pressure : mesh.wear) {
+                if (std::isnan(value)) continue;
+                any = true;
+                if (std::isfinite(value)) most = std::max(most, value);
+            }
+    if (!any)
+        throw UserError(
+            fmt::format("{}: its walls say no {} of their triangles, and the film colours walls by it",
+                        scene_.title, by_pressure ? "stress" : "wear"));
+    if (!walls.fixed && most > 0) walls.range = {1e-3 * most, most};
 }
 
 void RecordedRun::look_for_earlier_frames() {

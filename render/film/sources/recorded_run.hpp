@@ -81,6 +81,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     void check_columns() const;
     void read_outflow_of_run();
     void read_wear_of_run();
+    void fit_range_of_import();
     void look_for_earlier_frames();
     const MeasureTable& table() const { return *archive_->measures(); }
     std::string name_of(const char* file) const { return archive_->name_of(file); }

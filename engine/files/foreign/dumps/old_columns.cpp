@@ -23,6 +23,7 @@ constexpr double outside = 0.02;
 
 bool scaled(const RawTable& table, const std::optional<WorldCell>& box) {
     bool in_box = true, wide = false;
+    double room = 1;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::vector<double>& values = table.columns[2 + k].values;
         const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -30,10 +31,12 @@ bool scaled(const RawTable& table, const std::optional<WorldCell>& box) {
         if (*most - *least > 0.5) wide = true;
         const auto axis = static_cast<Eigen::Index>(k);
         const double low = box ? box->origin[axis] : 0, size = box ? box->edges[k][axis] : 0;
+        room *= size;
         if (*least < low - outside * size || *most > low + (1 + outside) * size) in_box = false;
     }
-    // A bed of millimetres in a box of centimetres lies within 0 and 1 too.
-    return wide || !in_box;
+    // A bed of millimetres in a box of centimetres lies within 0 and 1 too. Of two readings that are both
+    // possible that one holds by which the grains fill more of the box.
+    return wide || !in_box || room > 1;
 }
 
 }  // namespace

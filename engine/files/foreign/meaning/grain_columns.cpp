@@ -84,8 +84,21 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
     density_ = find("density");
     mass_ = find("mass");
     velocity_ = {find("vx"), find("vy"), find("vz")};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        velocity_unit_[axis] = units_.velocity();
+        if (!velocity_[axis] || !options_.units.empty()) continue;
+        if (const auto unit = unit_in_name(table.columns[*velocity_[axis]].name))
+            velocity_unit_[axis] = *unit;
+    }
     spin_ = {find("wx"), find("wy"), find("wz")};
     quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
+    for (const auto& column :
+         {place_[0], place_[1], place_[2], radius_, velocity_[0], velocity_[1], velocity_[2]})
+        if (column && !table.columns[*column].words.empty())
+            throw UserError(
+                fmt::format("{}: column {} holds words such as \"{}\", where numbers are needed; name "
+                            "another column by --columns",
+                            file_, table.columns[*column].name, table.columns[*column].words.front()));
     if (!units_.real)
         guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
 }
@@ -264,7 +277,7 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
             last_type = type;
         }
         if (!species)
-            throw UserError(
+            throw UnknownType(
                 fmt::format("{}: grain {} is of type {}, which no frame that was looked at first had; name "
                             "all types by --species",
                             place, ids[row], type_of(raw, row)));
@@ -278,7 +291,7 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
         Vec3 velocity(0, 0, 0), spin(0, 0, 0);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<Eigen::Index>(axis);
-            if (velocity_[axis]) velocity[a] = value(table, velocity_[axis], row) * units_.velocity();
+            if (velocity_[axis]) velocity[a] = value(table, velocity_[axis], row) * velocity_unit_[axis];
             if (spin_[axis]) spin[a] = value(table, spin_[axis], row) / units_.time;
         }
         frame.velocity.push_back(velocity.allFinite() ? velocity : Vec3(0, 0, 0));

@@ -9,12 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/files/foreign/meaning/units.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/reading_options.hpp"
 #include "engine/frame.hpp"
 
 namespace grainreel {
+
+// A frame has a type that was not among those that were looked for.
+class UnknownType : public UserError {
+  public:
+    using UserError::UserError;
+};
 
 // Types of a record by the words that the files have for them ("1", "big"), in the order of the species.
 class TypeList {
@@ -81,6 +88,7 @@ class GrainMeaning {
     bool is_diameter_ = false;
     double radius_unit_ = 1, place_unit_ = 1;  // m
     std::array<Column, 3> place_{}, velocity_{}, spin_{};
+    std::array<double, 3> velocity_unit_{};  // m/s
     std::array<bool, 3> scaled_{};
     bool flat_ = false;                   // there is no z
     std::array<Column, 4> quaternion_{};  // w x y z

@@ -77,6 +77,8 @@ const std::vector<std::pair<std::string, Names>>& all() {
         {"fx", {"force:0", "fx", "force_x", "c_force:0"}},
         {"fy", {"force:1", "fy", "force_y", "c_force:1"}},
         {"fz", {"force:2", "fz", "force_z", "c_force:2"}},
+        {"pressure", {"normal_stress_average", "normal_stress", "pressure"}},
+        {"wear", {"wear"}},
         {"step", {"step", "timestep", "iteration"}},
         {"time", {"time", "t"}},
     };

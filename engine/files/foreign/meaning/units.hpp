@@ -17,6 +17,7 @@ struct UnitSystem {
     double velocity() const { return length / time; }
     double density() const { return mass / (length * length * length); }
     double force() const { return mass * length / (time * time); }
+    double pressure() const { return mass / (length * time * time); }
 };
 
 // "si", "lj", "cgs", "micro", "nano", "real", "metal" (LAMMPS manual, command `units`). None for another

@@ -100,7 +100,12 @@ void RawSeries::list_moments() {
 void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
     std::size_t twice = 0;
     for (auto& [moment, part] : all) {
-        const bool again = !moments_.empty() && moment.step && moments_.back().step == moment.step;
+        const auto same_time = [&] {
+            const RawMoment& before = moments_.back();
+            return !moment.step && !before.step && moment.time && before.time == moment.time;
+        };
+        const bool again =
+            !moments_.empty() && ((moment.step && moments_.back().step == moment.step) || same_time());
         if (!again) {
             moments_.push_back(moment);
             parts_.push_back({part});
@@ -122,7 +127,7 @@ void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
     if (twice > 0)
         news_.push_back(fmt::format("{}: {} twice, as after a restart; the later frame counts",
                                     files_.front().string(),
-                                    twice == 1 ? "1 step comes" : fmt::format("{} steps come", twice)));
+                                    twice == 1 ? "1 moment comes" : fmt::format("{} moments come", twice)));
 }
 
 RawFrame RawSeries::read(std::size_t index) const {

@@ -74,6 +74,7 @@ class NumberTable : public RawFile {
     RawFrame read(std::size_t index) const override;
 
   private:
+    void refuse_measures() const;
     void find_clocks();
     void find_frames();
     bool take_row(std::map<double, FrameRows>& frames);
@@ -100,11 +101,24 @@ NumberTable::NumberTable(const std::filesystem::path& file) : lines_(file) {
     const std::optional<TableLayout> layout = layout_at(unpacked_head(file));
     if (!layout) throw UserError(fmt::format("{}:1: is no table of numbers", file.string()));
     layout_ = *layout;
+    refuse_measures();
     facts_.format = "table of numbers";
     facts_.program = layout_.program;
     find_clocks();
     find_frames();
     name_nameless();
+}
+
+// A measures.csv of ours has a row a moment.
+void NumberTable::refuse_measures() const {
+    const auto has = [&](const char* name) {
+        return std::find(layout_.names.begin(), layout_.names.end(), name) != layout_.names.end();
+    };
+    if (has("step") && has("time_s") && has("cycles") && !has("x") && !has("x_m"))
+        throw UserError(fmt::format(
+            "{}: is the table of measures of a run of ours, a row a moment, and holds no grains; name "
+            "the run's folder, or draw its columns by grainreel chart",
+            lines_.file().string()));
 }
 
 // Which columns tell when: of two names for one thing the first.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/files/foreign/meaning/names.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 
 namespace grainreel {
@@ -134,18 +135,62 @@ std::string program_of(const TableLayout& layout) {
     return {};
 }
 
-// Of each column whether it holds words; none where a row has another number of cells.
+// Whether a row has the units of the columns: "m", "[mm]", "-".
+bool are_units(const Cells& cells) {
+    constexpr std::array<std::string_view, 22> known{
+        "m",    "cm",   "mm", "um", "µm",    "micron", "nm",  "s", "ms", "us",  "m/s",
+        "cm/s", "mm/s", "kg", "g",  "kg/m3", "rad/s",  "1/s", "n", "pa", "rad", "-"};
+    std::size_t units = 0;
+    for (std::string_view cell : cells) {
+        cell = trimmed(cell);
+        if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '('))
+            cell = cell.substr(1, cell.size() - 2);
+        const std::string word = lower_case(trimmed(cell));
+        const bool unit = std::find(known.begin(), known.end(), word) != known.end();
+        if (!unit && !word.empty() && word != "1") return false;
+        units += unit;
+    }
+    return units > 0;
+}
+
+// A unit of its own row goes where others have it: "x [mm]".
+void add_units(TableLayout& layout, const Cells& cells) {
+    for (std::size_t i = 0; i < std::min(cells.size(), layout.names.size()); ++i) {
+        std::string unit(trimmed(cells[i]));
+        if (unit.size() > 1 && (unit.front() == '[' || unit.front() == '('))
+            unit = unit.substr(1, unit.size() - 2);
+        if (!unit.empty() && unit != "-" && unit != "1") layout.names[i] += fmt::format(" [{}]", unit);
+    }
+}
+
+// Whether a column of that name holds numbers alone.
+bool must_be_numbers(const std::string& name) {
+    const std::string bare = bare_name(name);
+    for (const char* meaning : {"x", "y", "z", "vx", "vy", "vz", "radius", "diameter"})
+        for (const std::string& known : names_of(meaning))
+            if (bare == known) return true;
+    return false;
+}
+
+// Of each column whether it holds words. A word among numbers of places, velocities and radii is a mistake
+// in its row. None where a row has another number of cells.
 std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
-                                          std::size_t columns, bool closed, bool last_may_be_cut) {
-    std::vector<bool> is_word(columns, false);
+                                          const std::vector<std::string>& names, bool closed,
+                                          bool last_may_be_cut) {
+    const std::size_t columns = names.size();
+    std::vector<std::size_t> words(columns, 0);
+    std::size_t rows = 0;
     Cells cells;
     for (std::size_t i = first; i < sample.filled.size(); ++i) {
         split_cells(sample.filled[i], writing.separator, closed, cells);
         if (cells.size() < columns && last_may_be_cut && i + 1 == sample.filled.size() && i > first) break;
         if (cells.size() != columns) return std::nullopt;
-        for (std::size_t k = 0; k < columns; ++k)
-            if (!cell_number(cells[k], writing.decimal_comma)) is_word[k] = true;
+        for (std::size_t k = 0; k < columns; ++k) words[k] += !cell_number(cells[k], writing.decimal_comma);
+        ++rows;
     }
+    std::vector<bool> is_word(columns);
+    for (std::size_t k = 0; k < columns; ++k)
+        is_word[k] = words[k] > 0 && (2 * words[k] >= rows || !must_be_numbers(names[k]));
     return is_word;
 }
 
@@ -172,13 +217,22 @@ std::optional<TableLayout> layout_by(const Sample& sample, const Writing& writin
     } else {
         name_by_remarks(layout, sample);
     }
-    const auto words = words_in(sample, header ? 1 : 0, writing, first.size(), closed, whole);
+    std::size_t rows_from = header ? 1 : 0;
+    if (header && sample.filled.size() > 1) {
+        Cells units;
+        split_cells(sample.filled[1], writing.separator, closed, units);
+        if (units.size() == first.size() && are_units(units)) {
+            add_units(layout, units);
+            rows_from = 2;
+        }
+    }
+    const auto words = words_in(sample, rows_from, writing, layout.names, closed, whole);
     if (!words) return std::nullopt;
     layout.is_word = *words;
-    layout.head_lines = header ? sample.numbers.front() : sample.numbers.front() - 1;
+    layout.head_lines = rows_from > 0 ? sample.numbers[rows_from - 1] : sample.numbers.front() - 1;
     layout.program = program_of(layout);
     const auto numbers = static_cast<std::size_t>(std::count(words->begin(), words->end(), false));
-    if (header && sample.filled.size() == 1)
+    if (header && sample.filled.size() == rows_from)
         return names_places(layout.names) ? std::optional(layout) : std::nullopt;
     if (!layout.named && (numbers < first.size() || numbers < 3)) return std::nullopt;
     return numbers >= 2 ? std::optional(layout) : std::nullopt;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -138,6 +139,21 @@ bool is_obj(std::string_view bytes) {
     return false;
 }
 
+// Whether all facets of a binary STL that the first bytes hold have places that walls can have. Of a packed
+// file the size that it has unpacked is not known.
+bool holds_facets(std::string_view bytes) {
+    constexpr float farthest = 1e7F;
+    if (bytes.size() < 84 + 50) return false;
+    for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) {
+        float numbers[12];
+        std::memcpy(numbers, bytes.data() + at, sizeof numbers);
+        for (const float number : numbers)
+            if (!(std::abs(number) < farthest)) return false;
+        if (std::all_of(numbers + 3, numbers + 12, [](float number) { return number == 0; })) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool takes_wall_surface(const FileHead& head) {
@@ -150,6 +166,7 @@ bool takes_wall_surface(const FileHead& head) {
         // The size of a packed file is that of its packed bytes.
         const std::uint64_t size = 84 + 50 * std::uint64_t{count};
         return size == head.size || (bytes.size() < kHeadBytes && size == bytes.size()) ||
+               (bytes.size() >= kHeadBytes && size > head.size && holds_facets(bytes)) ||
                same_word(bytes.substr(0, 5), "solid");
     }
     Words words(bytes);
