@@ -58,6 +58,23 @@ Json drawn(const RunRecord& r) {
     return runs;
 }
 
+Json part_of(const DrawnPart& part) {
+    return {{"number", part.number},
+            {"of", part.of},
+            {"first_picture", part.first_picture},
+            {"pictures", part.pictures},
+            {"all_pictures", part.all_pictures},
+            {"first_frame", part.first_frame},
+            {"frames", part.frames},
+            {"all_frames", part.all_frames},
+            {"rate", part.rate},
+            {"file", text_or_null(part.file)},
+            {"format", part.format},
+            {"run", text_or_null(part.run)},
+            {"settings", text_or_null(part.settings)},
+            {"film_xxh64", text_or_null(part.checksum)}};
+}
+
 Json final_table(const RunRecord& r) {
     if (!r.final_table) return nullptr;
     return {{"grains", r.final_table->grains}, {"xxh64", fmt::format("{:016x}", r.final_table->checksum)}};
@@ -128,7 +145,7 @@ std::string utc_now() {
 }
 
 void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
-    const Json document = {
+    Json document = {
         {"status", to_string(r.status)},
         {"exit_status", r.exit_status ? Json(*r.exit_status) : Json(nullptr)},
         {"error", text_or_null(r.error)},
@@ -155,6 +172,7 @@ void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
         {"peak_memory_bytes", r.peak_memory},
         {"missing", r.missing},
         {"warnings", r.warnings}};
+    if (r.part) document["part"] = part_of(*r.part);
     const std::string text = text_of(document);
     try {
         replace_file(path, text);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/files/drawn_part.hpp"
 #include "engine/scene/keys/accepted_key.hpp"
 #include "engine/state/table_mark.hpp"
 
@@ -37,6 +38,8 @@ struct RunRecord : ProgramInfo {
 
     // What was drawn without being run; then nothing is said of the engine.
     std::vector<DrawnRun> drawn;
+    // Of a film that is a part of another one.
+    std::optional<DrawnPart> part;
     // Of a film of several: where each one's files are, a folder beside run.json or another run's.
     std::vector<std::string> panels;
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The script and the commands of docs/guide/clusters.md, as they stand there: a study whose members run as an array
-# of a stand-in for sbatch, or by GNU parallel where that is installed. $1: the program.
+# of a stand-in for sbatch, or by GNU parallel where that is installed; and the script of render --slurm. $1: the program.
 set -euo pipefail
 program=$1
 guide=$(cd "$(dirname "$0")/../.." && pwd)/docs/guide/clusters.md
@@ -13,14 +13,13 @@ printf '#!/bin/bash\nexec %q "$@"\n' "$program" >movie && chmod 755 movie
 # The tasks of --array=1-N one after another, each as Slurm starts it: with its number, in the folder of sbatch.
 cat >"$work/bin/sbatch" <<'STAND_IN'
 #!/bin/bash
-for word; do
-    case $word in
-        --array=1-*) last=${word#--array=1-} ;;
-        --*) ;;
-        *) script=$word ;;
-    esac
+while [[ ${1:-} == --* ]]; do
+    [[ $1 == --array=1-* ]] && last=${1#--array=1-}
+    [[ $1 == --parsable ]] && echo 4711
+    shift
 done
-for ((task = 1; task <= last; ++task)); do SLURM_ARRAY_TASK_ID=$task bash "$script" || exit 1; done
+for ((task = 1; task <= ${last:-0}; ++task)); do SLURM_ARRAY_TASK_ID=$task bash "$@" >&2 || exit 1; done
+[[ ${last:-} ]] || exec bash "$@"
 echo "$last tasks" >>"$CALLS"
 STAND_IN
 chmod 755 "$work/bin/sbatch"
@@ -84,4 +83,12 @@ if command -v parallel >/dev/null; then
 else
     echo "GNU parallel is not installed and not tested"
 fi
+# A film in parts, by the script of the guide's section on that.
+"$program" movie scene.toml --no-film --no-report --out "a run" >/dev/null 2>&1
+drawn=("a run" --fps 240 --size 160x120 --title "Don't stop")
+"$program" render "${drawn[@]}" --slurm 2 --out "two parts.mp4" >film.slurm.sh
+"$program" render "${drawn[@]}" --parts 2 --out "in one go" >/dev/null 2>&1
+CALLS=$work/calls PATH=$work/bin:$PATH bash film.slurm.sh >/dev/null 2>"$work/said"
+expect "the parts' tasks" "2 tasks" "$(tail -1 "$work/calls")"
+cmp "two parts.mp4" "in one go/movie.mp4" || exit 1
 echo "clusters: ok"

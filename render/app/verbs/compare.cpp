@@ -41,6 +41,15 @@ class Compare final : public Verb {
         add_scene_keys(parser, request_.sets);
         add_film(parser, film_,
                  "Folder of the film, with one in it for each run [output/ and the scenes' names]");
+        for (const char* option : {"--part", "--parts"})
+            parser
+                .add_option_function<std::string>(
+                    option,
+                    [option](const std::string&) {
+                        throw UserError(fmt::format(
+                            "{}: is of render, for one run; a comparison is drawn in one go", option));
+                    })
+                ->group("");  // not for --help
         for (const char* other : {"--frames", "--no-film"}) at->excludes(parser.get_option(other));
         add_reporting(parser, report);
     }

@@ -10,11 +10,14 @@
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/camera_file.hpp"
 #include "render/app/options/option_groups.hpp"
+#include "render/app/options/parts_options.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
 #include "render/app/report/result.hpp"
+#include "render/app/study/members/child.hpp"
 #include "render/app/verbs/verb.hpp"
 #include "render/film/run/follow_run.hpp"
+#include "render/film/run/join_parts.hpp"
 #include "render/film/run/redraw_run.hpp"
 #include "render/film/run/still.hpp"
 #include "render/film/sources/revisited_run.hpp"
@@ -91,6 +94,9 @@ class Render final : public Verb {
             ->check(CLI::Range(0.5, 1e6))
             ->type_name("SECONDS");
         for (CLI::Option* other : {at, frame, from, to, every}) follow->excludes(other);
+        add_parts(parser, request_.parts, slurm_);
+        for (const char* other : {"--part", "--parts", "--slurm"})
+            for (CLI::Option* one : {follow, at, frame}) one->excludes(parser.get_option(other));
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
@@ -118,6 +124,7 @@ class Render final : public Verb {
         RevisitedRun source(request_.run, request_.sets, request_.replay);
         source.leave_out_damaged();
         keep_camera_file(camera_, source.scene().film.camera);
+        if (slurm_ > 0) return tell_script(reporter, source);
         RedrawRun redraw(film_, request_, reporter, source);
         return tell_folder(redraw.run(), film_);
     }
@@ -144,7 +151,23 @@ class Render final : public Verb {
         return 0;
     }
 
+    // What each part would be refused for is refused here.
+    int tell_script(Reporter& reporter, RevisitedRun& source) {
+        if (!film_.out) throw UserError("--slurm: the film needs a name; add --out film.mp4");
+        if (!film_.film) throw UserError("--slurm: joins films; leave out --no-film");
+        request_.parts = PartsWanted{1, slurm_};
+        RedrawRun::check(film_, request_, reporter, source);
+        if (source.scene().film.format == FilmFormat::png)
+            throw UserError("--slurm: joins films, and format png has none; draw its parts by --part");
+        check_joined(*film_.out, source.scene().film.format, film_.force);
+        std::vector<std::string> absolute = words;
+        absolute.front() = own_program();
+        print_exact(slurm_script(absolute, slurm_, std::filesystem::current_path(), *film_.out));
+        return 0;
+    }
+
     RenderRequest request_;
+    int slurm_ = 0;  // parts of a script
     ReadingOptions reading_;
     CameraFiles camera_;
     bool follow_ = false;

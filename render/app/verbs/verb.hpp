@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/App.hpp>
 
@@ -35,8 +36,9 @@ class Verb {
     // Whether run() looks at stop_signal(); otherwise the first signal ends the program.
     virtual bool ends_in_good_order() const { return true; }
 
-    ReporterOptions report;  // what add_reporting() fills, for verbs with that group
-    std::string command;     // as typed, for run.json
+    ReporterOptions report;          // what add_reporting() fills, for verbs with that group
+    std::string command;             // as typed, for run.json
+    std::vector<std::string> words;  // likewise, one by one, the program first
 
   private:
     const std::string name_, about_, footer_;

@@ -1,10 +1,10 @@
 #include "render/app/verbs/verbs.hpp"
 
 // The table: NAME stands for the function NAME_verb() of the file NAME.cpp.
-#define GRAINREEL_VERBS(verb)                                                                                \
-    verb(movie) verb(resume) verb(render) verb(compare) verb(report) verb(export) verb(handover) verb(watch) \
-        verb(inspect) verb(study) verb(check) verb(new) verb(scenes) verb(doctor) verb(chart) verb(bench)    \
-            verb(completion) verb(manual)
+#define GRAINREEL_VERBS(verb)                                                                               \
+    verb(movie) verb(resume) verb(render) verb(join) verb(compare) verb(report) verb(export) verb(handover) \
+        verb(watch) verb(inspect) verb(study) verb(check) verb(new) verb(scenes) verb(doctor) verb(chart)   \
+            verb(bench) verb(completion) verb(manual)
 
 namespace grainreel {
 

@@ -109,10 +109,19 @@ void Encoder::add(const Picture& picture) {
 
 void Encoder::add(AVFrame& frame) {
     check_open();
-    frame.pts = frames_;
+    frame.pts = frames_ - group_;
     frame.pict_type = AV_PICTURE_TYPE_NONE;  // what kind it was where it comes from is of no interest
     encode(&frame);
     ++frames_;
+}
+
+// An encoder of its own, since what one keeps from group to group (its rate control) changes the bits.
+void Encoder::begin_group() {
+    check_open();
+    if (frames_ == group_) return;
+    encode(nullptr);
+    codec_ = open_codec(*settings_.codec, codec_settings(settings_)).context;
+    group_ = frames_;
 }
 
 // Null drains the encoder.
@@ -127,6 +136,8 @@ void Encoder::write(AVPacket& packet) {
     AVFormatContext& context = *file_;
     payload_ += packet.size;
     packet.duration = 1;
+    packet.pts += group_;
+    packet.dts += group_;
     packet.stream_index = 0;
     av_packet_rescale_ts(&packet, codec_->time_base, context.streams[0]->time_base);
     const int code = av_write_frame(&context, &packet);  // tells of the file's errors, too
@@ -135,7 +146,7 @@ void Encoder::write(AVPacket& packet) {
 }
 
 void Encoder::close() {
-    if (frames_ > 0) encode(nullptr);  // SVT-AV1 would wait for ever for a first frame
+    if (frames_ > group_) encode(nullptr);  // SVT-AV1 would wait for ever for a first frame
     int code = av_write_trailer(file_.get());
     if (frames_ == 0) code = std::max(code, 0);  // the GIF muxer has nothing to end then
     if (code >= 0) code = avio_closep(&file_->pb);

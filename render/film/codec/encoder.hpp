@@ -47,6 +47,7 @@ class Encoder final : public FilmWriter {
     void add(const Picture& picture) override;
     // The next frame, in the codec's pixels and size; its time stamp is set here.
     void add(AVFrame& frame);
+    void begin_group() override;
 
     // Writes what is left and replaces the file by one for streaming. Throws RunError likewise.
     void finish() override;
@@ -74,6 +75,7 @@ class Encoder final : public FilmWriter {
     PacketPtr packet_;
     OutputPtr file_;  // empty once closed or failed
     std::int64_t frames_ = 0, payload_ = 0;
+    std::int64_t group_ = 0;  // the first frame that codec_ has taken
 };
 
 // What an encoder is asked for, the size padded where it must be even.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/error.hpp"
 #include "render/film/codec/capped_film.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/gif_film.hpp"
@@ -27,6 +28,10 @@ EncoderSettings encoder_settings(const FilmedScene& scene, const FilmWriterOptio
 }
 
 }  // namespace
+
+void FilmWriter::begin_group() {
+    throw RunError("film: a GIF, or a film with a cap on its size, is encoded as a whole");
+}
 
 std::string film_file_name(FilmFormat format) {
     return format == FilmFormat::png ? "" : fmt::format("movie.{}", codec_of(format).extension);

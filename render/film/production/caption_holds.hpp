@@ -40,4 +40,13 @@ class CaptionHolds {
     std::size_t next_ = 0;
 };
 
+// Frames that these pictures are, with those that are held. times: s, simulated, from the film's first
+// picture on.
+inline std::int64_t frames_of(const Film& film, const std::vector<double>& times) {
+    CaptionHolds holds(film);
+    auto frames = static_cast<std::int64_t>(times.size());
+    for (const double time : times) frames += holds.begin_at(time);
+    return frames;
+}
+
 }  // namespace grainreel

@@ -48,6 +48,7 @@ struct Order {
     Frames frames;
     std::string playback;
     std::int64_t more;  // times that the film shows the picture again
+    bool drawn;         // else remembered alone
 };
 struct Drawn {
     DrawnFrame frame;
@@ -63,6 +64,7 @@ struct FilmMaker::Impl {
           make(std::move(make_drawer)),
           frames(frames_that_wait(scene, options),
                  options.take_turns ? turn_patience : std::chrono::milliseconds(0)) {
+        for (const double time : options.extent.earlier) holds.begin_at(time);
         for (std::size_t i = 0; i < pictures_in_all; ++i) spare.push(Picture());
         drawing = std::thread([this] { guarded(&Impl::draw_all); });
         encoding = std::thread([this] {
@@ -93,6 +95,10 @@ struct FilmMaker::Impl {
         note = drawer->note();
         tell_drawer();
         while (std::optional<Order> order = frames.pop()) {
+            if (!order->drawn) {
+                drawer->remember(order->frames);
+                continue;
+            }
             std::optional<Picture> canvas = spare.pop();
             if (!canvas) return;
             const Watch::time_point start = Watch::now();
@@ -201,9 +207,16 @@ void FilmMaker::take(Frames frames, std::string playback) {
     GRAINREEL_CHECK(!impl_->complete && !frames.empty());
     const Watch::time_point start = Watch::now();
     const std::int64_t more = impl_->holds.begin_at(frames.front()->time);
-    const bool taken = impl_->frames.push({std::move(frames), std::move(playback), more});
+    const bool drawn = true;
+    const bool taken = impl_->frames.push({std::move(frames), std::move(playback), more, drawn});
     impl_->waited_seconds += seconds_since(start);
     if (!taken) impl_->throw_failure();
+}
+
+void FilmMaker::remember(FramePtr frame) {
+    GRAINREEL_CHECK(!impl_->complete && frame);
+    const bool drawn = false;
+    if (!impl_->frames.push({Frames{std::move(frame)}, "", 0, drawn})) impl_->throw_failure();
 }
 
 std::string FilmMaker::drawer() {

@@ -17,6 +17,15 @@
 
 namespace grainreel {
 
+// What a film has that is not drawn in one go by itself.
+struct FilmExtent {
+    // A part of a film: s, simulated, of the whole film's pictures that come before its first one; rising.
+    std::vector<double> earlier;
+    bool poster = true;  // it has the picture that stands for the whole film
+    // Frames from which on the encoder begins anew, counted from the film's first; rising.
+    std::vector<std::int64_t> groups;
+};
+
 struct FilmOptions {
     std::filesystem::path folder;  // movie.mp4 (or .webm, ...), poster.png, sheet.png and frames/ go here
     bool film = true;              // the film, in its scene's format, and the pictures that stand for it
@@ -28,7 +37,8 @@ struct FilmOptions {
     bool take_turns = false;  // with who calls take(), which then waits while queued pictures are made
     gl::Provider gl = gl::Provider::automatic;
     FramePtr start;             // from which start heights are counted; null: the first picture's frame
-    std::int64_t pictures = 0;  // planned; what an orbit that lasts all the film needs to know
+    std::int64_t pictures = 0;  // planned, of the whole film; an orbit may last as long
+    FilmExtent extent;
     // Called before a file is made in the folder or replaced there; throws RunError when that may not be.
     std::function<void()> check_folder = [] {};
 };
@@ -55,6 +65,8 @@ class Drawer {
     virtual ~Drawer() = default;
     // Into an empty picture, or one that it has drawn before.
     virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
+    // Of the film before all that is drawn, for what leaves marks on later pictures.
+    virtual void remember(const Frames&) {}
     virtual std::string description() const = 0;
     virtual std::string note() const { return {}; }       // what its user should know about it
     virtual std::string last_note() const { return {}; }  // and about all that it has drawn
@@ -76,6 +88,10 @@ class FilmMaker {
     // RunError when drawing or encoding failed (disk full), with the first failure's words.
     void take(Frames frames, std::string playback);
     void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
+
+    // Takes a picture's frames that come before the first one of this part of a film: trails show them, and
+    // nothing is drawn. Throws RunError likewise.
+    void remember(FramePtr frame);
 
     // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError likewise.
     // Neither take() nor finish() may follow. in_a_hurry: asked now and then; once it is true what is queued

@@ -10,12 +10,15 @@ namespace {
 class RendererDrawer final : public Drawer {
   public:
     RendererDrawer(const FilmedScene& scene, const FilmOptions& options)
-        : renderer_(with_orbit(scene, options), options.raster_threads, options.gl), rate_(scene.film.rate) {
+        : renderer_(with_orbit(scene, options), options.raster_threads, options.gl),
+          rate_(scene.film.rate),
+          drawn_(static_cast<std::int64_t>(options.extent.earlier.size())) {
         if (options.start) renderer_.start_from(*options.start);
     }
     void draw(const Frames& frames, const std::string& playback, Picture& into) override {
         renderer_.draw_into(into, *frames.front(), playback, static_cast<double>(drawn_++) / rate_);
     }
+    void remember(const Frames& frames) override { renderer_.remember(*frames.front()); }
     std::string description() const override { return renderer_.gl_description(); }
     std::string note() const override { return renderer_.gl_note(); }
     std::string last_note() const override { return renderer_.colour_note(); }
@@ -28,7 +31,7 @@ class RendererDrawer final : public Drawer {
 
     Renderer renderer_;
     const double rate_;
-    std::int64_t drawn_ = 0;
+    std::int64_t drawn_;  // of the film, with the parts before this one
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -49,9 +50,13 @@ PictureFiles::PictureFiles(const FilmedScene& scene, const FilmOptions& options)
       frames_wanted_(options.frames || (options.film && scene.film.format == FilmFormat::png)),
       transparent_(scene.film.transparent),
       poster_time_(poster_time(scene.film, scene.run.duration)),
-      poster_done_(!options.film),
+      is_first_(options.extent.earlier.empty()),
+      first_frame_(frames_of(scene.film, options.extent.earlier)),
+      groups_(options.extent.groups),
+      poster_done_(!options.film || !options.extent.poster),
       flashes_(scene.film.rate),
       flash_remedy_(flash_remedy(scene.film)) {
+    if (!is_first_) first_time_ = options.extent.earlier.front();
     if (frames_wanted_) {
         const std::error_code error = make_plain_folder(folder_ / "frames");
         if (error)
@@ -90,8 +95,12 @@ void PictureFiles::with_copy(const std::function<void(PageCopy&)>& act) {
 }
 
 Picture PictureFiles::add(DrawnFrame drawn) {
-    if (count_ == 0) first_time_ = drawn.frame->time;
-    if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", frames()), drawn);
+    if (count_ == 0 && is_first_) first_time_ = drawn.frame->time;
+    if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", first_frame_ + frames()), drawn);
+    if (film_ && next_group_ < groups_.size() && groups_[next_group_] == frames()) {
+        film_->begin_group();
+        ++next_group_;
+    }
     if (film_) film_->add(drawn.picture);
     with_copy([&](PageCopy& copy) { copy.add(drawn.picture); });
     ++count_;

@@ -66,8 +66,12 @@ class PictureFiles {
     std::function<void()> check_folder_;
     std::string name_, title_;
     bool frames_wanted_, transparent_;
-    double poster_time_;  // s after the first frame
-    double first_time_ = 0;
+    double poster_time_;              // s after the first frame
+    double first_time_ = 0;           // of the whole film
+    const bool is_first_;             // nothing of the film comes before
+    const std::int64_t first_frame_;  // of the whole film, that is taken here
+    const std::vector<std::int64_t> groups_;
+    std::size_t next_group_ = 0;
     std::atomic<std::int64_t> count_ = 0;
     bool poster_done_, poster_written_ = false, complete_ = false;
     FlashWatch flashes_;

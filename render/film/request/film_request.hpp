@@ -19,6 +19,11 @@ struct FilmRequest : RunRequest {
     gl::Provider gl = gl::Provider::automatic;
 };
 
+// A film in parts: the one of this number, or with 0 all of them in one go, as if they had been joined.
+struct PartsWanted {
+    int number = 0, of = 1;
+};
+
 // What is to be drawn of a finished run. Times in s, of the run; whole numbers of frames.
 struct RenderRequest {
     std::filesystem::path run;     // its folder
@@ -30,6 +35,7 @@ struct RenderRequest {
     std::optional<double> dpi, width_mm;  // of one picture, for print: pixels an inch, its width on paper
     std::optional<int> every;  // kept frames of the trajectory, one of so many; none: the film's pictures
     bool replay = true;        // what was not kept is brought back
+    std::optional<PartsWanted> parts;
 };
 
 // What is to be shown side by side.

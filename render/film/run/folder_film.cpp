@@ -31,7 +31,8 @@ void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr 
     film.gl = request_.gl;
     film.pictures = pictures;
     film.start = std::move(start);
-    frames_planned_ = pictures + held_frames(scene.film);
+    film.extent = extent_;
+    frames_planned_ = frames_here_.value_or(pictures + held_frames(scene.film));
     film.check_folder = [this] { desk_.folder->lock().check_there(); };
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
                  : std::make_unique<FilmMaker>(scene, film);

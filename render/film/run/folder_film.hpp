@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/run/folder/run_desk.hpp"
 #include "engine/run/folder/side_work.hpp"
@@ -27,9 +29,14 @@ class FolderFilm final : public SideWork {
     void use_threads(const ThreadPlan& threads) { threads_ = threads; }
     const ThreadPlan& threads() const { return threads_; }
 
-    // pictures: how many come. start: from which start heights are counted; null: from the film's first
-    // picture. draw: what makes pictures; none for the Renderer. Nothing happens where no pictures are
-    // wanted.
+    // Of a film in parts, before open(): frames: those that are made here.
+    void use_extent(FilmExtent extent, std::int64_t frames) {
+        extent_ = std::move(extent);
+        frames_here_ = frames;
+    }
+    // pictures: how many come, of the whole film. start: from which start heights are counted; null: from the
+    // film's first picture. draw: what makes pictures; none for the Renderer. Nothing happens where no
+    // pictures are wanted.
     void open(const FilmedScene& scene, std::int64_t pictures, FramePtr start = nullptr,
               DrawerMaker draw = {});
     // Takes pictures while it is open.
@@ -55,6 +62,8 @@ class FolderFilm final : public SideWork {
     ThreadPlan threads_;
     std::unique_ptr<FilmMaker> film_;
     std::int64_t frames_planned_ = 0;  // pictures, and those that are held for captions
+    FilmExtent extent_;
+    std::optional<std::int64_t> frames_here_;
     FilmReport report_;
     bool made_ = false;
 };

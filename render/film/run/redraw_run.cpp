@@ -37,6 +37,15 @@ std::vector<Frame> moments_of(const std::vector<Shot>& shots, const FilmOfRun& f
 
 RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
                      RevisitedRun& source)
+    : RedrawRun(request, what, listener, source, Folder::made) {}
+
+void RedrawRun::check(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
+                      RevisitedRun& source) {
+    const RedrawRun checked(request, what, listener, source, Folder::none);
+}
+
+RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
+                     RevisitedRun& source, Folder folder)
     : FilmRun(request, listener),
       source_(source),
       scene_(source.scene()),
@@ -47,10 +56,30 @@ RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunL
     else
         choose_pictures(what);
     film_.check(scene_, static_cast<std::int64_t>(shots_.size()));
-    film_.use_threads(drawing_threads(scene_.run.threads));
+    ThreadPlan threads = drawing_threads(scene_.run.threads);
+    if (what.parts) {
+        choose_parts(*what.parts);
+        threads.encoder = encoder_threads_of_parts;
+    }
+    film_.use_threads(threads);
+    if (folder == Folder::none) return;
     const std::filesystem::path beside =
         what.beside.empty() ? source.record().frames().folder().parent_path() : what.beside;
-    make_folder({scene_.name + "-render", beside, request.out, request.force});
+    const std::string which = parts_ ? parts_->folder_name() : "-render";
+    make_folder({scene_.name + which, beside, request.out, request.force});
+}
+
+void RedrawRun::choose_parts(const PartsWanted& wanted) {
+    std::vector<double> times;
+    for (const Shot& shot : shots_) times.push_back(source_.film().moment(shot.step).time);
+    parts_.emplace(wanted, film_.request(), scene_, std::move(times));
+    film_.use_extent(parts_->extent(), parts_->here().frames);
+}
+
+std::vector<Shot> RedrawRun::drawn() const {
+    if (!parts_) return shots_;
+    const auto first = shots_.begin() + parts_->here().first_picture;
+    return {first, first + parts_->here().pictures};
 }
 
 // The film's, from one moment to another.
@@ -134,6 +163,7 @@ std::vector<std::string> RedrawRun::warnings() const {
             replaced_ == 1 ? "1 shows" : fmt::format("{} show", replaced_),
             left_out_ == 1 ? "1 is" : fmt::format("{} are", left_out_), source_.why_not_all()));
     add(film_warnings(scene_, static_cast<std::int64_t>(shots_.size())));
+    if (parts_) add(parts_->warnings());
     return warnings;
 }
 
@@ -154,7 +184,8 @@ FramePtr RedrawRun::first_of_film(const FrameSource::GoOn& go_on) {
 
 bool RedrawRun::work() {
     mark_begun();
-    const std::vector<Frame> moments = moments_of(shots_, source_.film());
+    const std::vector<Frame> moments = moments_of(drawn(), source_.film());
+    if (parts_ && parts_->is_part()) desk_.record.part = parts_->record();
     desk_.record.scene_file = scene_.file;
     desk_.record.drawn = {{source_.record().frames().folder().string(),
                            static_cast<std::int64_t>(moments.size()), moments.front().time,
@@ -163,7 +194,7 @@ bool RedrawRun::work() {
     if (brought_back_ > 0)
         desk_.listener.info(fmt::format(
             "{} of {} pictures were not kept and are brought back from checkpoints; --no-replay does without",
-            brought_back_, moments.size()));
+            brought_back_, shots_.size()));
     const auto go_on = [this] {
         if (desk_.listener.stop_signal() != 0) return false;
         desk_.folder->lock().check_there();
@@ -171,20 +202,44 @@ bool RedrawRun::work() {
     };
     const FramePtr start = first_of_film(go_on);
     if (!start) return false;
-    film_.open(scene_, static_cast<std::int64_t>(moments.size()), start);
+    if (desk_.record.part) {
+        identify_part();
+        scene_.film.sheet = {0, 0};
+    }
+    film_.open(scene_, static_cast<std::int64_t>(shots_.size()), start);
     source_.watch_replay([this](double) { return film_.show_progress(), true; });
-    source_.start(shots_, segments_of(scene_.film));
+    const std::int64_t first = parts_ ? parts_->here().first_picture : 0;
+    std::int64_t number = parts_ ? parts_->known_from() : 0;  // of the next picture in the film
+    const std::vector<Shot> seen(shots_.begin() + number, shots_.begin() + first + std::ssize(moments));
+    source_.start(seen, segments_of(scene_.film));
     const auto next = [&] {
         const auto timer = desk_.times.during("reading");
         return source_.next(go_on);
     };
     while (std::optional<Taken> picture = next()) {
         const auto timer = desk_.times.during("waiting for the film");
+        if (number++ < first) {
+            film_.maker().remember(std::move(picture->frame));
+            continue;
+        }
         const std::string caption = caption_of(*picture);
         film_.maker().take(std::move(picture->frame), caption);
         film_.show_progress();
     }
     return desk_.listener.stop_signal() == 0;
+}
+
+void RedrawRun::identify_part() {
+    const RunArchive& run = source_.record().frames();
+    desk_.record.part->run = checksum_of_run(run, checksum_of_file(run.folder() / "scene.toml"));
+    desk_.record.part->settings = checksum_of_settings(scene_, shots_, captions_);
+}
+
+// A part whose film is whole says so by its checksum.
+void RedrawRun::side_work_closed() {
+    if (!desk_.record.part || !film_.made() || !film_.report().complete || film_.report().file.empty())
+        return;
+    desk_.record.part->checksum = checksum_of_file(folder() / film_.report().file);
 }
 
 std::string RedrawRun::stopped_text() const {
@@ -193,11 +248,12 @@ std::string RedrawRun::stopped_text() const {
 
 void RedrawRun::report_written() {
     const FilmOfRun& film = source_.film();
+    const std::vector<Shot> shots = drawn();
     desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
     desk_.listener.info(
         fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
                     film_.report().frames, source_.record().frames().folder().string(),
-                    film.moment(shots_.front().step).time, film.moment(shots_.back().step).time));
+                    film.moment(shots.front().step).time, film.moment(shots.back().step).time));
 }
 
 }  // namespace grainreel

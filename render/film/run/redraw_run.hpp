@@ -2,9 +2,11 @@
 // frames that its trajectory kept, one after the other.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "render/film/run/film_in_parts.hpp"
 #include "render/film/run/film_run.hpp"
 #include "render/film/sources/revisited_run.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -16,11 +18,22 @@ class RedrawRun final : public FilmRun {
     // Throws UserError for what the options get wrong; nothing is on disk then.
     RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
               RevisitedRun& source);
+    // Throws likewise, and does nothing else.
+    static void check(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
+                      RevisitedRun& source);
 
   private:
+    enum class Folder { none, made };
+    RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
+              RevisitedRun& source, Folder folder);
     bool work() override;
     std::string stopped_text() const override;
     void report_written() override;
+    void side_work_closed() override;
+    void identify_part();
+    void choose_parts(const PartsWanted& wanted);
+    // Of the shots, those that are drawn.
+    std::vector<Shot> drawn() const;
     void choose_pictures(const RenderRequest& what);
     void choose_kept(const RenderRequest& what);
     void show_what_there_is();
@@ -29,8 +42,9 @@ class RedrawRun final : public FilmRun {
     std::string caption_of(const Taken& picture) const;
 
     RevisitedRun& source_;
-    FilmedScene scene_;                                           // the run's, with a film of those
-    std::vector<Shot> shots_;                                     // that are drawn, each as it is shown
+    FilmedScene scene_;        // the run's, with a film of those
+    std::vector<Shot> shots_;  // of the film, each as it is shown
+    std::optional<FilmInParts> parts_;
     bool kept_alone_ = false;                                     // frames of the trajectory
     std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // of the shots
     std::vector<std::string>

@@ -1,0 +1,57 @@
+// The verb `join`: the parts of a film that render --part has drawn become one film.
+#include <fmt/format.h>
+
+#include "render/app/options/option_groups.hpp"
+#include "render/app/report/result.hpp"
+#include "render/app/verbs/verb.hpp"
+#include "render/film/run/join_parts.hpp"
+
+namespace grainreel {
+namespace {
+
+constexpr int signal_base = 128;
+
+class Join final : public Verb {
+  public:
+    Join()
+        : Verb("join", "Put the parts of a film together",
+               fmt::format(
+                   "Nothing is encoded again: the film has the bytes of the same film drawn in one go with\n"
+                   "--parts. Parts that are missing, doubled, incomplete, damaged, or of another run or "
+                   "other\n"
+                   "settings are refused (docs/guide/clusters.md). The film's name goes to stdout.\n{}",
+                   exit_statuses)) {}
+
+    void add_options(CLI::App& parser) override {
+        parser.add_option("PART", request_.parts, "Folders of all parts, in any order")
+            ->required()
+            ->type_name("DIR");
+        CLI::Option* out = parser.add_option_function<std::string>(
+            "--out",
+            [this](const std::string& file) {
+                check_typed("--out", file);
+                request_.out = file;
+            },
+            "The film's file, as in film.mp4");
+        out->required()->check(not_empty())->type_name("FILE");
+        parser.add_flag("--force", request_.force, "Replace the file in --out, once the new one is complete");
+        add_reporting(parser, report);
+    }
+
+    int run(Reporter& reporter) override {
+        if (!join_parts(request_, reporter)) return signal_base + reporter.stop_signal();
+        print_exact(request_.out.string() + "\n");
+        return 0;
+    }
+
+  private:
+    JoinRequest request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> join_verb() {
+    return std::make_unique<Join>();
+}
+
+}  // namespace grainreel

@@ -1,0 +1,133 @@
+#include "render/film/codec/join_films.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "render/film/codec/film_piece.hpp"
+#include "render/film/codec/remux.hpp"
+
+namespace grainreel {
+
+namespace {
+
+bool same_coding(const AVCodecParameters& a, const AVCodecParameters& b) {
+    return a.codec_id == b.codec_id && a.width == b.width && a.height == b.height && a.format == b.format &&
+           a.profile == b.profile && a.level == b.level && a.extradata_size == b.extradata_size &&
+           std::equal(a.extradata, a.extradata + a.extradata_size, b.extradata);
+}
+
+// The film that grows. Its file goes unless it is finished.
+class Joined {
+  public:
+    Joined(std::filesystem::path path, const Codec& codec, AVRational rate)
+        : path_(std::move(path)), container_(codec.container), frame_time_(av_inv_q(rate)) {}
+    ~Joined() {
+        if (!begun_) return;
+        output_.reset();
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    Joined(const Joined&) = delete;
+    Joined& operator=(const Joined&) = delete;
+
+    // After the first packet of the first piece was read.
+    void begin(const PieceReader& like);
+    // frame: that it shows, of the whole film; place: in the order of coding.
+    void add(AVPacket& packet, const PieceReader& of, std::int64_t before);
+    void finish(const std::filesystem::path& to);
+
+  private:
+    void check(int code) const {
+        if (code < 0)
+            throw RunError(fmt::format("{}: cannot be written: {}", path_.string(), ffmpeg_error(code)));
+    }
+
+    const std::filesystem::path path_;
+    const FilmContainer& container_;
+    const AVRational frame_time_;
+    OutputPtr output_;
+    std::int64_t delay_ = 0;
+    bool begun_ = false;
+};
+
+void Joined::begin(const PieceReader& like) {
+    make_way(path_);
+    AVFormatContext* context = nullptr;
+    const int code =
+        avformat_alloc_output_context2(&context, nullptr, container_.muxer, ffmpeg_url(path_).c_str());
+    output_.reset(context);
+    check(code);
+    const AVStream& from = like.stream();
+    AVStream* const to = avformat_new_stream(context, nullptr);
+    check(to ? 0 : AVERROR(ENOMEM));
+    check(avcodec_parameters_copy(to->codecpar, from.codecpar));
+    to->codecpar->codec_tag = 0;
+    to->time_base = from.time_base;
+    to->avg_frame_rate = from.avg_frame_rate;
+    av_dict_copy(&context->metadata, like.file().metadata, 0);
+    context->flags |= AVFMT_FLAG_BITEXACT;
+    AvOptions options;
+    for (const auto& [key, value] : container_.complete.empty() ? container_.growing : container_.complete)
+        options.set(key, value);
+    begun_ = true;
+    check(avio_open(&context->pb, context->url, AVIO_FLAG_WRITE));
+    check(avformat_write_header(context, options.get()));
+    delay_ = like.delay();
+}
+
+void Joined::add(AVPacket& packet, const PieceReader& of, std::int64_t before) {
+    const AVRational base = output_->streams[0]->time_base;
+    packet.pts = av_rescale_q(before + of.frame(), frame_time_, base);
+    packet.dts = av_rescale_q(before + of.place() - delay_, frame_time_, base);
+    packet.duration = av_rescale_q(packet.duration, of.stream().time_base, base);
+    packet.pos = -1;
+    packet.stream_index = 0;
+    check(av_write_frame(output_.get(), &packet));
+}
+
+void Joined::finish(const std::filesystem::path& to) {
+    check(av_write_trailer(output_.get()));
+    check(avio_closep(&output_->pb));
+    check(replace_synced(path_, to));
+    begun_ = false;
+}
+
+}  // namespace
+
+JoinEnd join_films(const std::vector<FilmPiece>& pieces, const Codec& codec, double rate,
+                   const std::filesystem::path& to, const std::function<bool()>& go_on) {
+    quiet_ffmpeg();
+    const AVRational frames = av_d2q(rate, 100'000);
+    const PacketPtr packet(av_packet_alloc());
+    if (!packet) throw RunError("film: no memory for a packet");
+    GRAINREEL_CHECK(!pieces.empty());
+    const PieceReader first(pieces.front(), frames);
+    Joined film(to.string() + ".part", codec, frames);
+    std::int64_t before = 0, delay = 0;
+    for (const FilmPiece& piece : pieces) {
+        PieceReader reader(piece, frames);
+        if (!same_coding(*reader.stream().codecpar, *first.stream().codecpar))
+            throw UserError(fmt::format("{}: is coded otherwise than {}", piece.name, pieces.front().name));
+        while (reader.next(*packet)) {
+            if (!go_on()) return JoinEnd::stopped;
+            if (reader.place() == 0 && before == 0) {
+                film.begin(reader);
+                delay = reader.delay();
+            }
+            if (reader.delay() != delay || reader.place() - delay > reader.frame())
+                throw UserError(fmt::format("{}: its pictures are coded in another order than those of {}",
+                                            piece.name, pieces.front().name));
+            film.add(*packet, reader, before);
+            av_packet_unref(packet.get());
+        }
+        before += piece.frames;
+    }
+    film.finish(to);
+    return JoinEnd::joined;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,59 @@
+// What a film needs that is drawn in parts: which of its pictures are drawn here, what its file has of the
+// whole, and what its run.json says.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/files/drawn_part.hpp"
+#include "engine/files/frames/frame_archive.hpp"
+#include "render/film/production/film_maker.hpp"
+#include "render/film/production/film_parts.hpp"
+#include "render/film/request/film_request.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+// Encoders' bits depend on their threads: those of parts are the same on all machines.
+constexpr int encoder_threads_of_parts = 2;
+
+class FilmInParts {
+  public:
+    // times: s, simulated, of all pictures. Throws UserError for what cannot be had in parts: too few
+    // pictures, a GIF, a film with a cap, a part on stdout.
+    FilmInParts(const PartsWanted& wanted, const FilmRequest& request, const FilmedScene& scene,
+                std::vector<double> times);
+
+    bool is_part() const { return wanted_.number > 0; }
+    // Those that are drawn here, and the frames that this makes.
+    const FilmPart& here() const { return here_; }
+    // The first picture that a part must know of: trails begin there. That of the part where it needs none.
+    std::int64_t known_from() const;
+    FilmExtent extent() const;
+    std::string folder_name() const;  // "-part-03", to stand behind the run's name
+    // What a part leaves out of the film's side files, for its user.
+    std::vector<std::string> warnings() const;
+
+    // For run.json: all but the checksums.
+    DrawnPart record() const;
+
+  private:
+    std::vector<double> times_;
+    const PartsWanted wanted_;
+    const FilmedScene& scene_;
+    const bool film_;
+    std::vector<FilmPart> parts_;
+    FilmPart here_;
+};
+
+// By which parts know that they are of one run: its scene (a checksum of scene.toml), its moments, and the
+// grains of the first and of
+// the last moment that it kept.
+std::string checksum_of_run(const FrameArchive& frames, const std::string& scene);
+// And that they are of one film: the scene as it is drawn, and which moments are drawn with which words.
+std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
+                                 const std::vector<std::string>& captions);
+
+}  // namespace grainreel
