@@ -114,8 +114,10 @@ class Deck {
         if (walls.empty()) return;
         std::string names;
         for (const TriangleWall& wall : walls) {
-            add("fix {} all mesh/surface file {} type {} curvature {}", wall.id, wall.file,
-                carried_.type_count() + wall.surface + 1, wall.curvature);
+            // What is smooth may have triangles with a corner that is sharper than its edges bend.
+            add("fix {} all mesh/surface file {} type {} curvature {}{}", wall.id, wall.file,
+                carried_.type_count() + wall.surface + 1, wall.curvature,
+                wall.curvature > 1e-4 ? " curvature_tolerant yes" : "");
             wall_fixes_.push_back(wall.id);
             names += " " + wall.id;
             set_in_motion(wall);

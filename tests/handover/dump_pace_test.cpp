@@ -32,7 +32,7 @@ TEST(DumpPace, EvenTimesThatAreNoWholeStepsAreOnePace) {
 
 TEST(DumpPace, SegmentsOfSeveralRatesAreAsManyPaces) {
     std::vector<std::int64_t> steps{0};
-    for (const auto& [every, count] : {std::pair(441.3, 400), {1058.0, 100}, {33.37, 1000}}) {
+    for (const auto& [every, count] : {std::pair(441.3, 400), {1058.0, 100}, {33.3712, 1000}}) {
         const std::int64_t from = steps.back();
         for (int k = 1; k <= count; ++k) steps.push_back(from + std::llround(k * every));
     }
