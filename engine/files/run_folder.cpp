@@ -104,7 +104,7 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
     if (is_real_folder(fs::directory_entry(checkpoints)))
         if (auto foreign = first_foreign(checkpoints, is_ours_in_checkpoints)) return foreign;
     const fs::path also = run / kAlsoFolder;
-    if (is_real_folder(fs::directory_entry(also)))
+    if (is_real_folder(fs::directory_entry(also)) && !is_panel(kAlsoFolder))
         if (auto foreign = first_foreign(also, is_ours_in_also)) return foreign;
     const fs::path meshes = run / kMeshFolder;
     if (is_real_folder(fs::directory_entry(meshes)))

@@ -159,7 +159,7 @@ TEST_F(Also, MeshesStagesAndPeriodicDepthComeAlong) {
 
 TEST_F(Also, EachMemberOfAComparisonHasItsOwn) {
     const std::string scene = with("also = [\"xyz\"]\n");
-    const Ended ended = run({"compare", scene, scene, "--at", "0.02", "--size", "320x160", "--out", "both",
+    const Ended ended = run({"compare", scene, scene, "--at", "0.02", "--size", "640x360", "--out", "both",
                              "--set", "run.duration=0.03"});
     ASSERT_EQ(ended.status, 0) << ended.err;
     int found = 0;
