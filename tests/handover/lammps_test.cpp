@@ -199,11 +199,7 @@ stiffness = 3000
 restitution = 0.7
 [container]
 )" + container +
-           "[run]
-duration = "0.1 s"
-[output]
-trajectory_interval = "20 ms"
-" + more;
+"[run]\nduration = \"0.1 s\"\n[output]\ntrajectory_interval = \"20 ms\"\n" + more;
 }
 
 void expect_sound(const std::string& text, std::size_t grains = 100) {
