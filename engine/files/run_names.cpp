@@ -56,8 +56,9 @@ constexpr std::array<std::string_view, 35> files_of_runs{".lock",
                                                          ".report.html.part"};
 
 // movie.work has what a film needs while it is made.
-constexpr std::array<std::string_view, 6> folders_of_runs{"frames",    "movie.work", "checkpoints",
-                                                          kMeshFolder, kFormerRun,   kFormerRunPart};
+// handover has the deck of a run by another engine, and what that engine wrote.
+constexpr std::array<std::string_view, 7> folders_of_runs{
+    "frames", "movie.work", "checkpoints", "handover", kMeshFolder, kFormerRun, kFormerRunPart};
 
 constexpr std::array<std::string_view, 9> growing_files{
     "trajectory.nc",   "contacts.nc",    "measures.csv",    "outflow.csv", "fields.nc",

@@ -22,6 +22,7 @@
 #include "render/app/report/result.hpp"
 #include "render/app/report/stop_signal.hpp"
 #include "render/app/verbs/verb.hpp"
+#include "render/film/run/engine_run.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/read_scene.hpp"
@@ -30,22 +31,6 @@ namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Steps of all pictures, and of those that they are exposed over.
-std::vector<std::int64_t> picture_steps(const FilmedScene& scene, const Plan& plan) {
-    std::vector<std::int64_t> steps;
-    const std::vector<FilmSegment> segments = segments_of(scene.film);
-    for (const Shot& shot : film_schedule(scene, plan.clock, plan.steps)) {
-        steps.push_back(shot.step);
-        const FilmSegment& segment = segments[static_cast<std::size_t>(shot.segment)];
-        for (const auto& more : {exposed_steps(shot, segment, plan.clock), averaged_steps(shot, segment, plan.clock)})
-            steps.insert(steps.end(), more.begin(), more.end());
-    }
-    std::sort(steps.begin(), steps.end());
-    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
-    std::erase_if(steps, [](std::int64_t step) { return step < 0; });
-    return steps;
-}
 
 class Handover final : public Verb {
   public:
@@ -94,7 +79,7 @@ class Handover final : public Verb {
         request_.accept_law = !accepted_.empty();
         request_.edinburgh = law_ == "edinburgh";
         check_schedule(scene, count_film(scene, plan.clock, plan.steps));
-        request_.dumps = picture_steps(scene, plan);
+        request_.dumps = needed_steps(scene, plan.clock, plan.steps);
         CarriedScene carried = carry(scene, plan, request_);
         // Each is a line of its own; the last one ends the verb.
         for (std::size_t i = 0; i + 1 < carried.refusals.size(); ++i)

@@ -2,7 +2,11 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 
+#include "engine/base/error.hpp"
+#include "engine/handover/carry.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
 #include "render/app/options/option_groups.hpp"
@@ -11,6 +15,7 @@
 #include "render/app/verbs/page_of_run.hpp"
 #include "render/app/verbs/verb.hpp"
 #include "render/app/watch/watch_child.hpp"
+#include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"
 #include "render/scene/read_scene.hpp"
 
@@ -32,6 +37,30 @@ class Movie final : public Verb {
                  "Folder of the run [output/ and the scene's name, numbered when that is taken]");
         parser.add_flag("--no-report", no_page_, "Leave out report.html, the run as a page for a browser");
         add_watch(parser, watched_, place_);
+        CLI::Option* engine =
+            parser
+                .add_option("--engine", engine_,
+                            "Let another engine run the scene, which is installed here, with mpirun: lammps "
+                            "or liggghts [ours]")
+                ->check(CLI::IsMember({key_of(PeerEngine::lammps), key_of(PeerEngine::liggghts)}))
+                ->type_name("NAME");
+        parser.add_option("--ranks", carry_.ranks, "With --engine: processes that share the work [1]")
+            ->needs(engine)
+            ->check(CLI::Range(1, 1000000))
+            ->type_name("N");
+        parser
+            .add_option("--accept", accepted_,
+                        "With --engine: `law`, a contact law that the engine lacks becomes the nearest that "
+                        "it has")
+            ->needs(engine)
+            ->check(CLI::IsMember({"law"}))
+            ->type_name("WHAT");
+        parser
+            .add_option("--law", law_,
+                        "With --engine liggghts --ranks 1: `edinburgh`, Walton and Braun's law as it is")
+            ->needs(engine)
+            ->check(CLI::IsMember({"edinburgh"}))
+            ->type_name("NAME");
         add_reporting(parser, report);
     }
 
@@ -41,6 +70,7 @@ class Movie final : public Verb {
         if (!no_page_) film_.page = page_of_ended_run();
         const FilmedScene scene = read_filmed_scene(scene_, sets_, measurable_in);
         const Plan plan = plan_with_film(scene);
+        if (!engine_.empty()) return run_elsewhere(scene, plan, reporter);
         std::optional<Listening> listening;
         if (watched_) listening.emplace(listen_at(place_));
         MovieRun movie(film_, reporter, scene, plan);
@@ -50,9 +80,23 @@ class Movie final : public Verb {
     }
 
   private:
+    int run_elsewhere(const FilmedScene& scene, const Plan& plan, Reporter& reporter) {
+        if (watched_) throw UserError("--watch: shows runs of our own engine; leave out --watch or --engine");
+        carry_.engine = engine_ == key_of(PeerEngine::lammps) ? PeerEngine::lammps : PeerEngine::liggghts;
+        carry_.accept_law = !accepted_.empty();
+        carry_.edinburgh = !law_.empty();
+        CarriedScene carried = carry(scene, plan, carry_);
+        throw_refusals(carried);
+        if (film_.film || film_.frames) want_pictures(carried, scene);
+        EngineRun run(film_, reporter, scene, std::move(carried));
+        return tell_folder(run.run(), film_);
+    }
+
     std::filesystem::path scene_;
     Assignments sets_;
     FilmRequest film_;
+    std::string engine_, accepted_, law_;
+    CarryRequest carry_;
     bool no_page_ = false, watched_ = false;
     WatchPlace place_;
 };

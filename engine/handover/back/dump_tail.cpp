@@ -1,0 +1,149 @@
+#include "engine/handover/back/dump_tail.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/numbers/decimal.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{16} << 20;  // bytes read at once
+constexpr std::int64_t kShortestRow = 24;              // characters: twelve numbers of one digit
+constexpr const char* kColumns = "ITEM: ATOMS id type radius x y z vx vy vz omegax omegay omegaz";
+constexpr std::size_t kNumbers = 12;
+
+std::string_view without_blanks(std::string_view text) {
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    return text;
+}
+
+bool whole_number(std::string_view text, std::int64_t& value) {
+    text = without_blanks(text);
+    const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+    return end.ec == std::errc() && end.ptr == text.data() + text.size();
+}
+
+bool numbers_in(std::string_view row, double (&values)[kNumbers]) {
+    for (double& value : values) {
+        row = without_blanks(row);
+        const std::size_t end = std::min(row.find(' '), row.size());
+        if (end == 0 || !any_number(row.substr(0, end), value) || !std::isfinite(value)) return false;
+        row.remove_prefix(end);
+    }
+    return without_blanks(row).empty();
+}
+
+void sort_by_id(DumpRows& rows) {
+    if (std::is_sorted(rows.id.begin(), rows.id.end())) return;
+    std::vector<std::size_t> order(rows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rows.id[a] < rows.id[b]; });
+    const auto arrange = [&](auto& list) {
+        auto sorted = list;
+        for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = list[order[i]];
+        list = std::move(sorted);
+    };
+    arrange(rows.type);
+    arrange(rows.radius);
+    arrange(rows.position);
+    arrange(rows.velocity);
+    arrange(rows.spin);
+    arrange(rows.id);
+}
+
+}  // namespace
+
+void DumpTail::wrong(std::int64_t line, const std::string& what) const {
+    throw UserError(fmt::format("{}:{}: {}; the dump is to be that of the deck as it was written", file_.string(),
+                                line, what));
+}
+
+// Whether there was more.
+bool DumpTail::read_more() {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file_, error);
+    if (error) return false;
+    if (size < place_)
+        throw RunError(fmt::format("{}: got shorter while it was read; it was truncated or replaced",
+                                   file_.string()));
+    if (size == place_) return false;
+    std::ifstream file(file_, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(place_));
+    const std::size_t before = text_.size();
+    text_.resize(before + static_cast<std::size_t>(std::min<std::uintmax_t>(size - place_, kPiece)));
+    file.read(text_.data() + before, static_cast<std::streamsize>(text_.size() - before));
+    const auto got = static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount()));
+    text_.resize(before + got);
+    place_ += got;
+    return got > 0;
+}
+
+// That from `at` on, which goes behind it; none while its end is not there.
+std::optional<std::string> DumpTail::line(std::size_t& at, std::int64_t& number) const {
+    const std::size_t end = text_.find('\n', at);
+    if (end == std::string::npos) return std::nullopt;
+    const std::string_view found = without_blanks(std::string_view(text_).substr(at, end - at));
+    at = end + 1;
+    ++number;
+    return std::string(found);
+}
+
+std::optional<DumpRows> DumpTail::next() {
+    while (true) {
+        std::size_t at = 0;
+        std::int64_t number = line_ - 1, rows = -1;
+        DumpRows frame;
+        bool whole = true;
+        for (int k = 0; k < 9 && whole; ++k) {
+            const std::optional<std::string> head = line(at, number);
+            if (!(whole = head.has_value())) break;
+            if (k == 0 && *head != "ITEM: TIMESTEP") wrong(number, "no frame begins here");
+            if (k == 1 && !whole_number(*head, frame.step)) wrong(number, "is no step");
+            if (k == 2 && *head != "ITEM: NUMBER OF ATOMS") wrong(number, "says no number of atoms");
+            if (k == 3 && (!whole_number(*head, rows) || rows < 0)) wrong(number, "is no number of atoms");
+            if (k == 8 && *head != kColumns) wrong(number, "has other columns");
+        }
+        // Until all rows can be there nothing is looked at again.
+        if (whole && static_cast<std::int64_t>(text_.size() - at) >= rows * kShortestRow) {
+            const auto count = static_cast<std::size_t>(rows);
+            for (std::vector<Vec3>* list : {&frame.position, &frame.velocity, &frame.spin}) list->reserve(count);
+            frame.id.reserve(count);
+            for (std::int64_t row = 0; row < rows && whole; ++row) {
+                const std::size_t end = text_.find('\n', at);
+                if (!(whole = end != std::string::npos)) break;
+                double v[kNumbers];
+                ++number;
+                if (!numbers_in(std::string_view(text_).substr(at, end - at), v))
+                    wrong(number, "is no row of twelve finite numbers");
+                at = end + 1;
+                frame.id.push_back(static_cast<std::int64_t>(v[0]));
+                frame.type.push_back(static_cast<int>(v[1]));
+                frame.radius.push_back(v[2]);
+                frame.position.emplace_back(v[3], v[4], v[5]);
+                frame.velocity.emplace_back(v[6], v[7], v[8]);
+                frame.spin.emplace_back(v[9], v[10], v[11]);
+            }
+            if (whole) {
+                text_.erase(0, at);
+                line_ = number + 1;
+                sort_by_id(frame);
+                return frame;
+            }
+        }
+        if (!read_more()) return std::nullopt;
+    }
+}
+
+}  // namespace grainreel

@@ -1,0 +1,156 @@
+#include "engine/handover/back/returned_run.hpp"
+
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/outflow_csv.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory_info.hpp"
+#include "engine/grain_table.hpp"
+#include "engine/handover/back/dump_tail.hpp"
+#include "engine/handover/back/grain_count.hpp"
+#include "engine/run/import/import_measures.hpp"
+#include "engine/state/traffic.hpp"
+#include "engine/state/wall_motion.hpp"
+
+namespace grainreel {
+
+namespace {
+
+TrajectoryInfo info_of(const Scene& scene, const Plan& plan, const std::string& version) {
+    TrajectoryInfo info = trajectory_info(scene, plan, version);
+    info.contact_numbers = false;  // a dump has none
+    info.orientation = false;
+    return info;
+}
+
+}  // namespace
+
+struct ReturnedRun::Impl {
+    Impl(const std::filesystem::path& folder_in, const Scene& scene_in, const Plan& plan_in,
+         const HandoverFacts& facts_in, const std::string& version)
+        : folder(folder_in),
+          scene(scene_in),
+          plan(plan_in),
+          facts(facts_in),
+          dump(facts.dump),
+          count(scene, facts.dump.string()),
+          motion(scene.drive, plan.clock),
+          bodies(bodies_of(scene)),
+          trajectory(folder / "trajectory.nc", info_of(scene, plan, version)),
+          measures(scene, plan.clock, FrameSupply()),
+          table(folder / "measures.csv", measures.names()) {
+        if (scene.container.outlet && !scene.container.tray) outflow.emplace(folder / "outflow.csv");
+    }
+
+    // Ours count from 0; glued grains come behind those of the start there, and are not dumped.
+    std::int32_t id_of(std::int64_t there) const {
+        const std::int64_t id = there <= facts.grains ? there - 1 : there - 1 - facts.glued;
+        if (id < 0 || id > std::numeric_limits<std::int32_t>::max())
+            throw UserError(fmt::format("{}: has an atom {}, which is none of the scene's", facts.dump.string(), there));
+        return static_cast<std::int32_t>(id);
+    }
+
+    Frame frame_of(const DumpRows& rows) const {
+        Frame frame;
+        frame.step = rows.step - facts.shift;
+        frame.time = plan.clock.time(frame.step);
+        frame.cycles = plan.clock.cycles(frame.step);
+        frame.phase = plan.clock.phase(frame.step);
+        const Pose drive = motion.at(frame.step);
+        frame.bodies = poses_of(bodies, drive);
+        const bool rode = facts.frame == RunFrame::container;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::int64_t species = rows.type[i] - 1;
+            if (species < 0 || species >= std::ssize(scene.species) || !(rows.radius[i] > 0))
+                throw UserError(fmt::format("{}: step {}: atom {} has type {} and radius {}, which none of the "
+                                            "scene's grains has",
+                                            facts.dump.string(), rows.step, rows.id[i], rows.type[i],
+                                            rows.radius[i]));
+            frame.id.push_back(id_of(rows.id[i]));
+            frame.species.push_back(static_cast<std::int32_t>(species));
+            frame.radius.push_back(rows.radius[i]);
+            frame.position.push_back(rows.position[i] + (rode ? drive.offset : Vec3(0, 0, 0)));
+            frame.velocity.push_back(rows.velocity[i] + (rode ? drive.velocity : Vec3(0, 0, 0)));
+            frame.spin.push_back(rows.spin[i]);
+        }
+        return frame;
+    }
+
+    void note_outflow(const std::vector<std::size_t>& left, std::int64_t now) {
+        if (!outflow || left.empty()) return;
+        std::vector<Departure> gone;
+        for (const std::size_t row : left) {
+            Departure one;
+            one.step = now;
+            one.id = last->id[row];
+            one.species = last->species[row];
+            one.radius = last->radius[row];
+            one.position = last->position[row];
+            one.velocity = last->velocity[row];
+            one.spin = last->spin[row];
+            gone.push_back(one);
+        }
+        outflow->write(gone, plan.clock);
+    }
+
+    const std::filesystem::path folder;
+    const Scene& scene;
+    const Plan& plan;
+    const HandoverFacts facts;
+    DumpTail dump;
+    const GrainCount count;
+    const WallMotion motion;
+    const std::vector<Body> bodies;
+    TrajectoryWriter trajectory;
+    ImportMeasures measures;
+    MeasuresWriter table;
+    std::optional<OutflowWriter> outflow;
+    std::optional<Frame> last;
+};
+
+ReturnedRun::ReturnedRun(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
+                         const HandoverFacts& facts, const std::string& version)
+    : impl_(std::make_unique<Impl>(folder, scene, plan, facts, version)) {}
+
+ReturnedRun::~ReturnedRun() = default;
+
+bool ReturnedRun::take_next() {
+    Impl& m = *impl_;
+    const std::optional<DumpRows> rows = m.dump.next();
+    if (!rows) return false;
+    // A run that went on from the engine's restart file writes its first moment again.
+    if (m.last && rows->step - m.facts.shift <= m.last->step) return true;
+    Frame frame = m.frame_of(*rows);
+    const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);
+    m.note_outflow(change.left, frame.step);
+    m.trajectory.write(frame);
+    m.table.write(m.measures.row(frame, {}));
+    m.last = std::move(frame);
+    return true;
+}
+
+void ReturnedRun::close(RunRecord& record) {
+    Impl& m = *impl_;
+    record.trajectory_frames = m.trajectory.frames();
+    record.measures_rows = m.table.rows();
+    if (!m.last) return;
+    record.steps = m.last->step;
+    record.simulated = m.last->time;
+    record.final_table = write_grain_table(m.folder / kFinalTable, *m.last);
+}
+
+std::int64_t ReturnedRun::frames() const {
+    return impl_->trajectory.frames();
+}
+
+const Frame* ReturnedRun::last() const {
+    return impl_->last ? &*impl_->last : nullptr;
+}
+
+}  // namespace grainreel

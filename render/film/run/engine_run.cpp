@@ -1,0 +1,253 @@
+#include "render/film/run/engine_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
+#include "engine/base/text_file.hpp"
+#include "engine/files/mesh_copies.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/dump_pace.hpp"
+#include "engine/handover/start_state.hpp"
+#include "engine/handover/triangle_walls.hpp"
+#include "render/film/production/caption_holds.hpp"
+#include "render/film/request/thread_plan.hpp"
+#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/revisited_run.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::int64_t> ordered(std::vector<std::int64_t> steps) {
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    return steps;
+}
+
+// With the laws that are run.
+FilmedScene as_carried(FilmedScene scene, const CarriedScene& carried) {
+    static_cast<Scene&>(scene) = carried.scene;
+    return scene;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
+    std::vector<std::int64_t> needed;
+    const std::vector<FilmSegment> segments = segments_of(scene.film);
+    for (const Shot& shot : film_schedule(scene, clock, steps)) {
+        needed.push_back(shot.step);
+        const FilmSegment& segment = segments[static_cast<std::size_t>(shot.segment)];
+        for (const auto& more : {exposed_steps(shot, segment, clock), averaged_steps(shot, segment, clock)})
+            needed.insert(needed.end(), more.begin(), more.end());
+    }
+    std::sort(needed.begin(), needed.end());
+    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+    std::erase_if(needed, [](std::int64_t step) { return step < 0; });
+    return needed;
+}
+
+void want_pictures(CarriedScene& carried, const FilmedScene& scene) {
+    constexpr std::size_t most_paces = 200;
+    std::vector<std::int64_t> pictures = needed_steps(scene, carried.plan.clock, carried.plan.steps);
+    if (pictures.empty()) return;
+    pictures.push_back(carried.first);
+    pictures.push_back(carried.last);
+    std::vector<std::int64_t> both = carried.dumps;
+    both.insert(both.end(), pictures.begin(), pictures.end());
+    pictures = ordered(std::move(pictures));
+    both = ordered(std::move(both));
+    carried.dumps = dump_paces(both).size() <= most_paces + dump_paces(pictures).size() ? both : pictures;
+}
+
+EngineRun::EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                     CarriedScene carried)
+    : FilmRun(request, listener),
+      carried_(std::move(carried)),
+      scene_(as_carried(scene, carried_)),
+      job_(carried_.engine, carried_.ranks, deck_name(carried_.engine)) {
+    film_.check(scene_, pictures());
+    film_.use_threads(drawing_threads(scene_.run.threads));
+    make_folder({scene_.name, request_.base, request_.out, request_.force});
+}
+
+std::int64_t EngineRun::pictures() const {
+    return std::ssize(film_schedule(scene_, carried_.plan.clock, carried_.plan.steps));
+}
+
+std::vector<std::string> EngineRun::warnings() const {
+    std::vector<std::string> all = carried_.plan.warnings;
+    for (const CarryNote& change : carried_.changes)
+        all.push_back(fmt::format("{}{}{}{}", change.where.empty() ? "" : change.where + ": ", change.what,
+                                  change.why.empty() ? "" : "; ", change.why));
+    all.insert(all.end(), job_.notes().begin(), job_.notes().end());
+    for (const std::string& one : film_warnings(scene_, pictures()))
+        if (film_.wanted()) all.push_back(one);
+    return all;
+}
+
+bool EngineRun::work() {
+    RunRecord& record = desk_.record;
+    record.scene_file = scene_.file;
+    record.seed = scene_.run.seed;
+    record.grains = scene_.grains();
+    record.step = carried_.step;
+    record.steps_planned = carried_.last;
+    record.engine_threads = carried_.ranks;
+    record.libraries.emplace_back(name_of(carried_.engine), job_.program().version);
+    begin_record(warnings());
+    keep_mesh_files(scene_, folder(), desk_.folder->previous());
+    replace_file(folder() / "scene.toml", resolved_scene(scene_, carried_.plan));
+    if (!hand_over()) return false;
+    mark_begun();
+    follow();
+    const bool stopped = desk_.listener.stop_signal() != 0;
+    const std::string failure = stopped ? "" : job_.failure();
+    if (!failure.empty() && back_->frames() > 0)
+        desk_.listener.info(fmt::format("{}; the film shows what there is", failure));
+    if (back_->frames() > 0) {
+        back_->close(record);
+        draw();
+    }
+    if (!failure.empty()) throw RunError(failure);
+    if (stopped) return false;
+    if (record.steps < carried_.last)
+        throw RunError(fmt::format("{} ended at {:.6g} of {:.6g} s without an error; its output is in {}",
+                                   name_of(carried_.engine), record.simulated,
+                                   carried_.plan.clock.time(carried_.last),
+                                   (folder() / ReturnedRun::kFolder / EngineJob::kOutput).string()));
+    return true;
+}
+
+// Packs, and writes all that the engine needs. False when told to stop.
+bool EngineRun::hand_over() {
+    const auto timer = desk_.times.during("packing");
+    const auto watcher = [&](const PackingProgress& now) {
+        Progress progress;
+        progress.stage = Progress::Stage::settling;
+        if (now.stage == PackingProgress::Stage::growing) progress.stage = Progress::Stage::growing;
+        if (now.stage == PackingProgress::Stage::raining) progress.stage = Progress::Stage::raining;
+        progress.done = now.done;
+        progress.elapsed = desk_.watch.seconds();
+        desk_.listener.progress(progress);
+        desk_.folder->lock().check_there();
+        return desk_.listener.stop_signal() == 0;
+    };
+    const StartState start = start_state(carried_, usable_processors(), watcher);
+    if (start.stopped) return false;
+    if (carried_.engine == PeerEngine::liggghts) make_room_for_walls(carried_);
+    const fs::path place = folder() / ReturnedRun::kFolder;
+    fs::create_directories(place);
+    write_handover(place, carried_, start, desk_.record.version);
+    back_ = std::make_unique<ReturnedRun>(folder(), scene_, carried_.plan, read_handover(place),
+                                          desk_.record.version);
+    return true;
+}
+
+// Until the engine has ended, and all that it wrote is read.
+void EngineRun::follow() {
+    const auto timer = desk_.times.during("engine");
+    desk_.listener.detail(job_.command());
+    running_ = Stopwatch();
+    job_.start(folder() / ReturnedRun::kFolder);
+    bool told = false;
+    while (job_.is_running()) {
+        if (desk_.listener.stop_signal() != 0 && !std::exchange(told, true)) job_.stop();
+        desk_.folder->lock().check_there();
+        if (!read_dump()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        show_progress();
+    }
+    while (read_dump()) continue;
+}
+
+bool EngineRun::read_dump() {
+    try {
+        return back_->take_next();
+    } catch (const UserError& wrong) {
+        throw RunError(wrong.what());
+    }
+}
+
+void EngineRun::show_progress() {
+    Progress progress;
+    progress.stage = Progress::Stage::vibrating;
+    progress.end = carried_.plan.clock.time(carried_.last);
+    progress.elapsed = desk_.watch.seconds();
+    if (const Frame* const last = back_->last()) {
+        progress.time = last->time;
+        progress.done = static_cast<double>(last->step) / static_cast<double>(std::max<std::int64_t>(1, carried_.last));
+        const double seconds = running_.seconds();
+        progress.particle_steps_per_second =
+            static_cast<double>(last->step) * static_cast<double>(last->size()) / seconds;
+        if (progress.done > 0 && seconds > 1) progress.remaining = seconds * (1 - progress.done) / progress.done;
+        desk_.record.particle_steps_per_second = progress.particle_steps_per_second;
+    }
+    desk_.listener.progress(progress);
+}
+
+// From the run's own files, as `render` does.
+bool EngineRun::draw() {
+    if (!film_.wanted()) return true;
+    constexpr bool replay = false;
+    RevisitedRun source(folder(), {}, replay);
+    std::vector<Shot> shots;
+    for (const Shot& shot : source.film().shots()) {
+        const std::int64_t step = source.shown(shot.step);
+        if (shots.empty() || step > shots.back().step) shots.push_back({step, shot.segment});
+    }
+    if (shots.empty()) return true;
+    const auto go_on = [this] { return !desk_.listener.in_a_hurry(); };
+    const FramePtr start = source.grains(shots.front().step, go_on);
+    if (!start) return false;
+    const FilmedScene& scene = source.scene();
+    CaptionHolds holds(scene.film);
+    film_.open(scene, std::ssize(shots), start);
+    source.start(shots, source.segments());
+    while (std::optional<Taken> picture = source.next(go_on)) {
+        const auto timer = desk_.times.during("waiting for the film");
+        const FilmSegment& rule = source.segments().at(static_cast<std::size_t>(picture->segment));
+        const FilmSegment pace = played(spanning(rule, picture->periods), scene.film.rate, source.clock());
+        film_.maker().take(picture->frame, playback_caption(pace, scene.drive, scene.film.rate));
+        film_times_.add(*picture->frame, 1 + holds.begin_at(picture->frame->time));
+        film_.show_progress();
+    }
+    return true;
+}
+
+void EngineRun::conclude() {
+    if (back_ && desk_.record.trajectory_frames == 0) desk_.record.trajectory_frames = back_->frames();
+}
+
+void EngineRun::side_work_closed() {
+    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.report().frames);
+}
+
+std::string EngineRun::stopped_text() const {
+    return fmt::format("stopped at {:.2f} of {:.2f} s", desk_.record.simulated,
+                       carried_.plan.clock.time(carried_.last));
+}
+
+void EngineRun::report_written() {
+    desk_.listener.info(fmt::format(
+        "wrote {}: {}trajectory.nc ({} frames), measures.csv, final.csv, {}/ (deck, dump and output of {}), "
+        "run.json, log.txt{}",
+        folder().string(), film_.files_text(), desk_.record.trajectory_frames, ReturnedRun::kFolder,
+        name_of(carried_.engine), page_text()));
+    desk_.listener.info(fmt::format("took {}: packing {}, {} {} on {} ranks {} ({:.1f} M particle-steps/s)",
+                                    duration_text(desk_.watch.seconds()),
+                                    duration_text(desk_.times.of("packing")), name_of(carried_.engine),
+                                    job_.program().version, carried_.ranks,
+                                    duration_text(desk_.times.of("engine")),
+                                    desk_.record.particle_steps_per_second * 1e-6));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,56 @@
+// A scene that another engine runs on this machine: it is handed over, its dump is followed while it grows,
+// and the folder is that of any run, with its film.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/handover/back/returned_run.hpp"
+#include "engine/handover/carried_scene.hpp"
+#include "engine/handover/runner/engine_job.hpp"
+#include "render/film/moments/film_times_table.hpp"
+#include "render/film/run/film_run.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+// Steps of all pictures of a run from step 0 on, with those that they are exposed over or averaged over; by
+// rising step.
+std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
+
+// carried.dumps also has the steps of the film's pictures; those of the trajectory are left out where both
+// together would end the engine's run too often.
+void want_pictures(CarriedScene& carried, const FilmedScene& scene);
+
+class EngineRun final : public FilmRun {
+  public:
+    // scene: as it was read; it is run with the laws of `carried`. Throws UserError; nothing is on disk then.
+    EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+              CarriedScene carried);
+
+  private:
+    bool work() override;
+    void conclude() override;
+    void side_work_closed() override;
+    std::string stopped_text() const override;
+    void report_written() override;
+
+    std::int64_t pictures() const;
+    std::vector<std::string> warnings() const;
+    bool hand_over();
+    void follow();
+    bool read_dump();
+    void show_progress();
+    bool draw();
+
+    CarriedScene carried_;
+    FilmedScene scene_;
+    EngineJob job_;
+    std::unique_ptr<ReturnedRun> back_;
+    Stopwatch running_;
+    FilmTimesTable film_times_;
+};
+
+}  // namespace grainreel
