@@ -15,10 +15,14 @@ namespace {
 
 CarriedLaw law_of(const CarryRequest& request, const PairPlan& plan) {
     switch (plan.model.normal) {
-        case NormalForce::spring_dashpot: return CarriedLaw::spring_dashpot;
-        case NormalForce::hertz: return CarriedLaw::hertz;
-        case NormalForce::walton_braun_speed: return CarriedLaw::luding;
-        default: return request.edinburgh ? CarriedLaw::edinburgh : CarriedLaw::spring_dashpot;
+        case NormalForce::spring_dashpot:
+            return CarriedLaw::spring_dashpot;
+        case NormalForce::hertz:
+            return CarriedLaw::hertz;
+        case NormalForce::walton_braun_speed:
+            return CarriedLaw::luding;
+        default:
+            return request.edinburgh ? CarriedLaw::edinburgh : CarriedLaw::spring_dashpot;
     }
 }
 
@@ -34,7 +38,8 @@ CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touc
     pair.hardening = plan.hardening;
     pair.tangential = plan.tangential_stiffness;
     pair.restitution = pair.lowest = pair.highest = plan.restitution;
-    pair.friction = plan.model.tangential == TangentialLaw::none ? 0 : std::min(plan.friction, kEndlessFriction);
+    pair.friction =
+        plan.model.tangential == TangentialLaw::none ? 0 : std::min(plan.friction, kEndlessFriction);
     pair.rolling = plan.model.rolls ? plan.rolling_friction : 0;
     pair.attraction = plan.attraction;
     if (law == CarriedLaw::hertz) {
@@ -60,8 +65,8 @@ CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touc
 
 void add_types(CarriedScene& carried) {
     const auto add = [&](const Species& one, const std::string& name, bool glued) {
-        carried.types.push_back({name, one.diameter.mean, one.diameter.smallest, one.diameter.largest,
-                                 one.density, glued});
+        carried.types.push_back(
+            {name, one.diameter.mean, one.diameter.smallest, one.diameter.largest, one.density, glued});
     };
     for (const Species& one : carried.scene.species) add(one, one.name, false);
     if (!carried.plan.glued.empty())
@@ -81,8 +86,8 @@ void say_spread(CarriedScene& carried) {
         }
     if (highest - lowest < 1e-6) return;
     add_change(carried, carried.scene.where("contact.restitution"),
-               fmt::format("the restitution of {} lies between {:.3f} and {:.3f} in place of {:.3f}", who, lowest,
-                           highest, wanted),
+               fmt::format("the restitution of {} lies between {:.3f} and {:.3f} in place of {:.3f}", who,
+                           lowest, highest, wanted),
                "damping is one number a pair of types there, and their sizes are spread");
 }
 

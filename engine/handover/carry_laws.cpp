@@ -58,7 +58,8 @@ constexpr const char* cost =
 void say_latch(const CarryRequest& request, const LawChanges& changes, CarriedScene& carried) {
     const std::string where = carried.scene.where("contact.law");
     const std::string what =
-        "Walton-Braun's latching spring becomes a spring with a dashpot of the same stiffness and restitution";
+        "Walton-Braun's latching spring becomes a spring with a dashpot of the same stiffness and "
+        "restitution";
     if (request.accept_law) {
         add_change(carried, where, what, std::string("neither engine has that law under MPI; ") + cost);
         return;
@@ -78,10 +79,11 @@ void say_slip(const CarryRequest& request, CarriedScene& carried) {
                    "neither engine has that law; it takes part in the change of contacts that stands above");
         return;
     }
-    add_refusal(carried, where,
-                fmt::format("friction by incremental-slip is none that {} has; with --accept law it becomes a "
-                            "linear spring of the same stiffness",
-                            name_of(request.engine)));
+    add_refusal(
+        carried, where,
+        fmt::format("friction by incremental-slip is none that {} has; with --accept law it becomes a "
+                    "linear spring of the same stiffness",
+                    name_of(request.engine)));
 }
 
 void say_changes(const CarryRequest& request, const LawChanges& changes, CarriedScene& carried) {
@@ -101,10 +103,11 @@ void say_changes(const CarryRequest& request, const LawChanges& changes, Carried
                     "hertz: LIGGGHTS takes moduli by material, and no E* by kind of contact; "
                     "LAMMPS takes it (--to lammps)");
     if (changes.mixed)
-        add_refusal(carried, scene.where("contact.friction_law"),
-                    fmt::format("this friction law beside this normal law is none that {} is told; hertz goes "
-                                "with mindlin, the others with linear-spring",
-                                name_of(request.engine)));
+        add_refusal(
+            carried, scene.where("contact.friction_law"),
+            fmt::format("this friction law beside this normal law is none that {} is told; hertz goes "
+                        "with mindlin, the others with linear-spring",
+                        name_of(request.engine)));
 }
 
 }  // namespace

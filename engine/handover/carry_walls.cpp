@@ -27,7 +27,8 @@ std::string stays_behind(const Scene& scene) {
     for (const SceneMesh& mesh : scene.meshes)
         if (!mesh.driven && mesh.name != scene.container.mesh)
             return "the mesh " + mesh.name + " moves otherwise";
-    if (scene.container.shape == Container::Shape::none && scene.walls.empty()) return "there is no container";
+    if (scene.container.shape == Container::Shape::none && scene.walls.empty())
+        return "there is no container";
     return {};
 }
 
@@ -55,8 +56,9 @@ void check_outlet(CarriedScene& carried) {
     const std::string where = scene.where("container.outlet");
     if (scene.container.outlet->shape == Outlet::Shape::hole ||
         scene.container.shape == Container::Shape::cylinder)
-        add_refusal(carried, where,
-                    "LAMMPS has no region for a floor with a round hole or below a cylinder; use --to liggghts");
+        add_refusal(
+            carried, where,
+            "LAMMPS has no region for a floor with a round hole or below a cylinder; use --to liggghts");
     if (scene.container.turn)
         add_refusal(carried, where, "an outlet of a container that turns is not carried");
     if (scene.container.tray)
@@ -82,15 +84,17 @@ void carry_walls(CarriedScene& carried) {
         const std::string reason = stays_behind(scene);
         carried.frame = reason.empty() ? RunFrame::container : RunFrame::lab;
         if (reason.empty())
-            add_change(carried, {},
-                       "the run is in the container's frame: walls stand still, and grains feel minus the "
-                       "container's acceleration",
-                       "nothing is lost by it (1e-10 m after half a period), and it is faster than moving walls");
+            add_change(
+                carried, {},
+                "the run is in the container's frame: walls stand still, and grains feel minus the "
+                "container's acceleration",
+                "nothing is lost by it (1e-10 m after half a period), and it is faster than moving walls");
         else if (scene.container.wall_grains)
-            add_refusal(carried, scene.where("container.wall_grains"),
-                        fmt::format("glued grains cannot move there, and the run cannot be in the container's "
-                                    "frame: {}",
-                                    reason));
+            add_refusal(
+                carried, scene.where("container.wall_grains"),
+                fmt::format("glued grains cannot move there, and the run cannot be in the container's "
+                            "frame: {}",
+                            reason));
     }
     check_meshes(carried);
     check_outlet(carried);

@@ -1,4 +1,5 @@
-// How LAMMPS' own formulas must be told a dashpot of ours. engine/plan/damping.hpp solves for the restitution.
+// How LAMMPS' own formulas must be told a dashpot of ours. engine/plan/damping.hpp solves for the
+// restitution.
 #pragma once
 
 #include <optional>

@@ -25,8 +25,8 @@ void write_data_file(const std::filesystem::path& path, const CarriedScene& carr
         text.clear();
     };
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "handed over by grainreel; units si\n\n{} atoms\n{} atom types\n\n", start.grains.size(),
-                   types);
+    fmt::format_to(out, "handed over by grainreel; units si\n\n{} atoms\n{} atom types\n\n",
+                   start.grains.size(), types);
     const char* names[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
     for (int axis = 0; axis < 3; ++axis)
         fmt::format_to(out, "{} {} {}\n", carried.low[axis], carried.high[axis], names[axis]);

@@ -41,8 +41,8 @@ std::vector<std::string> variable_lines(const CarriedScene& carried) {
         const PeerVariable& one = carried.drive.variables[i];
         // Nothing moves while the grains are packed.
         const bool result = i + 3 >= count;
-        add(one.name, shift > 0 && result ? fmt::format("(step>={})*({})", shift, one.expression)
-                                          : one.expression);
+        add(one.name,
+            shift > 0 && result ? fmt::format("(step>={})*({})", shift, one.expression) : one.expression);
     }
     for (std::size_t f = 0; f < carried.turns.size(); ++f) {
         if (carried.turns[f].empty()) continue;

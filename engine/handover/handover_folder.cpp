@@ -24,8 +24,7 @@ namespace {
 constexpr const char* facts_name = "handover.toml";
 
 bool grains_leave(const CarriedScene& carried) {
-    return !carried.scene.exits.empty() ||
-           (carried.scene.container.outlet && !carried.scene.container.tray);
+    return !carried.scene.exits.empty() || (carried.scene.container.outlet && !carried.scene.container.tray);
 }
 
 std::string facts_text(const CarriedScene& carried, const StartState& start, const std::string& version) {
@@ -34,7 +33,8 @@ std::string facts_text(const CarriedScene& carried, const StartState& start, con
     for (const StartState::Grain& grain : start.grains)
         glued += carried.types[static_cast<std::size_t>(grain.type - 1)].glued;
     for (const Species& one : carried.scene.species) fed += one.fed;
-    out.comment("What was handed over, and what was changed for it. `render` and `inspect` of this folder read it.");
+    out.comment(
+        "What was handed over, and what was changed for it. `render` and `inspect` of this folder read it.");
     out.put("scene", quoted("scene.toml"));
     out.put("from", quoted(carried.scene.file));
     out.put("engine", quoted(key_of(carried.engine)));
@@ -85,7 +85,8 @@ class FactsReader {
     double number(const char* key) const {
         const toml::node& node = at(key);
         const auto value = node.value<double>();
-        if (!value || !(*value > 0)) fail(file_, node.source(), fmt::format("'{}' is no positive number", key));
+        if (!value || !(*value > 0))
+            fail(file_, node.source(), fmt::format("'{}' is no positive number", key));
         return *value;
     }
     std::string choice(const char* key, const char* first, const char* second) const {
@@ -101,7 +102,8 @@ class FactsReader {
     const toml::node& at(const char* key) const {
         const toml::node* node = table_.get(key);
         if (node == nullptr)
-            throw UserError(fmt::format("{}:1:1: '{}' is missing; hand the scene over again", file_.string(), key));
+            throw UserError(
+                fmt::format("{}:1:1: '{}' is missing; hand the scene over again", file_.string(), key));
         return *node;
     }
     const fs::path& file_;

@@ -43,12 +43,14 @@ class LammpsDeck {
     void add(fmt::format_string<Parts...> format, Parts&&... parts) {
         lines_.push_back(fmt::format(format, std::forward<Parts>(parts)...));
     }
-    void add_all(const std::vector<std::string>& more) { lines_.insert(lines_.end(), more.begin(), more.end()); }
+    void add_all(const std::vector<std::string>& more) {
+        lines_.insert(lines_.end(), more.begin(), more.end());
+    }
     std::string there(std::int64_t step) const { return fmt::format("{}", step + carried_.shift()); }
 
     void head() {
-        add("# Handed over by grainreel, for LAMMPS {}. Goes on with: -var restart {}.1", version_of(carried_.engine),
-            restart_name(carried_.engine));
+        add("# Handed over by grainreel, for LAMMPS {}. Goes on with: -var restart {}.1",
+            version_of(carried_.engine), restart_name(carried_.engine));
         add("variable restart index none");
         add("units si");
         add("atom_style sphere");
@@ -56,7 +58,8 @@ class LammpsDeck {
         add("newton off");
         add("comm_modify mode single vel yes");
         lines_.push_back(processors_line(carried_));
-        add("if \"${{restart}} == none\" then \"read_data {}\" else \"read_restart ${{restart}}\"", data_name);
+        add("if \"${{restart}} == none\" then \"read_data {}\" else \"read_restart ${{restart}}\"",
+            data_name);
         add("neighbor {} bin", carried_.skin);
         add("neigh_modify delay 0 every 1 check yes one 4000");
         add("timestep {}", carried_.step);
@@ -155,15 +158,16 @@ class LammpsDeck {
             if (carried_.packing_drag > 0) add("unfix drag");
         }
         const std::string restart = restart_name(carried_.engine);
-        add("restart {} {}.1 {}.2", std::max<std::int64_t>(1000, (carried_.last - carried_.first) / 10), restart,
-            restart);
+        add("restart {} {}.1 {}.2", std::max<std::int64_t>(1000, (carried_.last - carried_.first) / 10),
+            restart, restart);
         bool waits = !carried_.opened.empty() && carried_.opens > carried_.first, begun = false;
         for (const DumpPace& pace : dump_paces(carried_.dumps)) {
             add("variable nextdump equal {}", pace.next_text(carried_.shift()));
             if (!begun) {
                 add("dump grains free custom 1 {} id type radius x y z vx vy vz omegax omegay omegaz",
                     dump_name(carried_.engine));
-                add("if \"${{restart}} == none\" then \"dump_modify grains first yes\" else \"dump_modify grains "
+                add("if \"${{restart}} == none\" then \"dump_modify grains first yes\" else \"dump_modify "
+                    "grains "
                     "append yes\"");
                 add("dump_modify grains every v_nextdump sort id format float %.9g flush yes");
             }
@@ -181,8 +185,8 @@ class LammpsDeck {
     const CarriedScene& carried_;
     std::string free_, glued_;  // their types
     bool hertz_ = false;
-    std::set<std::string> standing_;                            // regions
-    std::vector<std::pair<std::string, std::string>> fixes_;    // region and fix
+    std::set<std::string> standing_;                          // regions
+    std::vector<std::pair<std::string, std::string>> fixes_;  // region and fix
     std::vector<std::string> lines_;
 };
 

@@ -63,8 +63,9 @@ class Regions {
         const double x = beyond(), foot = c.floor_half_width(), out = c.half_width - foot;
         const bool left = faces_[f].normal.y() > 0;
         add(f, name + "_open",
-            fmt::format("prism {} {} {} {} 0.0 {} 0.0 0.0 {} side out", -x, x, left ? -foot - 2 * thick_ : foot,
-                        left ? -foot : foot + 2 * thick_, c.slant_height, left ? -out : out));
+            fmt::format("prism {} {} {} {} 0.0 {} 0.0 0.0 {} side out", -x, x,
+                        left ? -foot - 2 * thick_ : foot, left ? -foot : foot + 2 * thick_, c.slant_height,
+                        left ? -out : out));
     }
     double beyond() const { return carried_.scene.container.depth; }  // m, farther than the container
 
@@ -94,7 +95,8 @@ class Regions {
             }
         }
         if (body.turn && !carried_.turns[f].empty())
-            text += fmt::format(" rotate v_angle{} {} {}", f, three(body.turn->through), three(body.turn->axis));
+            text +=
+                fmt::format(" rotate v_angle{} {} {}", f, three(body.turn->through), three(body.turn->axis));
         return text;
     }
 

@@ -52,8 +52,9 @@ bool fill(const RoomOfLattice& room, double spacing, double jitter, double radiu
     const double margin = radius + jitter;
     const Vec3 size = room.high - room.low;
     // Across a periodic depth the lattice closes.
-    const double along = std::max(1.0, std::floor((size.x() - (room.carried.periodic ? 0 : 2 * margin)) / spacing +
-                                                  (room.carried.periodic ? 0 : 1)));
+    const double along =
+        std::max(1.0, std::floor((size.x() - (room.carried.periodic ? 0 : 2 * margin)) / spacing +
+                                 (room.carried.periodic ? 0 : 1)));
     const double dx = room.carried.periodic ? size.x() / along : spacing;
     const double x0 = room.carried.periodic ? room.low.x() + dx / 2 : -(along - 1) * dx / 2;
     places.clear();

@@ -130,12 +130,14 @@ class Deck {
 
     void set_in_motion(const TriangleWall& wall) {
         if (wall.driven) {
-            add("fix {}_drive all move/mesh mesh {} linear/variable v_drive0 v_drive1 v_drive2", wall.id, wall.id);
+            add("fix {}_drive all move/mesh mesh {} linear/variable v_drive0 v_drive1 v_drive2", wall.id,
+                wall.id);
             wall_fixes_.push_back(wall.id + "_drive");
         }
         if (!wall.velocity.isZero(0)) {
             for (int k = 0; k < 3; ++k)
-                add("variable {}_v{} equal (step>={})*{}", wall.id, k, there(0), peer_number(wall.velocity[k]));
+                add("variable {}_v{} equal (step>={})*{}", wall.id, k, there(0),
+                    peer_number(wall.velocity[k]));
             add("fix {}_way all move/mesh mesh {} linear/variable v_{}_v0 v_{}_v1 v_{}_v2", wall.id, wall.id,
                 wall.id, wall.id, wall.id);
             wall_fixes_.push_back(wall.id + "_way");
@@ -150,8 +152,10 @@ class Deck {
 
     void exit() {
         if (exit_plane(carried_).empty()) return;
-        add("fix exit all mesh/surface file walls/exit.stl type {} curvature 1e-5", carried_.type_count() + 1);
-        add("fix flow all massflow/mesh mesh exit count once vec_side 0. 0. -1. writeTime delete_atoms yes file "
+        add("fix exit all mesh/surface file walls/exit.stl type {} curvature 1e-5",
+            carried_.type_count() + 1);
+        add("fix flow all massflow/mesh mesh exit count once vec_side 0. 0. -1. writeTime delete_atoms yes "
+            "file "
             "outflow.txt");
     }
 
@@ -167,15 +171,16 @@ class Deck {
             const std::vector<double> sizes = sizes_of(scene.species[feed.species]);
             std::string shares;
             for (std::size_t k = 0; k < sizes.size(); ++k) {
-                add("fix feed{}_size{} all particletemplate/sphere {} atom_type {} density constant {} radius "
+                add("fix feed{}_size{} all particletemplate/sphere {} atom_type {} density constant {} "
+                    "radius "
                     "constant {}",
                     f, k, seeds_.next(), feed.species + 1, scene.species[feed.species].density, sizes[k] / 2);
                 shares += fmt::format(" feed{}_size{} {}", f, k, 1.0 / static_cast<double>(sizes.size()));
             }
             add("fix feed{}_mix all particledistribution/discrete/numberbased {} {}{}", f, seeds_.next(),
                 sizes.size(), shares);
-            add("region feed{} block {} {} {} {} {} {} units box", f, feed.low.x(), feed.high.x(), feed.low.y(),
-                feed.high.y(), feed.low.z(), feed.high.z());
+            add("region feed{} block {} {} {} {} {} {} units box", f, feed.low.x(), feed.high.x(),
+                feed.low.y(), feed.high.y(), feed.low.z(), feed.high.z());
             // One at a time would cost an insertion every few hundred steps; it keeps the rate on average.
             const auto every = std::max<std::int64_t>(1, std::llround(1 / (feed.rate * carried_.step)));
             const auto start = there(std::max<std::int64_t>(1, std::llround(feed.from / carried_.step)));
@@ -189,7 +194,8 @@ class Deck {
     // Equally frequent diameters, m: middles of so many equal shares.
     static std::vector<double> sizes_of(const Species& species) {
         const SizeSpread& spread = species.diameter;
-        if (spread.kind == SizeSpread::Kind::fixed || spread.smallest == spread.largest) return {spread.mean > 0 ? spread.mean : spread.largest};
+        if (spread.kind == SizeSpread::Kind::fixed || spread.smallest == spread.largest)
+            return {spread.mean > 0 ? spread.mean : spread.largest};
         std::vector<double> sizes;
         for (int k = 0; k < kSizesOfFeed; ++k) {
             const double share = (k + 0.5) / kSizesOfFeed;
@@ -241,7 +247,8 @@ class Deck {
             if (!begun) {
                 add("dump grains {} custom 1 {} id type radius x y z vx vy vz omegax omegay omegaz", free(),
                     dump_name(PeerEngine::liggghts));
-                add("dump_modify grains every v_nextdump first yes sort id format \"%d %d{}\"", ten_numbers());
+                add("dump_modify grains every v_nextdump first yes sort id format \"%d %d{}\"",
+                    ten_numbers());
             }
             begun = true;
             std::int64_t from = pace.from;

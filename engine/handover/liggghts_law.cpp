@@ -70,7 +70,8 @@ void add_steeper(const CarriedScene& carried, const std::function<double(const C
                  LiggghtsLaw& law) {
     law.properties.push_back(matrix(carried, "LoadingStiffness", stiffness_of));
     law.properties.push_back(matrix(carried, "UnloadingStiffness", ratio));
-    law.properties.push_back(matrix(carried, "coefficientAdhesionStiffness", [](const auto&) { return 0.0; }));
+    law.properties.push_back(
+        matrix(carried, "coefficientAdhesionStiffness", [](const auto&) { return 0.0; }));
     law.properties.push_back(matrix(carried, "coefficientRestitution", [](const auto&) { return 1.0; }));
     law.properties.push_back(matrix(carried, "pullOffForce", [](const auto&) { return 0.0; }));
 }
@@ -79,7 +80,8 @@ LiggghtsLaw luding(const CarriedScene& carried) {
     LiggghtsLaw law;
     law.model = "model luding tangential history";
     law.flags = "tangential_damping off limitForce on";
-    add_steeper(carried, [](const auto&) { return kLudingRatio; }, law);
+    add_steeper(
+        carried, [](const auto&) { return kLudingRatio; }, law);
     law.properties.push_back(matrix(carried, "coefficientPlasticityDepth", luding_depth));
     return law;
 }
@@ -88,11 +90,12 @@ LiggghtsLaw edinburgh(const CarriedScene& carried) {
     LiggghtsLaw law;
     law.model = "model edinburgh/stiffness tangential history";
     law.flags = "tangential_damping off limitForce on fixKc off";
-    add_steeper(carried,
-                [](const CarriedPair& pair) {
-                    return pair.stiffness > 0 ? std::max(1.0, pair.unloading / pair.stiffness) : 1.0;
-                },
-                law);
+    add_steeper(
+        carried,
+        [](const CarriedPair& pair) {
+            return pair.stiffness > 0 ? std::max(1.0, pair.unloading / pair.stiffness) : 1.0;
+        },
+        law);
     law.properties.push_back(matrix(carried, "surfaceEnergy", [](const auto&) { return 0.0; }));
     law.properties.emplace_back("fix p_overlapExponent all property/global overlapExponent scalar 1.0");
     law.properties.emplace_back("fix p_adhesionExponent all property/global adhesionExponent scalar 1.0");

@@ -9,8 +9,8 @@
 namespace grainreel {
 
 struct LiggghtsLaw {
-    std::string model;  // "model hooke/stiffness tangential history"
-    std::string flags;  // "absolute_damping off limitForce on tangential_damping off"
+    std::string model;                    // "model hooke/stiffness tangential history"
+    std::string flags;                    // "absolute_damping off limitForce on tangential_damping off"
     std::vector<std::string> properties;  // lines
 };
 

@@ -95,7 +95,8 @@ RANKS=${{SLURM_NTASKS:-{ranks}}} exec sh run.sh "$@"
 std::string run_script(const CarriedScene& carried) {
     const bool lammps = carried.engine == PeerEngine::lammps;
     const std::string restart =
-        lammps ? fmt::format(lammps_restart, fmt::arg("restart", restart_name(carried.engine))) : liggghts_restart;
+        lammps ? fmt::format(lammps_restart, fmt::arg("restart", restart_name(carried.engine)))
+               : liggghts_restart;
     return fmt::format(run_text, fmt::arg("title", one_line(carried.scene.title)),
                        fmt::arg("name", name_of(carried.engine)), fmt::arg("ranks", carried.ranks),
                        fmt::arg("program", program_of(carried.engine)),
@@ -109,7 +110,8 @@ std::string slurm_script(const CarriedScene& carried) {
         200 + 2 * peer_bytes(carried.engine, carried.grains()) / (1e6 * std::max(1, carried.ranks));
     std::string job = carried.scene.name.empty() ? "grainreel" : carried.scene.name;
     std::replace_if(
-        job.begin(), job.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_' && c != '-'; }, '_');
+        job.begin(), job.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_' && c != '-'; },
+        '_');
     return fmt::format(slurm_text, fmt::arg("job", job), fmt::arg("ranks", carried.ranks),
                        fmt::arg("memory", static_cast<std::int64_t>(std::ceil(megabytes))),
                        fmt::arg("time", wall_time(carried)), fmt::arg("key", key_of(carried.engine)));

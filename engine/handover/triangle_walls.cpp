@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kInside = 1e-6;        // of the box's size: how far walls stay from its sides
-constexpr double kOctagon = 0.92;       // apothem over radius, a bit less
-constexpr double kSagitta = 0.005;      // of a cylinder's facets, over the smallest radius of grains
+constexpr double kInside = 1e-6;          // of the box's size: how far walls stay from its sides
+constexpr double kOctagon = 0.92;         // apothem over radius, a bit less
+constexpr double kSagitta = 0.005;        // of a cylinder's facets, over the smallest radius of grains
 constexpr int kFewest = 36, kMost = 180;  // facets
 
 struct Room {
@@ -67,7 +67,8 @@ double turning_radius(const Room& room, const TriangleWall& wall) {
     for (int k = 0; k < 3; ++k) {
         const double across = std::sqrt(std::max(0.0, 1 - wall.axis[k] * wall.axis[k]));
         if (across < 1e-9) continue;
-        radius = std::min(radius, std::min(room.high[k] - wall.through[k], wall.through[k] - room.low[k]) / across);
+        radius = std::min(radius,
+                          std::min(room.high[k] - wall.through[k], wall.through[k] - room.low[k]) / across);
     }
     return radius;
 }
@@ -118,8 +119,8 @@ void shape_plane(const CarriedScene& carried, const Face& face, const Room& room
         return;
     }
     const Vec3 middle = (room.low + room.high) / 2;
-    const Polygon all =
-        cut_to_room(square_on(face.point, face.normal, middle, 4 * (room.high - room.low).norm()), room, wall);
+    const Polygon all = cut_to_room(
+        square_on(face.point, face.normal, middle, 4 * (room.high - room.low).norm()), room, wall);
     if (face.ends && face.gap > 0) {
         for (const double side : {-1.0, 1.0})
             add_polygon(cut(all, face.point + Vec3(0, side * face.gap, 0), Vec3(0, side, 0)), wall.shape);
@@ -146,9 +147,10 @@ TriangleWall wall_of(const CarriedScene& carried, const Face& face, std::size_t 
     set_motion(carried, face.body, wall);
     const Room room = room_of(carried, wall);
     if ((room.high - room.low).minCoeff() <= 0)
-        throw UserError(fmt::format("{}: the wall \"{}\" would leave the room that the run is in; end the run "
-                                    "earlier",
-                                    carried.scene.file, face.name));
+        throw UserError(
+            fmt::format("{}: the wall \"{}\" would leave the room that the run is in; end the run "
+                        "earlier",
+                        carried.scene.file, face.name));
     if (face.kind == Face::Kind::cylinder)
         shape_tube(carried, face, room, wall);
     else
@@ -177,7 +179,8 @@ void write_stl(const fs::path& file, const TriangleMesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.vertices[static_cast<std::size_t>(triangle[k])];
         const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
         text += fmt::format("facet normal {} {} {}\nouter loop\n", normal.x(), normal.y(), normal.z());
-        for (const Vec3& corner : p) text += fmt::format("vertex {} {} {}\n", corner.x(), corner.y(), corner.z());
+        for (const Vec3& corner : p)
+            text += fmt::format("vertex {} {} {}\n", corner.x(), corner.y(), corner.z());
         text += "endloop\nendfacet\n";
     }
     std::ofstream out(file, std::ios::binary);
@@ -220,12 +223,15 @@ TriangleMesh exit_plane(const CarriedScene& carried) {
 void make_room_for_walls(CarriedScene& carried) {
     const Container& c = carried.scene.container;
     const double margin = largest_grain(carried);
-    const Vec3 stroke = stroke_of(carried) + margin * Vec3::Ones(), kept_low = carried.low, kept_high = carried.high;
+    const Vec3 stroke = stroke_of(carried) + margin * Vec3::Ones(), kept_low = carried.low,
+               kept_high = carried.high;
     if (c.shape != Container::Shape::none) {
         const double x = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
-        include(carried, Vec3(-x, -c.half_width, c.base()) - stroke, Vec3(x, c.half_width, c.height) + stroke);
+        include(carried, Vec3(-x, -c.half_width, c.base()) - stroke,
+                Vec3(x, c.half_width, c.height) + stroke);
     }
-    for (const SceneMesh& mesh : carried.scene.meshes) include(carried, mesh.low - stroke, mesh.high + stroke);
+    for (const SceneMesh& mesh : carried.scene.meshes)
+        include(carried, mesh.low - stroke, mesh.high + stroke);
     if (c.outlet) include(carried, Vec3(0, 0, -c.outlet->exit_depth - 2 * margin), Vec3(0, 0, 0));
     for (const Face& face : carried.faces) {
         if (!face.body.turn) continue;

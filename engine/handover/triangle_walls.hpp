@@ -24,8 +24,8 @@ struct TriangleWall {
 
     // How it moves, all at once; in the container's frame what goes with the container stands still.
     bool driven = false;
-    Vec3 velocity{0, 0, 0};       // m/s
-    std::string rate;             // rad/s, an expression of v_t; empty: it does not turn
+    Vec3 velocity{0, 0, 0};                // m/s
+    std::string rate;                      // rad/s, an expression of v_t; empty: it does not turn
     Vec3 axis{0, 0, 1}, through{0, 0, 0};  // of the turn; unit, m
 };
 

@@ -12,10 +12,10 @@ namespace grainreel {
 namespace {
 
 constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
-constexpr double kSmooth = 30;     // degrees: edges that bend more are edges
-constexpr double kFlat = 1e-5;     // degrees: of planes
-constexpr double kFattest = 8;     // height of a tube's facets over their width
-constexpr double kTiny = 1e-12;    // m2, twice a triangle's area
+constexpr double kSmooth = 30;   // degrees: edges that bend more are edges
+constexpr double kFlat = 1e-5;   // degrees: of planes
+constexpr double kFattest = 8;   // height of a tube's facets over their width
+constexpr double kTiny = 1e-12;  // m2, twice a triangle's area
 
 double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
     const Vec3 u = a - corner, v = b - corner;
@@ -30,8 +30,8 @@ double smallest_angle_of_fan(const Polygon& polygon, std::size_t from) {
     const std::size_t n = polygon.size();
     double smallest = kPi;
     for (std::size_t k = 1; k + 1 < n; ++k)
-        smallest = std::min(smallest, smallest_angle(polygon[from], polygon[(from + k) % n],
-                                                     polygon[(from + k + 1) % n]));
+        smallest = std::min(
+            smallest, smallest_angle(polygon[from], polygon[(from + k) % n], polygon[(from + k + 1) % n]));
     return smallest;
 }
 
@@ -78,7 +78,8 @@ Polygon cut(const Polygon& polygon, const Vec3& point, const Vec3& normal) {
         const Vec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
         const double at_a = normal.dot(a - point), at_b = normal.dot(b - point);
         if (at_a >= 0) kept.push_back(a);
-        if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) kept.push_back(a + at_a / (at_a - at_b) * (b - a));
+        if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0))
+            kept.push_back(a + at_a / (at_a - at_b) * (b - a));
     }
     return kept;
 }
@@ -94,7 +95,8 @@ Polygon cut_to_box(Polygon polygon, const Vec3& low, const Vec3& high) {
 void add_polygon(const Polygon& polygon, TriangleMesh& mesh) {
     Polygon corners;
     for (const Vec3& corner : polygon)
-        if (corners.empty() || ((corner - corners.back()).norm() > 1e-9 && (corner - corners.front()).norm() > 1e-9))
+        if (corners.empty() ||
+            ((corner - corners.back()).norm() > 1e-9 && (corner - corners.front()).norm() > 1e-9))
             corners.push_back(corner);
     if (corners.size() < 3) return;
     std::size_t best = 0;
@@ -140,7 +142,8 @@ void add_plate_with_hole(const Vec3& middle, double hole, const Vec3& low, const
         const auto inner = [&](double angle) {
             return Vec3(middle + corner * Vec3(std::cos(angle), std::sin(angle), 0));
         };
-        add_quad({inner(a), on_rectangle(middle, a, low, high), on_rectangle(middle, b, low, high), inner(b)}, mesh);
+        add_quad({inner(a), on_rectangle(middle, a, low, high), on_rectangle(middle, b, low, high), inner(b)},
+                 mesh);
     }
 }
 
@@ -157,7 +160,8 @@ double smooth_bend(const TriangleMesh& mesh) {
     double most = kFlat;
     for (const auto& [edge, normals] : edges) {
         if (normals.size() != 2) continue;
-        const double bend = std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1])) / kDegree;
+        const double bend =
+            std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1])) / kDegree;
         if (bend <= kSmooth) most = std::max(most, 1.01 * bend + 1e-3);
     }
     return most;

@@ -77,7 +77,8 @@ TEST_F(DumpTails, OtherColumnsAreNotTheDecks) {
 }
 
 TEST_F(DumpTails, ACountBeyondTheFileIsWaitedFor) {
-    add("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n900000000000000000\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 1\n-1 1\n"
+    add("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n900000000000000000\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 "
+        "1\n-1 1\n"
         "ITEM: ATOMS id type radius x y z vx vy vz omegax omegay omegaz\n1 1 1 1 1 1 1 1 1 1 1 1\n");
     EXPECT_FALSE(tail_.next());
 }

@@ -56,8 +56,8 @@ height = "60 mm"
 )";
     text = "gravity = 0\n" + text;
     const auto grain = [&](const char* species, double x, double y, double z, double vy, double vz) {
-        text += fmt::format("[[grain]]\nspecies = \"{}\"\nposition = [{}, {}, {}]\nvelocity = [0, {}, {}]\n", species,
-                            x, y, z, vy, vz);
+        text += fmt::format("[[grain]]\nspecies = \"{}\"\nposition = [{}, {}, {}]\nvelocity = [0, {}, {}]\n",
+                            species, x, y, z, vy, vz);
     };
     grain("A", -0.04, 0, 0.03, speed, 0);
     grain("A", -0.04, 0.0021, 0.03, 0, 0);

@@ -67,7 +67,8 @@ bool all_are_gone(const std::vector<pid_t>& family) {
 
 TEST(GuardedProcess, GivesTheExitStatusAndWhatWasSaid) {
     const TemporaryFolder folder;
-    GuardedProcess process(shell("echo out; echo err >&2; pwd; exit 7"), folder.path(), folder.path() / "out");
+    GuardedProcess process(shell("echo out; echo err >&2; pwd; exit 7"), folder.path(),
+                           folder.path() / "out");
     ASSERT_TRUE(comes([&] { return process.status().has_value(); }));
     EXPECT_EQ(process.status(), 7);
     EXPECT_EQ(text_of(folder.path() / "out"), "out\nerr\n" + fs::canonical(folder.path()).string() + "\n");
@@ -115,12 +116,14 @@ TEST(GuardedProcess, NothingOutlivesAProcessThatIsKilled) {
 }
 
 TEST(EngineProgram, VersionsAreRead) {
-    EXPECT_EQ(version_in(PeerEngine::lammps,
-                         "\nLarge-scale Atomic/Molecular Massively Parallel Simulator - 29 Sep 2021 - Update 2\n\n"),
+    EXPECT_EQ(version_in(
+                  PeerEngine::lammps,
+                  "\nLarge-scale Atomic/Molecular Massively Parallel Simulator - 29 Sep 2021 - Update 2\n\n"),
               "29 Sep 2021 - Update 2");
-    EXPECT_EQ(version_in(PeerEngine::liggghts,
-                         "LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0, compiled 2022-01-26-19:42:32 by buildd)\n"),
-              "3.8.0");
+    EXPECT_EQ(
+        version_in(PeerEngine::liggghts,
+                   "LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0, compiled 2022-01-26-19:42:32 by buildd)\n"),
+        "3.8.0");
     EXPECT_EQ(version_in(PeerEngine::lammps, "another program\n"), "");
 }
 
@@ -131,7 +134,8 @@ TEST(EngineProgram, TheVersionWhoseWallsIgnoreGroupsIsRefused) {
 
 TEST(EngineWords, AnErrorIsQuotedWithTheDecksLine) {
     const TemporaryFolder folder;
-    std::ofstream(folder.path() / "in.x") << "units si\natom_style   sphere  # a comment\npair_style nosuch $x\n";
+    std::ofstream(folder.path() / "in.x")
+        << "units si\natom_style   sphere  # a comment\npair_style nosuch $x\n";
     std::ofstream(folder.path() / "out") << "LAMMPS\nunits si\natom_style sphere\npair_style nosuch $x\n"
                                          << "pair_style nosuch 3\nERROR: Unrecognized pair style 'nosuch'\n"
                                          << "Last command: pair_style nosuch $x\n";

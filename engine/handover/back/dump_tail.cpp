@@ -49,7 +49,8 @@ void sort_by_id(DumpRows& rows) {
     if (std::is_sorted(rows.id.begin(), rows.id.end())) return;
     std::vector<std::size_t> order(rows.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rows.id[a] < rows.id[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return rows.id[a] < rows.id[b]; });
     const auto arrange = [&](auto& list) {
         auto sorted = list;
         for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = list[order[i]];
@@ -66,8 +67,8 @@ void sort_by_id(DumpRows& rows) {
 }  // namespace
 
 void DumpTail::wrong(std::int64_t line, const std::string& what) const {
-    throw UserError(fmt::format("{}:{}: {}; the dump is to be that of the deck as it was written", file_.string(),
-                                line, what));
+    throw UserError(fmt::format("{}:{}: {}; the dump is to be that of the deck as it was written",
+                                file_.string(), line, what));
 }
 
 // Whether there was more.
@@ -76,8 +77,8 @@ bool DumpTail::read_more() {
     const std::uintmax_t size = fs::file_size(file_, error);
     if (error) return false;
     if (size < place_)
-        throw RunError(fmt::format("{}: got shorter while it was read; it was truncated or replaced",
-                                   file_.string()));
+        throw RunError(
+            fmt::format("{}: got shorter while it was read; it was truncated or replaced", file_.string()));
     if (size == place_) return false;
     std::ifstream file(file_, std::ios::binary);
     file.seekg(static_cast<std::streamoff>(place_));
@@ -118,7 +119,8 @@ std::optional<DumpRows> DumpTail::next() {
         // Until all rows can be there nothing is looked at again.
         if (whole && static_cast<std::int64_t>(text_.size() - at) >= rows * kShortestRow) {
             const auto count = static_cast<std::size_t>(rows);
-            for (std::vector<Vec3>* list : {&frame.position, &frame.velocity, &frame.spin}) list->reserve(count);
+            for (std::vector<Vec3>* list : {&frame.position, &frame.velocity, &frame.spin})
+                list->reserve(count);
             frame.id.reserve(count);
             for (std::int64_t row = 0; row < rows && whole; ++row) {
                 const std::size_t end = text_.find('\n', at);

@@ -35,8 +35,8 @@ GrainCount::Change GrainCount::compare(const Frame* before, const Frame& now) co
     if (before == nullptr) {
         const std::int64_t wanted = scene_.grains_at_start();
         if (static_cast<std::int64_t>(now.size()) < wanted)
-            throw RunError(fmt::format("{}: step {}: has {} grains, but the scene begins with {}", file_, now.step,
-                                       now.size(), wanted));
+            throw RunError(fmt::format("{}: step {}: has {} grains, but the scene begins with {}", file_,
+                                       now.step, now.size(), wanted));
         return change;
     }
     std::size_t k = 0;
@@ -48,18 +48,20 @@ GrainCount::Change GrainCount::compare(const Frame* before, const Frame& now) co
         }
         if (!may_leave(*before, i, now.time - before->time)) {
             const Vec3& at = before->position[i];
-            throw RunError(fmt::format("{}: step {}: grain {} is missing; it was last at ({:.4g}, {:.4g}, {:.4g}) m "
-                                       "in step {}, where it could not leave: it broke through a wall, which is "
-                                       "too soft for its speed, or left the box of the run",
-                                       file_, now.step, before->id[i], at.x(), at.y(), at.z(), before->step));
+            throw RunError(
+                fmt::format("{}: step {}: grain {} is missing; it was last at ({:.4g}, {:.4g}, {:.4g}) m "
+                            "in step {}, where it could not leave: it broke through a wall, which is "
+                            "too soft for its speed, or left the box of the run",
+                            file_, now.step, before->id[i], at.x(), at.y(), at.z(), before->step));
         }
         change.left.push_back(i);
     }
     change.came += static_cast<std::int64_t>(now.size() - k);
     if (change.came > 0 && scene_.feeds.empty())
-        throw RunError(fmt::format("{}: step {}: has {} grains that the frame before lacks, and the scene feeds "
-                                   "none; is it the dump of another run?",
-                                   file_, now.step, change.came));
+        throw RunError(
+            fmt::format("{}: step {}: has {} grains that the frame before lacks, and the scene feeds "
+                        "none; is it the dump of another run?",
+                        file_, now.step, change.came));
     return change;
 }
 

@@ -52,7 +52,8 @@ struct ReturnedRun::Impl {
     std::int32_t id_of(std::int64_t there) const {
         const std::int64_t id = there <= facts.grains ? there - 1 : there - 1 - facts.glued;
         if (id < 0 || id > std::numeric_limits<std::int32_t>::max())
-            throw UserError(fmt::format("{}: has an atom {}, which is none of the scene's", facts.dump.string(), there));
+            throw UserError(
+                fmt::format("{}: has an atom {}, which is none of the scene's", facts.dump.string(), there));
         return static_cast<std::int32_t>(id);
     }
 
@@ -68,10 +69,10 @@ struct ReturnedRun::Impl {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const std::int64_t species = rows.type[i] - 1;
             if (species < 0 || species >= std::ssize(scene.species) || !(rows.radius[i] > 0))
-                throw UserError(fmt::format("{}: step {}: atom {} has type {} and radius {}, which none of the "
-                                            "scene's grains has",
-                                            facts.dump.string(), rows.step, rows.id[i], rows.type[i],
-                                            rows.radius[i]));
+                throw UserError(
+                    fmt::format("{}: step {}: atom {} has type {} and radius {}, which none of the "
+                                "scene's grains has",
+                                facts.dump.string(), rows.step, rows.id[i], rows.type[i], rows.radius[i]));
             frame.id.push_back(id_of(rows.id[i]));
             frame.species.push_back(static_cast<std::int32_t>(species));
             frame.radius.push_back(rows.radius[i]);

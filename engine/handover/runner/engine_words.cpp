@@ -52,8 +52,8 @@ std::string engine_error(const fs::path& output, const fs::path& deck) {
     for (std::string line; std::getline(said, line);) {
         const std::string words = words_of(line);
         if (is_error(line)) {
-            const std::string where = at > 0 ? fmt::format("{}:{}", deck.filename().string(), at)
-                                             : deck.filename().string();
+            const std::string where =
+                at > 0 ? fmt::format("{}:{}", deck.filename().string(), at) : deck.filename().string();
             return fmt::format("{}: {}{}", where, cut(line),
                                command.empty() ? "" : fmt::format(" (at `{}`)", cut(command)));
         }

@@ -148,8 +148,8 @@ GuardedProcess::GuardedProcess(const std::vector<std::string>& words, const std:
     int alive[2] = {-1, -1}, result[2] = {-1, -1};
     const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     const int into = ::open(output.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    const bool ready = nothing >= 0 && into >= 0 && ::pipe2(alive, O_CLOEXEC) == 0 &&
-                       ::pipe2(result, O_CLOEXEC) == 0;
+    const bool ready =
+        nothing >= 0 && into >= 0 && ::pipe2(alive, O_CLOEXEC) == 0 && ::pipe2(result, O_CLOEXEC) == 0;
     if (ready) {
         const Launch launch{pointers.data(), place.c_str(), nothing, into, alive[0], result[1]};
         guard_ = ::fork();

@@ -58,7 +58,8 @@ class Handover final : public Verb {
             ->check(CLI::IsMember({"law"}))
             ->type_name("WHAT");
         parser
-            .add_option("--law", law_, "edinburgh: LIGGGHTS on one rank keeps Walton-Braun, its model edinburgh")
+            .add_option("--law", law_,
+                        "edinburgh: LIGGGHTS on one rank keeps Walton-Braun, its model edinburgh")
             ->check(CLI::IsMember({"edinburgh"}))
             ->type_name("LAW");
         parser
@@ -105,8 +106,9 @@ class Handover final : public Verb {
         if (fs::is_directory(*folder_.out, ignored) &&
             (is_handover(*folder_.out) || fs::is_empty(*folder_.out, ignored)))
             return;
-        throw UserError(fmt::format("--out {}: holds no hand-over, and nothing else is replaced; name another folder",
-                                    folder_.out->string()));
+        throw UserError(
+            fmt::format("--out {}: holds no hand-over, and nothing else is replaced; name another folder",
+                        folder_.out->string()));
     }
 
     PackingWatcher watcher(Reporter& reporter) const {
@@ -125,15 +127,16 @@ class Handover final : public Verb {
                      const fs::path& folder) {
         reporter.clear();
         for (const CarryNote& note : carried.changes)
-            reporter.info(fmt::format("{}{}{}: {}", note.where, note.where.empty() ? "" : ": ", note.what, note.why));
+            reporter.info(
+                fmt::format("{}{}{}: {}", note.where, note.where.empty() ? "" : ": ", note.what, note.why));
         if (!start.settled)
             reporter.warning("the grains had not come to rest when the time limit of settling ended");
         const double seconds =
             peer_seconds(carried.engine, carried.frame, carried.grains(),
                          carried.last - carried.first + carried.packing_steps, carried.ranks);
-        reporter.info(fmt::format("{} for {} on {} rank{}, about {:.2g} hours there; {} dumps", folder.string(),
-                                  name_of(carried.engine), carried.ranks, carried.ranks == 1 ? "" : "s",
-                                  seconds / 3600, carried.dumps.size()));
+        reporter.info(fmt::format("{} for {} on {} rank{}, about {:.2g} hours there; {} dumps",
+                                  folder.string(), name_of(carried.engine), carried.ranks,
+                                  carried.ranks == 1 ? "" : "s", seconds / 3600, carried.dumps.size()));
         reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
                                   folder.string(), folder.string()));
         reporter.info(fmt::format("draw it:     ./movie render {}", folder.string()));

@@ -184,11 +184,13 @@ void EngineRun::show_progress() {
     progress.elapsed = desk_.watch.seconds();
     if (const Frame* const last = back_->last()) {
         progress.time = last->time;
-        progress.done = static_cast<double>(last->step) / static_cast<double>(std::max<std::int64_t>(1, carried_.last));
+        progress.done =
+            static_cast<double>(last->step) / static_cast<double>(std::max<std::int64_t>(1, carried_.last));
         const double seconds = running_.seconds();
         progress.particle_steps_per_second =
             static_cast<double>(last->step) * static_cast<double>(last->size()) / seconds;
-        if (progress.done > 0 && seconds > 1) progress.remaining = seconds * (1 - progress.done) / progress.done;
+        if (progress.done > 0 && seconds > 1)
+            progress.remaining = seconds * (1 - progress.done) / progress.done;
         desk_.record.particle_steps_per_second = progress.particle_steps_per_second;
     }
     desk_.listener.progress(progress);
@@ -242,12 +244,11 @@ void EngineRun::report_written() {
         "run.json, log.txt{}",
         folder().string(), film_.files_text(), desk_.record.trajectory_frames, ReturnedRun::kFolder,
         name_of(carried_.engine), page_text()));
-    desk_.listener.info(fmt::format("took {}: packing {}, {} {} on {} ranks {} ({:.1f} M particle-steps/s)",
-                                    duration_text(desk_.watch.seconds()),
-                                    duration_text(desk_.times.of("packing")), name_of(carried_.engine),
-                                    job_.program().version, carried_.ranks,
-                                    duration_text(desk_.times.of("engine")),
-                                    desk_.record.particle_steps_per_second * 1e-6));
+    desk_.listener.info(
+        fmt::format("took {}: packing {}, {} {} on {} ranks {} ({:.1f} M particle-steps/s)",
+                    duration_text(desk_.watch.seconds()), duration_text(desk_.times.of("packing")),
+                    name_of(carried_.engine), job_.program().version, carried_.ranks,
+                    duration_text(desk_.times.of("engine")), desk_.record.particle_steps_per_second * 1e-6));
 }
 
 }  // namespace grainreel
