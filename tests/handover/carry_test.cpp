@@ -1,0 +1,117 @@
+// What is carried to another engine, what is changed by name, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/base/error.hpp"
+#include "engine/handover/carry.hpp"
+#include "engine/scene/file/reader.hpp"
+
+namespace grainreel {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string head = R"(
+[[species]]
+name = "ball"
+count = 50
+diameter = "4 mm"
+density = 2500
+[container]
+shape = "box"
+width = "40 mm"
+depth = "40 mm"
+height = "60 mm"
+[drive]
+frequency = "20 Hz"
+amplitude = "1 mm"
+[run]
+duration = "0.5 s"
+)";
+const std::string exact = "[contact]\nlaw = \"spring-dashpot\"\n";
+
+CarriedScene carried_of(const std::string& text, CarryRequest request = {}) {
+    const Scene scene = read_scene_text(text, "s.toml");
+    return carry(scene, make_plan(scene), request);
+}
+
+std::string refusals(const std::string& text, CarryRequest request = {}) {
+    try {
+        throw_refusals(carried_of(text, request));
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(Carry, RefusesALawThatTheEngineHasNotWithItsLineAndItsFigures) {
+    const std::string text = refusals("[contact]\nlaw = \"walton-braun\"\n" + head);
+    EXPECT_THAT(text, HasSubstr("s.toml:2:"));
+    EXPECT_THAT(text, HasSubstr("--accept law"));
+    EXPECT_THAT(text, HasSubstr("0.4 mm"));
+    EXPECT_THAT(text, HasSubstr("40 %"));
+    EXPECT_THAT(text, HasSubstr("incremental-slip"));
+    EXPECT_THAT(text, HasSubstr("--law edinburgh"));
+}
+
+TEST(Carry, KeepsStiffnessAndRestitutionOfALawThatIsChanged) {
+    CarryRequest request;
+    request.accept_law = true;
+    const std::string text = "[contact]\nrestitution = 0.8\nstiffness = 5000\n" + head;
+    const CarriedScene carried = carried_of(text, request);
+    EXPECT_TRUE(carried.refusals.empty());
+    const CarriedPair& pair = carried.between(0, 0);
+    EXPECT_EQ(pair.law, CarriedLaw::spring_dashpot);
+    EXPECT_EQ(pair.stiffness, 5000);
+    EXPECT_EQ(pair.tangential, 0.8 * 5000);
+    EXPECT_NEAR(pair.restitution, 0.8, 1e-9);
+    EXPECT_EQ(pair.tangential_damping, 0);
+    EXPECT_EQ(carried.surfaces[0].with[0].effective_mass, 2 * pair.effective_mass);
+}
+
+TEST(Carry, TellsAllRefusalsAtOnce) {
+    CarryRequest request;
+    const std::string text =
+        refusals("[contact]\nlaw = \"walton-braun\"\n" + head +
+                     "[[feed]]\nrate = 5\ncount = 3\nlow = [-0.01, -0.01, 0.05]\nhigh = [0.01, 0.01, 0.055]\n",
+                 request);
+    EXPECT_THAT(text, HasSubstr("walton-braun"));
+    EXPECT_THAT(text, HasSubstr("rate of a feed"));
+}
+
+TEST(Carry, TakesTheContainersFrameWhereAllMovesTogether) {
+    EXPECT_EQ(carried_of(exact + head).frame, RunFrame::container);
+    const std::string floor = exact + head;
+    CarriedScene carried = carried_of(exact + "[[wall]]\npoint = [0, 0, 0.05]\nnormal = [0, 0, -1]\n" + head);
+    EXPECT_EQ(carried.frame, RunFrame::lab);
+}
+
+TEST(Carry, KeepsEdinburghToOneRank) {
+    CarryRequest request;
+    request.engine = PeerEngine::liggghts;
+    request.edinburgh = true;
+    const CarriedScene one = carried_of("[contact]\nrestitution = 0.7\nstiffness = 5000\n" + head, request);
+    EXPECT_TRUE(one.refusals.empty());
+    EXPECT_EQ(one.between(0, 0).law, CarriedLaw::edinburgh);
+    EXPECT_NEAR(one.between(0, 0).unloading, 5000 / 0.49, 1e-6);
+    request.ranks = 2;
+    EXPECT_THAT(refusals("[contact]\nrestitution = 0.7\n" + head, request), HasSubstr("--ranks 1"));
+}
+
+TEST(Carry, DumpsAtThePictures) {
+    CarryRequest request;
+    request.dumps = {100, 7, 100, 2000000000};
+    const CarriedScene carried = carried_of(exact + head, request);
+    EXPECT_THAT(carried.dumps, testing::ElementsAre(0, 7, 100, carried.plan.steps));
+}
+
+TEST(DumpStretches, JoinEvenSteps) {
+    const std::vector<DumpStretch> all = dump_stretches({0, 10, 20, 30, 35, 40});
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0].count, 3);
+    EXPECT_EQ(all[1].from, 30);
+    EXPECT_EQ(all[1].every, 5);
+}
+
+}  // namespace
+}  // namespace grainreel
