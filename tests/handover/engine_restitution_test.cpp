@@ -67,7 +67,7 @@ height = "60 mm"
     grain("B", 0, 0.0061, 0.03, 0, 0);
     grain("A", 0.02, 0.0, 0.0011, 0, -speed);
     grain("B", 0.04, 0.0, 0.0031, 0, -speed);
-    return text + "[run]\nduration = 0.002\nstep = 2e-7\n[output]\ntrajectory_interval = \"1 ms\"\n";
+    return text + "[run]\nduration = 0.004\nstep = 2e-7\n[output]\ntrajectory_interval = \"1 ms\"\n";
 }
 
 struct Impacts {
@@ -80,6 +80,7 @@ Impacts run(PeerEngine engine, int ranks, double speed, const std::string& law) 
     CarryRequest request;
     request.engine = engine;
     request.ranks = ranks;
+    request.accept_law = true;  // of the tangential law, which is of no matter here
     CarriedScene carried = carry(scene, make_plan(scene), request);
     throw_refusals(carried);
     const StartState start = start_state(carried, 1, [](const PackingProgress&) { return true; });
@@ -115,6 +116,20 @@ TEST_P(EngineRestitution, OfAllPairsAndWallsIsTheScenes) {
     EXPECT_NEAR(e.bb, 0.7, kNear);
     EXPECT_NEAR(e.a_wall, 0.6, kNear);
     EXPECT_NEAR(e.b_wall, 0.5, kNear);
+}
+
+// Walton and Braun's law with K2 = K1 + S F_max has e = 1 / sqrt(1 + S v sqrt(m / K1)): at half the speed where
+// it is e0 it is 1 / sqrt(1 + (1 / e0^2 - 1) / 2).
+TEST_P(EngineRestitution, ThatFallsWithSpeedIsLudings) {
+    if (GetParam() == PeerEngine::lammps) GTEST_SKIP() << "LAMMPS has no such law";
+    const std::string law = "law = \"walton-braun\"\nfriction_law = \"linear-spring\"\nrestitution_speed = 0.5";
+    const auto at_half = [](double e0) { return 1 / std::sqrt(1 + (1 / (e0 * e0) - 1) / 2); };
+    const Impacts e = run(GetParam(), 1, 0.25, law);
+    EXPECT_NEAR(e.aa, at_half(0.9), kNear);
+    EXPECT_NEAR(e.ab, at_half(0.8), kNear);
+    EXPECT_NEAR(e.bb, at_half(0.7), kNear);
+    EXPECT_NEAR(e.a_wall, at_half(0.6), kNear);
+    EXPECT_NEAR(e.b_wall, at_half(0.5), kNear);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, EngineRestitution, testing::Values(PeerEngine::lammps, PeerEngine::liggghts),
