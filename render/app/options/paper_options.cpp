@@ -16,9 +16,8 @@ CLI::Option* add_paper(CLI::App& verb, PaperOptions& options, const char* about)
         check_typed("--charts", folder);
         options.folder = folder;
     };
-    CLI::Option* charts = verb.add_option_function<std::string>("--charts", take, about)
-                              ->type_name("DIR")
-                              ->check(not_empty());
+    CLI::Option* charts =
+        verb.add_option_function<std::string>("--charts", take, about)->type_name("DIR")->check(not_empty());
     verb.add_option("--as", options.paper.forms, "With --charts: pdf, svg, png, or several with commas [pdf]")
         ->delimiter(',')
         ->check(CLI::IsMember({"pdf", "svg", "png"}))
@@ -45,9 +44,9 @@ void check_paper(const PaperOptions& options) {
         throw UserError("--width-mm and --dpi are numbers, as in --width-mm 85");
     constexpr double inch = 25.4, most_pixels = 20000;
     if (options.paper.width_mm / inch * options.paper.dpi > most_pixels)
-        throw UserError(
-            fmt::format("--dpi {}: a chart {} mm wide would have more than {} pixels across; lower one of them",
-                        options.paper.dpi, options.paper.width_mm, most_pixels));
+        throw UserError(fmt::format(
+            "--dpi {}: a chart {} mm wide would have more than {} pixels across; lower one of them",
+            options.paper.dpi, options.paper.width_mm, most_pixels));
 }
 
 }  // namespace grainreel

@@ -29,8 +29,7 @@ std::vector<std::size_t> shown_rows(const std::vector<double>& y) {
     for (std::size_t part = 0; part < parts; ++part) {
         const std::size_t from = part * count / parts, to = (part + 1) * count / parts;
         std::vector<std::size_t> some, kept{from, to - 1};
-        for (std::size_t i = from; i < to; ++i)
-            std::isfinite(y[i]) ? some.push_back(i) : kept.push_back(i);
+        for (std::size_t i = from; i < to; ++i) std::isfinite(y[i]) ? some.push_back(i) : kept.push_back(i);
         if (!some.empty()) {
             const auto [low, high] = std::minmax_element(some.begin(), some.end(), less);
             kept.insert(kept.end(), {*low, *high});

@@ -64,8 +64,8 @@ std::deque<MeasuredRun> measured_runs(const std::vector<fs::path>& folders) {
         const fs::path file = run.folder / "measures.csv";
         run.table = read_measures_file(file).table;
         if (!run.table || run.table->rows() == 0)
-            throw UserError(fmt::format("{}: is missing or empty, so there is nothing to chart",
-                                        file.string()));
+            throw UserError(
+                fmt::format("{}: is missing or empty, so there is nothing to chart", file.string()));
         if (!run.column("time_s"))
             throw UserError(fmt::format("{}:1: lacks the column time_s", file.string()));
         to_name.push_back({run.folder, run.scene});
@@ -110,16 +110,17 @@ std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::
             add_once(names, name);
         }
     if (names.empty())
-        throw UserError(fmt::format("{}: no measure changes, so the page has no charts; name some with "
-                                    "--measures, or all",
-                                    runs.front().folder.string()));
+        throw UserError(
+            fmt::format("{}: no measure changes, so the page has no charts; name some with "
+                        "--measures, or all",
+                        runs.front().folder.string()));
     return names;
 }
 
 struct MeasureAxis {
-    std::string title;                   // with the unit
-    double size = 1;                     // SI units in one of the axis
-    std::array<double, 2> span{0, 1};    // SI, of all values
+    std::string title;                 // with the unit
+    double size = 1;                   // SI units in one of the axis
+    std::array<double, 2> span{0, 1};  // SI, of all values
 };
 
 std::string with_unit(const std::string& name, const std::string& unit) {
@@ -197,24 +198,27 @@ class RunCharts {
     std::string commands(const MeasureAxis& axis) const {
         const PaperLines lines = lines_on(paper_);
         std::string text = paper_style();
-        text += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-                            gnuplot_lines(time_.title, lines.across), gnuplot_lines(axis.title, lines.upright));
+        text +=
+            fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+                        gnuplot_lines(time_.title, lines.across), gnuplot_lines(axis.title, lines.upright));
         text += "set autoscale xfix\n" + upright_axis(axis);
         if (runs_.size() == 1) return text + "unset key\n";
         std::ptrdiff_t most = 1;
         for (const MeasuredRun& run : runs_) most = std::max(most, std::ssize(wrapped(run.name, lines.key)));
-        return text + fmt::format("set key noenhanced outside above left Left reverse maxcols {} spacing {:.1f}\n",
-                                  lines.keys_a_line, 1.1 * static_cast<double>(most));
+        return text +
+               fmt::format("set key noenhanced outside above left Left reverse maxcols {} spacing {:.1f}\n",
+                           lines.keys_a_line, 1.1 * static_cast<double>(most));
     }
 
     std::string plot(std::size_t k, const std::string& stem, double size) const {
         const std::string title = runs_.size() == 1
                                       ? std::string("notitle")
                                       : "title " + gnuplot_lines(runs_[k].name, lines_on(paper_).key);
-        return fmt::format("{} using (column(1)=={} ? column(2)/{} : NaN):(column(3)/{}) with lines lw 1 lc rgb '{}' "
-                           "dt {} {}",
-                           gnuplot_text(stem + ".csv"), k, time_.size, size, colours[k % colours.size()],
-                           dashes[k % dashes.size()], title);
+        return fmt::format(
+            "{} using (column(1)=={} ? column(2)/{} : NaN):(column(3)/{}) with lines lw 1 lc rgb '{}' "
+            "dt {} {}",
+            gnuplot_text(stem + ".csv"), k, time_.size, size, colours[k % colours.size()],
+            dashes[k % dashes.size()], title);
     }
 
     const std::deque<MeasuredRun>& runs_;
