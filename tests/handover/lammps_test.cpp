@@ -249,5 +249,21 @@ TEST(OnLammps, BedsStayInTheirContainers) {
         shaken));
 }
 
+// Both runs begin with the same grains in the same places; all but those on the floor beside the slot leave.
+TEST(OnLammps, AnOutletOpensAndLetsAsManyGrainsOutAsOurs) {
+    NEEDS_LAMMPS();
+    const test::PeerRun run = test::run_on_lammps(
+        bed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\n"
+            "outlet = { width = \"14 mm\", opens = \"20 ms\", exit_depth = \"20 mm\" }\n"));
+    ASSERT_EQ(run.status, 0) << run.words;
+    EXPECT_EQ(run.dump.begin()->second.size(), 100u);
+    Simulation ours(run.carried.scene, run.carried.plan, 1);
+    ours.pack();
+    ours.advance(run.carried.last);
+    const auto left = static_cast<double>(run.dump.rbegin()->second.size());
+    EXPECT_LT(ours.grains(), 90u);
+    EXPECT_NEAR(left, static_cast<double>(ours.grains()), 8);
+}
+
 }  // namespace
 }  // namespace grainreel
