@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "engine/handover/carry_parts.hpp"
 #include "engine/plan/resolved_scene.hpp"
@@ -51,13 +49,14 @@ CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& req
     return carried;
 }
 
+std::string refusal_text(const CarryNote& note) {
+    return note.where + (note.where.empty() ? "" : ": ") + note.what;
+}
+
 void throw_refusals(const CarriedScene& carried) {
-    if (carried.refusals.empty()) return;
     std::string text;
-    for (const CarryNote& note : carried.refusals)
-        text += fmt::format("{}{}{}{}", text.empty() ? "" : "\n", note.where, note.where.empty() ? "" : ": ",
-                            note.what);
-    throw UserError(text);
+    for (const CarryNote& note : carried.refusals) text += (text.empty() ? "" : "\n") + refusal_text(note);
+    if (!text.empty()) throw UserError(text);
 }
 
 std::vector<DumpStretch> dump_stretches(const std::vector<std::int64_t>& steps) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/handover/carried_scene.hpp"
@@ -23,6 +24,8 @@ struct CarryRequest {
 // scene are of use. Throws UserError where the scene with its new law makes no plan.
 CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& request);
 
+// "file:line:column: what is wrong".
+std::string refusal_text(const CarryNote& note);
 // Throws UserError with all refusals, one a line; none: returns.
 void throw_refusals(const CarriedScene& carried);
 

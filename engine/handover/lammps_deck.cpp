@@ -49,8 +49,9 @@ class LammpsDeck {
     std::string there(std::int64_t step) const { return fmt::format("{}", step + carried_.shift()); }
 
     void head() {
-        add("# Handed over by grainreel, for LAMMPS {}. Goes on with: -var restart {}.1",
+        add("# Handed over by grainreel, for LAMMPS {}. Goes on with: -var goes_on 1 -var restart {}.1",
             version_of(carried_.engine), restart_name(carried_.engine));
+        add("variable goes_on index 0");
         add("variable restart index none");
         add("units si");
         add("atom_style sphere");
@@ -58,8 +59,7 @@ class LammpsDeck {
         add("newton off");
         add("comm_modify mode single vel yes");
         lines_.push_back(processors_line(carried_));
-        add("if \"${{restart}} == none\" then \"read_data {}\" else \"read_restart ${{restart}}\"",
-            data_name);
+        add("if \"${{goes_on}} == 0\" then \"read_data {}\" else \"read_restart ${{restart}}\"", data_name);
         add("neighbor {} bin", carried_.skin);
         add("neigh_modify delay 0 every 1 check yes one 4000");
         add("timestep {}", carried_.step);
@@ -166,7 +166,7 @@ class LammpsDeck {
             if (!begun) {
                 add("dump grains free custom 1 {} id type radius x y z vx vy vz omegax omegay omegaz",
                     dump_name(carried_.engine));
-                add("if \"${{restart}} == none\" then \"dump_modify grains first yes\" else \"dump_modify "
+                add("if \"${{goes_on}} == 0\" then \"dump_modify grains first yes\" else \"dump_modify "
                     "grains "
                     "append yes\"");
                 add("dump_modify grains every v_nextdump sort id format float %.9g flush yes");

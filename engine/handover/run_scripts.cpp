@@ -64,7 +64,7 @@ esac
 constexpr const char* lammps_restart = R"sh(if [ "$1" = --continue ]; then
     last=$(ls -t {restart}.1 {restart}.2 2>/dev/null | head -n 1)
     [ -n "$last" ] || {{ echo "run.sh: there is no restart file to go on from" >&2; exit 2; }}
-    set -- -var restart "$last"
+    set -- -var goes_on 1 -var restart "$last"
 else
     set --
 fi

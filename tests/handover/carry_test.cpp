@@ -71,10 +71,10 @@ TEST(Carry, KeepsStiffnessAndRestitutionOfALawThatIsChanged) {
 
 TEST(Carry, TellsAllRefusalsAtOnce) {
     CarryRequest request;
-    const std::string text =
-        refusals("[contact]\nlaw = \"walton-braun\"\n" + head +
-                     "[[feed]]\nrate = 5\ncount = 3\nlow = [-0.01, -0.01, 0.05]\nhigh = [0.01, 0.01, 0.055]\n",
-                 request);
+    const std::string text = refusals(
+        "[contact]\nlaw = \"walton-braun\"\n" + head +
+            "[[feed]]\nrate = 5\ncount = 3\nlow = [-0.01, -0.01, 0.05]\nhigh = [0.01, 0.01, 0.055]\n",
+        request);
     EXPECT_THAT(text, HasSubstr("walton-braun"));
     EXPECT_THAT(text, HasSubstr("rate of a feed"));
 }

@@ -65,7 +65,8 @@ void expect_our_motion(const std::string& more) {
         // The stretches of ours begin at whole steps, so they may come a part of a step later.
         const double late = 1e-9 + 1e-6 * 0.002;
         ASSERT_NEAR((pose.offset - now.shift * scene.drive.direction).norm(), 0, late) << time << more;
-        ASSERT_NEAR((pose.velocity - now.speed * scene.drive.direction).norm(), 0, late * omega) << time << more;
+        ASSERT_NEAR((pose.velocity - now.speed * scene.drive.direction).norm(), 0, late * omega)
+            << time << more;
         if (time < dt) continue;
         const Motion before = at(formula, time - dt), after = at(formula, time + dt);
         ASSERT_NEAR(now.speed, (after.shift - before.shift) / (2 * dt), 2e-5) << time << more;
@@ -115,7 +116,8 @@ TEST(TurnFormula, IsOurTurn) {
         const TurnFormula formula = turn_formula(turn);
         for (double time = 0.005; time < 1.3; time += 0.01) {
             const test::PeerExpression::Values values{{"t", time}};
-            EXPECT_NEAR(test::PeerExpression::value(formula.angle, values), turn.angle_at(time), 1e-12) << time;
+            EXPECT_NEAR(test::PeerExpression::value(formula.angle, values), turn.angle_at(time), 1e-12)
+                << time;
             EXPECT_NEAR(test::PeerExpression::value(formula.rate, values), turn.rate_at(time), 1e-12) << time;
         }
     }
@@ -131,7 +133,8 @@ TEST(PackingThere, ShiftsTheTime) {
     EXPECT_NEAR(value(800), 0.3, 1e-15);
 }
 
-// The polynomial is the manual's; sqrt(5) beta is the damping of Hertz' dashpot that pulls (Antypov & Elliott).
+// The polynomial is the manual's; sqrt(5) beta is the damping of Hertz' dashpot that pulls (Antypov &
+// Elliott).
 TEST(Dashpot, IsToldToTsuji) {
     for (const double e : {0.3, 0.5, 0.7, 0.9, 0.98}) {
         const double wanted = hertz_damping(e, true);

@@ -1,4 +1,5 @@
-// Decks as LAMMPS runs them, against closed forms. Skipped where there is no `lmp` (./test --peers installs it).
+// Decks as LAMMPS runs them, against closed forms. Skipped where there is no `lmp` (./test --peers installs
+// it).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -71,8 +72,8 @@ trajectory_interval = "6 ms"
 std::vector<double> restitutions(const test::PeerRun& run) {
     const auto& after = run.dump.rbegin()->second;
     const auto speed = [&](std::int64_t id) { return after.at(id).velocity.x(); };
-    return {(speed(2) - speed(1)) / 0.5, (speed(4) - speed(3)) / 0.5, (speed(6) - speed(5)) / 0.5, speed(7) / 0.5,
-            speed(8) / 0.5};
+    return {(speed(2) - speed(1)) / 0.5, (speed(4) - speed(3)) / 0.5, (speed(6) - speed(5)) / 0.5,
+            speed(7) / 0.5, speed(8) / 0.5};
 }
 
 constexpr const char* pairs = R"(
@@ -93,10 +94,12 @@ restitution = 0.5
 )";
 
 void expect_restitutions(const std::string& contact) {
-    const test::PeerRun run = test::run_on_lammps(impacts("gravity = 0\n[contact]\nfriction = 0.3\n" + contact + pairs));
+    const test::PeerRun run =
+        test::run_on_lammps(impacts("gravity = 0\n[contact]\nfriction = 0.3\n" + contact + pairs));
     ASSERT_EQ(run.status, 0) << run.words;
     const std::vector<double> found = restitutions(run), wanted = {0.9, 0.8, 0.7, 0.6, 0.5};
-    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 0.003) << i << " " << contact;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        EXPECT_NEAR(found[i], wanted[i], 0.003) << i << " " << contact;
 }
 
 TEST(OnLammps, ImpactsHaveTheirRestitution) {
@@ -132,16 +135,18 @@ height = "100 mm"
 [start]
 method = "grains"
 [[grain]]
-position = )" + place +
-           "\n" + more + "[run]\n" + run + "[output]\ntrajectory_interval = \"" + output + "\"\n";
+position = )" +
+           place + "\n" + more + "[run]\n" + run + "[output]\ntrajectory_interval = \"" + output + "\"\n";
 }
 
 // It touches nothing, so in the lab it falls freely: z = z0 - g t^2 / 2.
 TEST(OnLammps, AFreeGrainFallsFreelyInTheFrameOfItsContainer) {
     NEEDS_LAMMPS();
-    const test::PeerRun run = test::run_on_lammps(one_ball(
-        "[0, 0, 0.05]",
-        "[drive]\nfrequency = \"50 Hz\"\namplitude = \"2 mm\"\ndirection = [0, 1, 2]\nramp = 0\nphase = 0.2\n", "4 ms"));
+    const test::PeerRun run =
+        test::run_on_lammps(one_ball("[0, 0, 0.05]",
+                                     "[drive]\nfrequency = \"50 Hz\"\namplitude = \"2 mm\"\ndirection = [0, "
+                                     "1, 2]\nramp = 0\nphase = 0.2\n",
+                                     "4 ms"));
     ASSERT_EQ(run.status, 0) << run.words;
     ASSERT_EQ(run.carried.frame, RunFrame::container);
     const WallMotion walls(run.carried.scene.drive, run.carried.plan.clock);
@@ -166,18 +171,21 @@ TEST(OnLammps, AMovingPlaneKicksABall) {
     EXPECT_NEAR(run.dump.rbegin()->second.at(1).velocity.x() / -(1.6 * 0.3), 1, 1e-4);
 }
 
-// A plane that slides under a ball drags it with mu g until it rolls; then it goes with 2/7 of the plane's speed.
+// A plane that slides under a ball drags it with mu g until it rolls; then it goes with 2/7 of the plane's
+// speed.
 TEST(OnLammps, ASlidingPlaneDragsABall) {
     NEEDS_LAMMPS();
     const double radius = 0.0025, mass = 4.0 / 3 * 3.14159265358979 * radius * radius * radius * 2500;
     const double height = 0.01 + radius - mass * 9.81 / 20000;  // at rest on it
-    const test::PeerRun run = test::run_on_lammps(
-        one_ball(fmt::format("[0, 0, {}]", height),
-                 "[[wall]]\nname = \"belt\"\npoint = [0, 0, 0.01]\nnormal = [0, 0, 1]\nvelocity = [0.2, 0, 0]\n",
-                 "2 ms"));
+    const test::PeerRun run = test::run_on_lammps(one_ball(
+        fmt::format("[0, 0, {}]", height),
+        "[[wall]]\nname = \"belt\"\npoint = [0, 0, 0.01]\nnormal = [0, 0, 1]\nvelocity = [0.2, 0, 0]\n",
+        "2 ms"));
     ASSERT_EQ(run.status, 0) << run.words;
     const std::int64_t ms = std::llround(1e-3 / run.carried.step);
-    const auto speed = [&](std::int64_t time) { return run.dump.lower_bound(time * ms)->second.at(1).velocity.x(); };
+    const auto speed = [&](std::int64_t time) {
+        return run.dump.lower_bound(time * ms)->second.at(1).velocity.x();
+    };
     const auto when = [&](std::int64_t time) {
         return static_cast<double>(run.dump.lower_bound(time * ms)->first) * run.carried.step;
     };
@@ -199,11 +207,7 @@ stiffness = 3000
 restitution = 0.7
 [container]
 )" + container +
-           "[run]
-duration = "0.1 s"
-[output]
-trajectory_interval = "20 ms"
-" + more;
+           "[run]\nduration = \"0.1 s\"\n[output]\ntrajectory_interval = \"20 ms\"\n" + more;
 }
 
 void expect_sound(const std::string& text, std::size_t grains = 100) {
@@ -218,26 +222,31 @@ void expect_sound(const std::string& text, std::size_t grains = 100) {
     if (run.carried.frame == RunFrame::container) pose = Pose();
     for (const auto& [id, grain] : last)
         for (const Face& face : run.carried.faces)
-            EXPECT_GT(distance_at(face, pose, grain.position).distance, 0.0019 * 0.9) << id << " " << face.name;
+            EXPECT_GT(distance_at(face, pose, grain.position).distance, 0.0019 * 0.9)
+                << id << " " << face.name;
 }
 
 const std::string shaken = "[drive]\nfrequency = \"30 Hz\"\ng_level = 2\n";
 
 TEST(OnLammps, BedsStayInTheirContainers) {
     NEEDS_LAMMPS();
-    expect_sound(bed("shape = \"wedge\"\nhalf_angle = \"25 deg\"\nslant_height = \"15 mm\"\nhalf_width = \"20 "
-                     "mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\n",
-                     shaken));
-    expect_sound(bed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\nperiodic_depth = true\n",
-                     shaken));
+    expect_sound(
+        bed("shape = \"wedge\"\nhalf_angle = \"25 deg\"\nslant_height = \"15 mm\"\nhalf_width = \"20 "
+            "mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\n",
+            shaken));
+    expect_sound(bed(
+        "shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\nperiodic_depth = true\n",
+        shaken));
     expect_sound(bed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\n",
                      shaken + "moves = \"floor\"\n"));
     expect_sound(bed("shape = \"cylinder\"\ndiameter = \"30 mm\"\nheight = \"80 mm\"\n", shaken));
-    expect_sound(bed("shape = \"cylinder\"\ndiameter = \"30 mm\"\nheight = \"80 mm\"\nturn = { axis = [0, 0, 1], rate = "
-                     "\"30 rpm\" }\n"));
-    expect_sound(bed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\nwall_grains = { faces = "
-                     "[\"floor\"] }\n",
-                     shaken));
+    expect_sound(bed(
+        "shape = \"cylinder\"\ndiameter = \"30 mm\"\nheight = \"80 mm\"\nturn = { axis = [0, 0, 1], rate = "
+        "\"30 rpm\" }\n"));
+    expect_sound(bed(
+        "shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\nwall_grains = { faces = "
+        "[\"floor\"] }\n",
+        shaken));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Evaluates expressions of LAMMPS' input language: numbers, v_ names, + - * /, comparisons, brackets, sin, cos,
-// floor, ceil. Comparisons bind weaker than sums, as there.
+// Evaluates expressions of LAMMPS' input language: numbers, v_ names, + - * /, comparisons, brackets, sin,
+// cos, floor, ceil. Comparisons bind weaker than sums, as there.
 #pragma once
 
 #include <cmath>
@@ -78,7 +78,8 @@ class PeerExpression {
         if (take("floor(")) return std::floor(bracket());
         if (take("ceil(")) return std::ceil(bracket());
         const std::size_t begin = at_;
-        while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_'))
+        while (at_ < text_.size() &&
+               (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_'))
             ++at_;
         const std::string word = text_.substr(begin, at_ - begin);
         const std::string name = word.rfind("v_", 0) == 0 ? word.substr(2) : word;

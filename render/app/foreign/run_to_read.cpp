@@ -6,6 +6,8 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/series/file_groups.hpp"
+#include "engine/handover/back/bring_back.hpp"
+#include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "render/app/report/share_watcher.hpp"
 
@@ -28,6 +30,12 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
                             option, path.string()));
+        if (is_handover(path)) {
+            const ShareWatcher watcher(reporter, Progress::Stage::paging);
+            const BroughtBack back = bring_back(
+                path, build_info::version, [&](double done) { return watcher("reading the dump", done); });
+            for (const std::string& line : back.news) reporter.info(line);
+        }
         return {path, path.parent_path(), false};
     }
     ImportRequest request;

@@ -82,7 +82,10 @@ class Handover final : public Verb {
         check_schedule(scene, count_film(scene, plan.clock, plan.steps));
         request_.dumps = needed_steps(scene, plan.clock, plan.steps);
         CarriedScene carried = carry(scene, plan, request_);
-        throw_refusals(carried);
+        // Each is a line of its own; the last one ends the verb.
+        for (std::size_t i = 0; i + 1 < carried.refusals.size(); ++i)
+            reporter.error(refusal_text(carried.refusals[i]));
+        if (!carried.refusals.empty()) throw UserError(refusal_text(carried.refusals.back()));
         folder_.name = fmt::format("{}-{}", scene.name, engine_);
         folder_.base = output_base();
         folder_.command = command;
