@@ -10,7 +10,7 @@ namespace grainreel {
 // Atom types of its data file: those of grains, and one for each surface that they touch.
 std::size_t liggghts_types(const CarriedScene& carried);
 
-// Reads grains.data and walls/*.stl; writes liggghts.dump, outflow.txt.RANK where there is an outlet,
+// Reads grains.data and walls/*.stl; writes liggghts.dump, outflow.txt where there is an outlet,
 // liggghts.restart.1 and .2 on its way, end.restart.
 std::string liggghts_deck(const CarriedScene& carried);
 
