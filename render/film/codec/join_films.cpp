@@ -50,7 +50,7 @@ class Joined {
     const FilmContainer& container_;
     const AVRational frame_time_;
     OutputPtr output_;
-    std::int64_t delay_ = 0;
+    std::int64_t delay_ = 0, bytes_ = 0, duration_ = 0;  // of packets
     bool begun_ = false;
 };
 
@@ -85,11 +85,18 @@ void Joined::add(AVPacket& packet, const PieceReader& of, std::int64_t before) {
     packet.dts = av_rescale_q(before + of.place() - delay_, frame_time_, base);
     packet.duration = av_rescale_q(packet.duration, of.stream().time_base, base);
     packet.pos = -1;
+    bytes_ += packet.size;
+    duration_ += packet.duration;
     packet.stream_index = 0;
     check(av_write_frame(output_.get(), &packet));
 }
 
 void Joined::finish(const std::filesystem::path& to) {
+    // MP4 has it in its index: that of the film, as where its file was read back in one go, not of a piece.
+    AVStream& film = *output_->streams[0];
+    if (duration_ > 0)
+        film.codecpar->bit_rate =
+            av_rescale(bytes_, std::int64_t{8} * film.time_base.den, duration_ * film.time_base.num);
     check(av_write_trailer(output_.get()));
     check(avio_closep(&output_->pb));
     check(replace_synced(path_, to));

@@ -31,6 +31,9 @@ void check(const PartsWanted& wanted, const FilmRequest& request, const FilmedSc
     if (wanted.number > 0 && request.to_stdout)
         throw UserError(option + ": parts are joined from their folders; leave out --out -, or the part");
     if (!request.film) return;
+    if (wanted.number > 0 && scene.film.format == FilmFormat::y4m)
+        throw UserError(option +
+                        ": films in y4m are not joined; choose another --format, or draw it in one go");
     if (scene.film.format == FilmFormat::gif)
         throw UserError(option +
                         ": a GIF is made as a whole, with the colours of all its pictures; choose another "

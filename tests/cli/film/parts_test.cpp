@@ -118,10 +118,8 @@ TEST_F(PartsOfFilm, JoinedAreTheFilmOfOneGoToTheByte) {
 // With the encoder's own groups in place of those of parts the pictures are the same.
 TEST_F(PartsOfFilm, EachFormatThatHasAFileJoins) {
     run("run", "1");
-    for (const auto& [format, file] : {std::pair("webm", "movie.webm"),
-                                       {"ffv1", "movie.mkv"},
-                                       {"av1", "movie.mp4"},
-                                       {"y4m", "movie.y4m"}}) {
+    for (const auto& [format, file] :
+         {std::pair("webm", "movie.webm"), {"ffv1", "movie.mkv"}, {"av1", "movie.mp4"}}) {
         draw_whole({"--format", format});
         draw_parts({"--format", format});
         const std::string film = std::string("film") + fs::path(file).extension().string();
@@ -185,6 +183,7 @@ TEST_F(PartsOfFilm, WhatCannotBeDrawnInPartsIsRefusedByName) {
         EXPECT_THAT(ended.err, HasSubstr(why));
     };
     expect({"--part", "1/3", "--format", "gif"}, "--part 1/3: a GIF is made as a whole");
+    expect({"--part", "1/3", "--format", "y4m"}, "--part 1/3: films in y4m are not joined");
     expect({"--part", "1/3", "--max-size", "1MB"}, "--part 1/3: film.max_size is a cap on the whole film");
     expect({"--part", "1/20"}, "--part 1/20: the film has 25 pictures, and a part needs 4; 6 parts at most");
     expect({"--part", "4/3"}, "--part 4/3: is no part");
