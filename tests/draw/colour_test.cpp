@@ -89,6 +89,28 @@ TEST(GrainColours, FollowTheFormulaOfTheQuantity) {
     check(GrainValue::kinetic_energy, 0, 2 * turning, 0.5 * mass / 8 * 0.25, turning);
 }
 
+// 0.5 m/s lies in the middle of 0.05 to 5 m/s where equal ratios have equal distances; what stands still has
+// the colour of the low end.
+TEST(GrainColours, OfALogarithmicScaleFollowRatios) {
+    FilmedScene scene = coloured(GrainValue::speed, 0.05, 5, "");
+    scene.film.shows.colour.logarithmic = true;
+    GrainColours colours(scene);
+    expect_albedo(colours, two_balls(), 0, colour_of(scene.film.shows.colour.map, 0.5));
+    expect_albedo(colours, two_balls(), 1, colour_of(scene.film.shows.colour.map, 0));
+}
+
+TEST(GrainLabels, SayWhichGrainIsNotThere) {
+    FilmedScene scene = coloured(GrainValue::speed, 0, 1, "m/s");
+    scene.film.labels = {{0, "first"}, {7, "nobody"}};
+    Renderer renderer(scene, 1);
+    renderer.draw(two_balls(), "");
+    EXPECT_EQ(renderer.last_note(), "label \"nobody\": no grain has had the id 7");
+    Frame later = two_balls();
+    later.id = {0, 7};
+    renderer.draw(later, "");
+    EXPECT_EQ(renderer.last_note(), "");
+}
+
 TEST(GrainColours, ContactsAreCountedOfBothPartners) {
     Frame frame = two_balls();
     frame.touches = {{0, 1, 0.3}, {1, -2, 0.5}};

@@ -27,7 +27,7 @@ std::string triple(const Vec3& v) {
 
 }  // namespace
 
-void add_camera_file(CLI::App& verb, CameraFiles& files) {
+void add_camera_file(CLI::App& verb, CameraFiles& files, bool keep) {
     const auto add = [&](const char* flag, std::optional<fs::path>& into, const char* about) {
         verb.add_option_function<std::string>(
                 flag,
@@ -40,7 +40,7 @@ void add_camera_file(CLI::App& verb, CameraFiles& files) {
             ->check(not_empty());
     };
     add("--camera", files.use, "Look as this file says, which --keep-camera wrote");
-    add("--keep-camera", files.keep, "Write the camera to a file, for --camera with other runs");
+    if (keep) add("--keep-camera", files.keep, "Write the camera to a file, for --camera with other runs");
 }
 
 void use_camera_file(const CameraFiles& files, Assignments& sets) {
@@ -78,6 +78,10 @@ void keep_camera_file(const CameraFiles& files, const Camera& camera) {
     if (fs::exists(*files.keep, ignored))
         throw UserError(
             fmt::format("--keep-camera {}: exists already; choose another name", files.keep->string()));
+    const fs::path folder = files.keep->parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, ignored))
+        throw UserError(fmt::format("--keep-camera {}: there is no folder {}; make it first",
+                                    files.keep->string(), folder.string()));
     if (!camera.keys.empty())
         throw UserError(
             "--keep-camera: the camera moves by [[film.camera.key]], which no file of one camera holds");

@@ -18,8 +18,8 @@ struct CameraFiles {
     std::optional<std::filesystem::path> use, keep;
 };
 
-// --camera and --keep-camera.
-void add_camera_file(CLI::App& verb, CameraFiles& files);
+// --camera, and --keep-camera with `keep`.
+void add_camera_file(CLI::App& verb, CameraFiles& files, bool keep = true);
 
 // The file's keys come before what was set on the command line. Throws UserError with its line for what is no
 // key of a camera.

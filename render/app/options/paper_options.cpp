@@ -1,12 +1,12 @@
 #include "render/app/options/paper_options.hpp"
 
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "render/app/options/number_range.hpp"
 #include "render/app/options/option_groups.hpp"
 
 namespace grainreel {
@@ -25,11 +25,11 @@ CLI::Option* add_paper(CLI::App& verb, PaperOptions& options, const char* about)
         ->type_name("FORM");
     verb.add_option("--width-mm", options.paper.width_mm,
                     "With --charts: width on paper; letters have 8 points at any width [85]")
-        ->check(CLI::Range(40.0, 1000.0))
+        ->check(number_within(40, 1000))
         ->needs(charts)
         ->type_name("MM");
     verb.add_option("--dpi", options.paper.dpi, "With --charts: pixels an inch of png [300]")
-        ->check(CLI::Range(50.0, 2400.0))
+        ->check(number_within(50, 2400))
         ->needs(charts)
         ->type_name("N");
     return charts;
@@ -40,8 +40,6 @@ void check_paper(const PaperOptions& options) {
     if (options.folder && std::filesystem::exists(*options.folder, ignored) &&
         !std::filesystem::is_directory(*options.folder, ignored))
         throw UserError(fmt::format("--charts {}: is a file; name a folder", options.folder->string()));
-    if (!std::isfinite(options.paper.width_mm) || !std::isfinite(options.paper.dpi))
-        throw UserError("--width-mm and --dpi are numbers, as in --width-mm 85");
     constexpr double inch = 25.4, most_pixels = 20000;
     if (options.paper.width_mm / inch * options.paper.dpi > most_pixels)
         throw UserError(fmt::format(

@@ -37,6 +37,7 @@ struct StudyMeasure {
     std::string label;
     std::string column;  // of measures.csv
     Reduction reduction;
+    std::string printed = {};  // the label on paper, with the unit; empty: the label
 };
 
 struct StudyChart {

@@ -4,6 +4,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "render/app/foreign/run_to_read.hpp"
+#include "render/app/options/camera_file.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
@@ -39,6 +40,8 @@ class Compare final : public Verb {
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
         add_scene_keys(parser, request_.sets);
+        const bool keep = false;  // each panel has its own
+        add_camera_file(parser, camera_, keep);
         add_film(parser, film_,
                  "Folder of the film, with one in it for each run [output/ and the scenes' names]");
         for (const char* option : {"--part", "--parts"})
@@ -65,6 +68,7 @@ class Compare final : public Verb {
         }
         if (const std::string option = given_reading(reading_); !any_foreign && !option.empty())
             throw UserError(option + ": is for files of other programs, and none is compared");
+        use_camera_file(camera_, request_.sets);
         if (request_.at) request_.sets = sets_for_still(std::move(request_.sets));
         CompareRun comparison(film_, reporter, read_comparison(request_, film_));
         return tell_folder(comparison.run(), film_);
@@ -97,6 +101,7 @@ class Compare final : public Verb {
     }
 
     CompareRequest request_;
+    CameraFiles camera_;
     ReadingOptions reading_;
     FilmRequest film_;
 };

@@ -9,6 +9,7 @@
 #include "engine/handover/carry.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
+#include "render/app/options/camera_file.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
@@ -33,6 +34,7 @@ class Movie final : public Verb {
 
     void add_options(CLI::App& parser) override {
         add_scene(parser, scene_, sets_);
+        add_camera_file(parser, camera_);
         add_film(parser, film_,
                  "Folder of the run [output/ and the scene's name, numbered when that is taken]");
         parser.add_flag("--no-report", no_page_, "Leave out report.html, the run as a page for a browser");
@@ -68,8 +70,10 @@ class Movie final : public Verb {
         film_.command = command;
         film_.program = program_info();
         if (!no_page_) film_.page = page_of_ended_run();
+        use_camera_file(camera_, sets_);
         const FilmedScene scene = read_filmed_scene(scene_, sets_, measurable_in);
         const Plan plan = plan_with_film(scene);
+        keep_camera_file(camera_, scene.film.camera);
         if (!engine_.empty()) return run_elsewhere(scene, plan, reporter);
         std::optional<Listening> listening;
         if (watched_) listening.emplace(listen_at(place_));
@@ -94,6 +98,7 @@ class Movie final : public Verb {
 
     std::filesystem::path scene_;
     Assignments sets_;
+    CameraFiles camera_;
     FilmRequest film_;
     std::string engine_, accepted_, law_;
     CarryRequest carry_;

@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/camera_file.hpp"
+#include "render/app/options/number_range.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/parts_options.hpp"
 #include "render/app/report/film_report.hpp"
@@ -80,7 +81,7 @@ class Render final : public Verb {
                          "N"),
               {"--width-mm", &request_.width_mm,
                "With --at: width on paper; the picture gets the pixels that this needs", "MM"}})
-            parser.add_option(flag, *into, about)->check(CLI::Range(1.0, 1e5))->type_name(type);
+            parser.add_option(flag, *into, about)->check(number_within(1, 1e5))->type_name(type);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
@@ -91,7 +92,7 @@ class Render final : public Verb {
             .add_option("--idle", idle_,
                         "With --follow: s without a new frame, after which the film ends [60]")
             ->needs(follow)
-            ->check(CLI::Range(0.5, 1e6))
+            ->check(number_within(0.5, 1e6))
             ->type_name("SECONDS");
         for (CLI::Option* other : {at, frame, from, to, every}) follow->excludes(other);
         add_parts(parser, request_.parts, slurm_);

@@ -21,7 +21,7 @@ class RendererDrawer final : public Drawer {
     void remember(const Frames& frames) override { renderer_.remember(*frames.front()); }
     std::string description() const override { return renderer_.gl_description(); }
     std::string note() const override { return renderer_.gl_note(); }
-    std::string last_note() const override { return renderer_.colour_note(); }
+    std::string last_note() const override { return renderer_.last_note(); }
 
   private:
     static FilmedScene with_orbit(FilmedScene scene, const FilmOptions& options) {

@@ -17,7 +17,7 @@ class SideBySideDrawer final : public Drawer {
     }
     std::string description() const override { return panels_.gl_description(); }
     std::string note() const override { return panels_.gl_note(); }
-    std::string last_note() const override { return panels_.colour_note(); }
+    std::string last_note() const override { return panels_.last_note(); }
 
   private:
     SideBySide panels_;

@@ -181,7 +181,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, const RenderReque
     write_png(path, renderer.draw(*picture->frame, "", place.time),
               texts_of(scene.name, scene.film.title, *picture->frame, ""), scene.film.transparent,
               dots_an_inch(what));
-    if (const std::string note = renderer.colour_note(); !note.empty()) listener.info(note);
+    if (const std::string note = renderer.last_note(); !note.empty()) listener.info(note);
     listener.info(
         fmt::format("wrote {}: the run at {:.6g} s, {}", path.string(), picture->frame->time, chosen.from));
     return path;

@@ -33,14 +33,21 @@ GrainColours::GrainColours(const FilmedScene& scene)
     low_ = scale.low();
     high_ = scale.high();
     banded_ = scale.bands() > 0;
+    logarithmic_ = scale.logarithmic();
     const int count = banded_ ? scale.bands() : smooth_steps;
     for (int i = 0; i < count; ++i) steps_.push_back(to_albedo(scale.at_share(i / (count - 1.0))));
+}
+
+// Where in the range a value is, as on the colour bar.
+double GrainColours::share_of(double value) const {
+    if (!logarithmic_) return (value - low_) / (high_ - low_);
+    return value <= low_ ? 0 : std::log(value / low_) / std::log(high_ / low_);
 }
 
 Albedo GrainColours::of_value(double value) const {
     if (std::isnan(value)) return to_albedo(neutral_grain);
     const auto count = static_cast<double>(steps_.size());
-    const double share = (value - low_) / (high_ - low_);
+    const double share = share_of(value);
     const double step = banded_ ? std::floor(share * count) : std::round(share * (count - 1));
     return steps_[static_cast<std::size_t>(std::clamp(step, 0.0, count - 1))];
 }

@@ -31,11 +31,12 @@ class GrainColours {
 
   private:
     Albedo of_value(double value) const;
+    double share_of(double value) const;
 
     Quantities quantities_;
     bool by_species_;
     double low_ = 0, high_ = 1;  // SI
-    bool banded_ = false;
+    bool banded_ = false, logarithmic_ = false;
     ClippedCount clipped_;
     std::vector<Albedo> steps_;  // a species each; or along the colour map, or its bands
     std::vector<Albedo> colours_;

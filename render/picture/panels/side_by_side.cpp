@@ -262,10 +262,10 @@ const Picture& SideBySide::draw(const std::vector<FramePtr>& frames, std::size_t
 const PanelLayout& SideBySide::layout() const {
     return impl_->layout;
 }
-std::string SideBySide::colour_note() const {
+std::string SideBySide::last_note() const {
     std::string notes;
     for (std::size_t i = 0; i < impl_->renderers.size(); ++i)
-        if (const std::string note = impl_->renderers[i]->colour_note(); !note.empty())
+        if (const std::string note = impl_->renderers[i]->last_note(); !note.empty())
             notes += fmt::format("{}panel {}: {}", notes.empty() ? "" : "; ", i + 1, note);
     return notes;
 }

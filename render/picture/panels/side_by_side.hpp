@@ -30,7 +30,7 @@ class SideBySide {
                         double film_time = 0);
 
     const PanelLayout& layout() const;
-    std::string colour_note() const;  // as of Renderer, of all panels
+    std::string last_note() const;  // as of Renderer, of all panels
     std::string gl_description() const;
     std::string gl_note() const;
 

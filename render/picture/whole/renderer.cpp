@@ -125,8 +125,9 @@ struct Renderer::Impl {
     ContainerShapes shapes;
     View eye;
     std::vector<PointForce> point_forces;
-    Picture words;    // beside the port, from picture to picture
-    Picture picture;  // of draw() without a place to draw into
+    std::vector<char> labelled;  // of each label, whether its grain has been there
+    Picture words;               // beside the port, from picture to picture
+    Picture picture;             // of draw() without a place to draw into
 
     void draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
               DrawTimes* times);
@@ -161,7 +162,7 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
     else
         draw_exposed(frame, view, into, watch);
     if (!scene.film.labels.empty())
-        draw_grain_labels(scene, exaggeration.shown(frame), eye, layout, palette, into);
+        draw_grain_labels(scene, exaggeration.shown(frame), eye, layout, palette, into, labelled);
     overlay.lay_over(into);
     watch.lap(&DrawTimes::overlay);
 }
@@ -315,15 +316,18 @@ void Renderer::draw_into(Picture& picture, const Frame& frame, const std::string
     impl_->draw(frame, playback, film_time, picture, nullptr);
 }
 
-std::string Renderer::colour_note() const {
+std::string Renderer::last_note() const {
     const GrainColouring& colour = impl_->scene.film.shows.colour;
     const SpherePainter& of_all = impl_->ghost_painter ? *impl_->ghost_painter : impl_->sphere_painter;
     std::string note;
     if (colour.of_grains()) note = clipped_words(colour, of_all.clipped(), "grains");
     if (colour.of_field()) note = clipped_words(colour, impl_->marks.clipped(), "layer");
-    if (!shows_wear(impl_->scene)) return note;
-    const std::string walls = clipped_words(impl_->scene.film.look.walls, impl_->meshes.clipped());
-    return note + (note.empty() || walls.empty() ? "" : "; ") + walls;
+    const auto add = [&note](const std::string& more) {
+        note += (note.empty() || more.empty() ? "" : "; ") + more;
+    };
+    if (shows_wear(impl_->scene)) add(clipped_words(impl_->scene.film.look.walls, impl_->meshes.clipped()));
+    add(missing_labels(impl_->scene, impl_->labelled));
+    return note;
 }
 
 DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {

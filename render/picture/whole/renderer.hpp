@@ -54,8 +54,9 @@ class Renderer {
     // A frame before the next one drawn, which leaves trails but no picture.
     void remember(const Frame& frame);
 
-    // What of all that was drawn lies beyond the ends of the colour bar; empty for nothing.
-    std::string colour_note() const;
+    // What of all that was drawn lies beyond the ends of the colour bar, and which labels have had no grain;
+    // empty for nothing.
+    std::string last_note() const;
 
     std::string gl_description() const;  // vendor, renderer and version of the context
     std::string gl_note() const;         // why it is not the context one would have expected; mostly empty

@@ -1,5 +1,7 @@
 #include "render/picture/words/grain_labels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -55,11 +57,15 @@ std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const V
 }  // namespace
 
 void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
-                       const PictureLayout& layout, const Palette& palette, Picture& picture) {
+                       const PictureLayout& layout, const Palette& palette, Picture& picture,
+                       std::vector<char>& found) {
     const TypeScale& type = layout.type;
     const TextStyle style{type.main, false};
     std::vector<Placed> all;
-    for (const FilmLabel& label : scene.film.labels) {
+    found.resize(scene.film.labels.size());
+    for (std::size_t k = 0; k < scene.film.labels.size(); ++k) {
+        const FilmLabel& label = scene.film.labels[k];
+        if (row_of(frame, label.id)) found[k] = 1;
         std::optional<Placed> one = placed(label, frame, view, style, 0.6 * type.main);
         if (!one) continue;
         for (const Placed& other : all)
@@ -94,6 +100,15 @@ void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View&
             draw_text(on.get(), one.box.x, one.box.y, one.label->text, style, palette.ink);
     }
     lay_plates(surface.get(), {port}, layout.port, picture);
+}
+
+std::string missing_labels(const FilmedScene& scene, const std::vector<char>& found) {
+    std::string words;
+    for (std::size_t k = 0; k < found.size(); ++k)
+        if (found[k] == 0)
+            words += fmt::format("{}label \"{}\": no grain has had the id {}", words.empty() ? "" : "; ",
+                                 scene.film.labels[k].text, scene.film.labels[k].id);
+    return words;
 }
 
 }  // namespace grainreel

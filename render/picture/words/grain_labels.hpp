@@ -1,6 +1,9 @@
 // Words beside single grains, [[film.label]]: each on a plate to the right of its grain, with a line to it.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "engine/frame.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
@@ -11,8 +14,13 @@
 namespace grainreel {
 
 // Of a frame as it is drawn. A label whose grain is not there, or lies outside the view, is left out; one
-// that would lie over another moves down below it.
+// that would lie over another moves down below it. found: of each label, whether its grain has been there;
+// grows to 1 where it is in this frame.
 void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
-                       const PictureLayout& layout, const Palette& palette, Picture& picture);
+                       const PictureLayout& layout, const Palette& palette, Picture& picture,
+                       std::vector<char>& found);
+
+// "label \"big\": no grain has the id 900 ..."; empty where all labels have had their grain.
+std::string missing_labels(const FilmedScene& scene, const std::vector<char>& found);
 
 }  // namespace grainreel

@@ -1,4 +1,6 @@
 // What a study measures: [[measure]].
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "engine/base/utf8.hpp"
@@ -39,6 +41,17 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
     reduction.threshold = *document.quantity(path, column.dimension);
 }
 
+// "kinetic energy, slope (J/s)".
+std::string printed_label(const MeasureColumn& column, const std::string& how, Reduction::Kind kind) {
+    const std::string of_column = text_of(column.dimension).unit;
+    const bool is_time = kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage;
+    std::string unit = of_column == "1" ? "" : of_column;
+    if (is_time) unit = "s";
+    if (kind == Reduction::Kind::slope) unit = of_column + "/s";
+    const std::string name = fmt::format("{}, {}", column.label, how);
+    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
+
 }  // namespace
 
 void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study) {
@@ -55,7 +68,8 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
     for (const auto& [word, kind] : reduction_words)
         if (word == how) measure.reduction.kind = kind;
     measure.name = document.text(table + ".name").value_or(name + "_" + how);
-    measure.label = document.text(table + ".label").value_or(fmt::format("{} ({})", column->label, how));
+    const std::optional<std::string> label = document.text(table + ".label");
+    measure.label = label.value_or(fmt::format("{} ({})", column->label, how));
     for (const StudyMeasure& other : study.measures)
         if (other.name == measure.name)
             document.fail(document.has(table + ".name") ? table + ".name" : table + ".column",
@@ -63,6 +77,7 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
                                       excerpt(measure.name)));
     read_window(document, scene, table, measure.reduction);
     read_threshold(document, table, *column, measure.reduction);
+    if (!label) measure.printed = printed_label(*column, how, measure.reduction.kind);
     study.measures.push_back(std::move(measure));
 }
 

@@ -20,7 +20,17 @@ constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#
                                              "#e69f00", "#56b4e9", "#000000"};
 constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
 
-constexpr PaperLines screen{80, 55, 60, 2};  // letters of a line
+// What a drawing's size decides.
+struct Look {
+    PaperLines lines;
+    double pen;    // width of curves
+    bool printed;  // with units
+};
+const Look screen{{80, 55, 60, 2}, 2, false};
+
+Look look_on(const Paper& paper) {
+    return {lines_on(paper), 1, true};
+}
 
 // Of the longest name in the key. gnuplot lets the names overlap unless they are set so far apart.
 std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference,
@@ -59,11 +69,11 @@ std::string reference_table(const std::vector<ReferencePoint>& points) {
 
 // A series: its line and points, and over them the bars of those that have some.
 std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number,
-                        const PaperLines& lines) {
-    const std::string style = fmt::format("lc rgb '{}' lw 2", colours[number % colours.size()]);
+                        const Look& look) {
+    const std::string style = fmt::format("lc rgb '{}' lw {}", colours[number % colours.size()], look.pen);
     const int mark = marks[number % marks.size()];
     const std::string title =
-        series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, lines.key);
+        series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, look.lines.key);
     return fmt::format(
         "{0} using (column(1)=={1} ? column(2) : NaN):3 with linespoints pt {2} ps 0.9 {3} {4}, \\\n"
         "    {0} using (column(1)=={1} ? column(2) : NaN):3:4:5 with yerrorbars pt {2} ps 0.9 {3} notitle",
@@ -71,30 +81,32 @@ std::string plot_series(const std::string& table, const ChartSeries& series, std
 }
 
 std::string plots_of(const StudyChart& chart, const std::vector<ChartSeries>& series, bool has_reference,
-                     const PaperLines& lines) {
+                     const Look& look) {
     const std::string stem = chart_stem(chart), table = gnuplot_text(stem + ".csv");
     std::string plots;
     for (std::size_t s = 0; s < series.size(); ++s)
-        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, lines);
+        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, look);
     if (has_reference)
         plots += fmt::format(
             ", \\\n    {0} using 1:2:3 with yerrorbars pt 6 ps 1.1 lw 1.5 lc rgb 'black' title {1}",
-            gnuplot_text(stem + ".reference.csv"), gnuplot_lines(chart.reference_label, lines.key));
+            gnuplot_text(stem + ".reference.csv"), gnuplot_lines(chart.reference_label, look.lines.key));
     return plots;
 }
 
 std::string axes_and_key(const Study& study, const StudyChart& chart, const std::vector<ChartSeries>& series,
-                         bool has_reference, const PaperLines& lines) {
+                         bool has_reference, const Look& look) {
     const Variation& axis = study.variations[chart.x];
-    std::string text = fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-                                   gnuplot_lines(axis.title(), lines.across),
-                                   gnuplot_lines(study.measures[chart.y].label, lines.upright));
+    const StudyMeasure& measure = study.measures[chart.y];
+    const std::string& label = look.printed && !measure.printed.empty() ? measure.printed : measure.label;
+    std::string text =
+        fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+                    gnuplot_lines(axis.title(), look.lines.across), gnuplot_lines(label, look.lines.upright));
     if (!chart.title.empty())
-        text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, lines.across));
-    text += fmt::format(
-        "set key noenhanced outside above left Left reverse maxcols {} spacing {:.1f}\n", lines.keys_a_line,
-        1.1 *
-            static_cast<double>(lines_of_key(series, has_reference ? chart.reference_label : "", lines.key)));
+        text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, look.lines.across));
+    text += fmt::format("set key noenhanced outside above left Left reverse maxcols {} spacing {:.1f}\n",
+                        look.lines.keys_a_line,
+                        1.1 * static_cast<double>(lines_of_key(
+                                  series, has_reference ? chart.reference_label : "", look.lines.key)));
     text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
     if (!axis.numeric) text += word_ticks(axis);
     if (chart.log_x) text += "set logscale x\n";
@@ -172,7 +184,7 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
     std::error_code failure;
     if (!std::filesystem::create_directories(folder, failure) && failure)
         throw UserError(fmt::format("--charts {}: cannot be made ({})", folder.string(), failure.message()));
-    const PaperLines lines = lines_on(paper);
+    const Look look = look_on(paper);
     std::vector<std::filesystem::path> files;
     for (std::size_t i = 0; i < study.charts.size(); ++i) {
         const StudyChart& chart = study.charts[i];
@@ -183,8 +195,8 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
         replace_file(folder / (stem + ".csv"), chart_table(series));
         if (has_reference) replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         for (auto& file : draw_on_paper(
-                 folder, stem, paper_style() + axes_and_key(study, chart, series, has_reference, lines),
-                 plots_of(chart, series, has_reference, lines), paper))
+                 folder, stem, paper_style() + axes_and_key(study, chart, series, has_reference, look),
+                 plots_of(chart, series, has_reference, look), paper))
             files.push_back(std::move(file));
     }
     return files;
