@@ -118,11 +118,12 @@ TEST_P(EngineRestitution, OfAllPairsAndWallsIsTheScenes) {
     EXPECT_NEAR(e.b_wall, 0.5, kNear);
 }
 
-// Walton and Braun's law with K2 = K1 + S F_max has e = 1 / sqrt(1 + S v sqrt(m / K1)): at half the speed where
-// it is e0 it is 1 / sqrt(1 + (1 / e0^2 - 1) / 2).
+// Walton and Braun's law with K2 = K1 + S F_max has e = 1 / sqrt(1 + S v sqrt(m / K1)): at half the speed
+// where it is e0 it is 1 / sqrt(1 + (1 / e0^2 - 1) / 2).
 TEST_P(EngineRestitution, ThatFallsWithSpeedIsLudings) {
     if (GetParam() == PeerEngine::lammps) GTEST_SKIP() << "LAMMPS has no such law";
-    const std::string law = "law = \"walton-braun\"\nfriction_law = \"linear-spring\"\nrestitution_speed = 0.5";
+    const std::string law =
+        "law = \"walton-braun\"\nfriction_law = \"linear-spring\"\nrestitution_speed = 0.5";
     const auto at_half = [](double e0) { return 1 / std::sqrt(1 + (1 / (e0 * e0) - 1) / 2); };
     const Impacts e = run(GetParam(), 1, 0.25, law);
     EXPECT_NEAR(e.aa, at_half(0.9), kNear);
