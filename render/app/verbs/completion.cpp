@@ -32,11 +32,11 @@ class Completion final : public Verb {
 
     int run(Reporter&) override {
         const auto verbs = all_verbs();
-        CompletionWords words{command_table(*make_parser(verbs)), filmed_scene_keys(), {}};
-        for (const ShippedScene& scene : shipped_scenes()) words.scenes.push_back(scene.name);
-        print_result(shell_ == "bash"  ? bash_completion(words)
-                     : shell_ == "zsh" ? zsh_completion(words)
-                                       : fish_completion(words));
+        CompletionWords known{command_table(*make_parser(verbs)), filmed_scene_keys(), {}};
+        for (const ShippedScene& scene : shipped_scenes()) known.scenes.push_back(scene.name);
+        print_result(shell_ == "bash"  ? bash_completion(known)
+                     : shell_ == "zsh" ? zsh_completion(known)
+                                       : fish_completion(known));
         return 0;
     }
 
