@@ -39,6 +39,9 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
     archive_ = std::make_shared<RunArchive>(folder_of_run(folder), scene_, use.for_questions);
     record_ = std::make_unique<AsFilmed>(*this, archive_);
     const FilmShows& shows = scene_.film.shows;
+    if (scene_.film.look.rotation && !archive_->supply().orientations && is_import())
+        throw UserError(
+            fmt::format("{}: its files say no orientations; let film.rotation be false", scene_.title));
     if (scene_.film.look.rotation && !archive_->supply().orientations)
         throw UserError(
             fmt::format("{}: has no orientations, and the film shows rotation; run it with "
@@ -111,8 +114,14 @@ void RecordedRun::leave_out_measures(const std::string& why) {
 }
 
 void RecordedRun::check_columns() const {
+    const bool imported = is_import();
     const auto need = [&](const std::string& name, const std::string& what) {
-        if (!name.empty() && !column_of(table(), name))
+        if (name.empty() || column_of(table(), name)) return;
+        if (imported)
+            throw UserError(
+                fmt::format("{}: {} {}, which is known of runs of ours alone; take that out of the film",
+                            scene_.title, what, name));
+        else
             throw UserError(
                 fmt::format("{}: lacks the column {}, which {}; take that out of the film, or run "
                             "the scene again with it",
@@ -131,9 +140,14 @@ void RecordedRun::read_outflow_of_run() {
     if (!outflow_) archive_->note(fmt::format("{}: is missing; how much has flowed out is left out", name));
 }
 
+bool RecordedRun::is_import() const {
+    std::error_code ignored;
+    return fs::exists(name_of(kImportNews), ignored);
+}
+
 // Walls without their colours would look as if nothing touched them.
 void RecordedRun::read_wear_of_run() {
-    const bool imported = fs::exists(name_of(kImportNews));
+    const bool imported = is_import();
     try {
         const std::string name = name_of("fields.nc");
         if (imported && !fs::exists(name))
