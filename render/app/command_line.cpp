@@ -111,8 +111,8 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [&](const auto& verb) { return app.got_subcommand(verb->name()); });
     GRAINREEL_CHECK(chosen != verbs.end());
-    (*chosen)->words = {argv, argv + argc};
-    (*chosen)->command = shell_words((*chosen)->words);
+    (*chosen)->typed_words = {argv, argv + argc};
+    (*chosen)->command = shell_words((*chosen)->typed_words);
     return std::move(*chosen);
 }
 

@@ -161,7 +161,7 @@ class Render final : public Verb {
         if (source.scene().film.format == FilmFormat::png)
             throw UserError("--slurm: joins films, and format png has none; draw its parts by --part");
         check_joined(*film_.out, source.scene().film.format, film_.force);
-        std::vector<std::string> absolute = words;
+        std::vector<std::string> absolute = typed_words;
         absolute.front() = own_program();
         print_exact(slurm_script(absolute, slurm_, std::filesystem::current_path(), *film_.out));
         return 0;

@@ -38,7 +38,7 @@ class Verb {
 
     ReporterOptions report;          // what add_reporting() fills, for verbs with that group
     std::string command;             // as typed, for run.json
-    std::vector<std::string> words;  // likewise, one by one, the program first
+    std::vector<std::string> typed_words;  // the same word by word, the program first
 
   private:
     const std::string name_, about_, footer_;
