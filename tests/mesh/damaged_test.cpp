@@ -68,7 +68,7 @@ TEST(DamagedMesh, BinaryStl) {
         std::string value;
         append(value, bad);
         bytes.replace(84 + 50 + 12 + 4, 4, value);  // y of the first corner of the second triangle
-        EXPECT_THAT(complaint_of(folder, bytes), HasSubstr(": byte 150: a coordinate"));
+        EXPECT_THAT(complaint_of(folder, bytes), HasSubstr(": byte 150: has a coordinate"));
     }
 }
 
@@ -161,7 +161,7 @@ TEST(DamagedMesh, Ply) {
                 HasSubstr(fmt::format("byte {}: a face names vertex 7", body + 36 + 1 + 8)));
     binary[body + 2] = '\x80', binary[body + 3] = '\x7f';
     EXPECT_THAT(complaint_of(folder, binary),
-                HasSubstr(fmt::format("byte {}: a coordinate that is not", body)));
+                HasSubstr(fmt::format("byte {}: has a coordinate that is no finite", body)));
 }
 
 TEST(DamagedMesh, TrianglesWithoutArea) {

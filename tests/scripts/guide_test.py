@@ -194,6 +194,7 @@ def make_files(program, folder, scene):
         made("export", ours, "--to", form, "--out", name)
     frames = guide_files.read_frames(folder / "frames.csv")
     guide_files.liggghts(folder / "post", frames)
+    guide_files.lammps_local(folder, frames)
     guide_files.mercury(folder, "Chute", frames)
     guide_files.yade(folder, frames)
     guide_files.lethe(folder, frames)

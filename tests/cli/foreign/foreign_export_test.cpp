@@ -105,8 +105,11 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
                 const auto species = [&](const FrameArchive& archive, const Frame& frame) {
                     return archive.world().species.at(static_cast<std::size_t>(frame.species[i])).name;
                 };
-                if (one.names) ASSERT_EQ(species(*found, b), species(*wanted, a)) << a.id[i];
-                if (!one.names) ASSERT_EQ(b.species[i], a.species[i]) << a.id[i];
+                if (one.names) {
+                    ASSERT_EQ(species(*found, b), species(*wanted, a)) << a.id[i];
+                } else {
+                    ASSERT_EQ(b.species[i], a.species[i]) << a.id[i];
+                }
                 ASSERT_LE((a.position[i] - b.position[i]).norm(), one.precision) << a.id[i];
                 ASSERT_LE(std::abs(a.radius[i] - b.radius[i]), one.precision) << a.id[i];
             }
