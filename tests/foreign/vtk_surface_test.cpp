@@ -102,7 +102,8 @@ TEST(WallSurface, WhatIsDamaged) {
                 HasSubstr("a.stl: this ASCII STL has no triangles"));
     std::string nan = binary_stl("", 2);
     nan.replace(84 + 12, 4, as_bytes(std::nanf(""), false));
-    EXPECT_THAT(complaint_of(format, folder.write("a.stl", nan)), HasSubstr("a.stl: byte 96: has a coordinate"));
+    EXPECT_THAT(complaint_of(format, folder.write("a.stl", nan)),
+                HasSubstr("a.stl: byte 96: has a coordinate"));
 }
 
 }  // namespace

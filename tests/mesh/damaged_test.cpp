@@ -68,7 +68,9 @@ TEST(DamagedMesh, BinaryStl) {
         std::string value;
         append(value, bad);
         bytes.replace(84 + 50 + 12 + 4, 4, value);  // y of the first corner of the second triangle
-        EXPECT_THAT(complaint_of(folder, bytes), HasSubstr(": byte 150: has a coordinate"));
+        EXPECT_THAT(
+            complaint_of(folder, bytes),
+            testing::ContainsRegex(": byte 150: (has a coordinate that is no finite|a coordinate of 1e)"));
     }
 }
 

@@ -36,8 +36,8 @@ class Verb {
     // Whether run() looks at stop_signal(); otherwise the first signal ends the program.
     virtual bool ends_in_good_order() const { return true; }
 
-    ReporterOptions report;          // what add_reporting() fills, for verbs with that group
-    std::string command;             // as typed, for run.json
+    ReporterOptions report;                // what add_reporting() fills, for verbs with that group
+    std::string command;                   // as typed, for run.json
     std::vector<std::string> typed_words;  // the same word by word, the program first
 
   private:

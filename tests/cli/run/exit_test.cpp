@@ -1,4 +1,5 @@
-// Grains that leave through an [[exit]]: who left is in outflow.csv, as with an outlet, and a run that goes on keeps it.
+// Grains that leave through an [[exit]]: who left is in outflow.csv, as with an outlet, and a run that goes
+// on keeps it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,8 @@ namespace {
 
 using namespace test;
 
-// Three balls fall freely from 10, 30 and 50 mm above the exit's upper side. A fourth one is too high to reach it.
+// Three balls fall freely from 10, 30 and 50 mm above the exit's upper side. A fourth one is too high to
+// reach it.
 const char* const falling = R"(gravity = 10
 [[species]]
 name = "ball"
