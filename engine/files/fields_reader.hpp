@@ -21,7 +21,7 @@ class FieldsReader {
     ~FieldsReader();
 
     const Middles& middles() const;
-    // Of each axis, m; 0 for an axis that the fields are means along.
+    // Size of a cell along each axis, m; 0 where the fields are means along that axis.
     std::array<double, 3> cell() const;
     const std::vector<std::string>& names() const;  // "density"
     std::size_t records() const;

@@ -38,7 +38,7 @@ struct RunRecord : ProgramInfo {
 
     // What was drawn without being run; then nothing is said of the engine.
     std::vector<DrawnRun> drawn;
-    // Of a film that is a part of another one.
+    // Which part of a film this one is; none for a whole film.
     std::optional<DrawnPart> part;
     // Of a film of several: where each one's files are, a folder beside run.json or another run's.
     std::vector<std::string> panels;

@@ -12,7 +12,7 @@ std::string lammps_law(const CarriedPair& pair) {
     GRAINREEL_CHECK(hertz || pair.law == CarriedLaw::spring_dashpot);
     // It divides by the tangential stiffness, also where nothing rubs.
     const double tangential = pair.tangential > 0 ? pair.tangential : 2.0 / 7 * pair.stiffness;
-    // Of Hertz the share of the tangential dashpot stands there itself.
+    // With Hertz tangential_damping is the share already.
     const double share = hertz              ? pair.tangential_damping
                          : pair.damping > 0 ? pair.tangential_damping / pair.damping
                                             : 0;

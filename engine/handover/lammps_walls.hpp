@@ -15,8 +15,8 @@ struct LammpsRegion {
     std::vector<std::string> variables;  // commands before it
 };
 
-// Of the faces as the run begins, or of those after the outlet has opened. The latter have names that end in
-// "_open" where they are others.
+// The regions of the faces as the run begins, or after the outlet has opened. Names of faces that the outlet
+// has changed end in "_open".
 std::vector<LammpsRegion> lammps_regions(const CarriedScene& carried, bool opened);
 
 // Where grains leave the run: those of the scene's exits and below its outlet.

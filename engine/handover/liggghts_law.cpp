@@ -11,7 +11,7 @@ namespace grainreel {
 
 namespace {
 
-// Of two types, of a type and a surface, or of two surfaces, which never meet.
+// The contact of two types, or of a type and a surface. Two surfaces never meet.
 const CarriedPair& pair_at(const CarriedScene& carried, std::size_t a, std::size_t b) {
     const std::size_t types = carried.type_count();
     if (a < types && b < types) return carried.between(a, b);

@@ -172,8 +172,8 @@ bool must_be_numbers(const std::string& name) {
     return false;
 }
 
-// Of each column whether it holds words. A word among numbers of places, velocities and radii is a mistake
-// in its row. None where a row has another number of cells.
+// Says for each column whether it holds words. A word among numbers of places, velocities and radii is a
+// mistake in its row. None where a row has another number of cells.
 std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
                                           const std::vector<std::string>& names, bool closed,
                                           bool last_may_be_cut) {
