@@ -55,7 +55,7 @@ struct Moment {
     const StepLoop* loop = nullptr;
     std::span<const std::int64_t> fed = {};  // how many grains each of the scene's feeds has given
 
-    double floor_height() const { return pose.offset.z(); }  // m
+    double floor_height() const { return pose.offset.z() + scene.container.base(); }  // m
     // Whether there is anything to segregate.
     bool has_two_kinds() const { return scene.species.size() > 1 && grains.size() > 0; }
 };
