@@ -50,7 +50,7 @@ struct Moment {
     const Traffic& traffic;  // what came and left since then
     std::span<const Face> faces = {};
     const WallSums* wall_sums = nullptr;  // since the drive started; null unless somebody needs them
-    // Of a run; null for a state that was put together by hand.
+    // The run's; null for a state that was put together by hand.
     const Surroundings* around = nullptr;
     const StepLoop* loop = nullptr;
     std::span<const std::int64_t> fed = {};  // how many grains each of the scene's feeds has given

@@ -99,8 +99,8 @@ AskedMoment MomentFinder::last() const {
     return {moments[back].step, moments[back].time, back, back, true};
 }
 
-// Of the film that the run made: its kept moments, one a picture, and where a caption holds a picture, as
-// often as the film shows it.
+// The step that a picture of the run's film shows. The run kept its moments, one a picture, and where a
+// caption holds a picture, as often as the film shows it.
 std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
     const std::filesystem::path file = record_.frames().path() / kFilmMoments;
     std::error_code ignored;

@@ -60,8 +60,8 @@ AnswerTable sum_table(const Snapshot& s, std::int32_t wall, const Forces& on_wal
             true};
 }
 
-// Of a wall whose body moves: where that is. Containers that only shake are left out: there is a column for
-// the work of all walls.
+// Where the body of a wall is, if that body moves. Containers that only shake are left out: there is a column
+// for the work of all walls.
 std::optional<BodyPose> turning_pose(const Snapshot& s, std::int32_t wall) {
     if (const std::optional<std::size_t> mesh = mesh_of_wall(s.scene, wall)) {
         if (!s.scene.meshes[*mesh].moves()) return std::nullopt;

@@ -41,7 +41,7 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
 Grains grains_from_checkpoint(const Scene& scene);
 
 // Beside those grains, in the same order: the contacts they had, group by group of the rules that the
-// checkpoint's own scene gives. Throws likewise.
+// checkpoint's own scene gives. Throws as above.
 std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const ContactRules& rules,
                                                    const WallParts& walls);
 

@@ -213,7 +213,7 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
 
 }  // namespace
 
-// Of long files some frames say which types there are. Where another one has more, all are asked.
+// In long files only some frames are asked which types there are. Where another one has more, all are asked.
 ImportedRun import_run(const ImportRequest& request) {
     try {
         return import_of(request, ForeignArchive(request.from, request.reading));

@@ -16,7 +16,7 @@
 namespace grainreel {
 namespace {
 
-// Of records: how often they come.
+// How often records come.
 std::string interval_text(double periods, double steps, const Plan& plan) {
     if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
     return span_text(steps * plan.clock.step);

@@ -12,7 +12,7 @@ namespace grainreel {
 
 namespace {
 
-// Of the environment; none when it is empty.
+// The value of a variable of the environment; none when it is empty.
 std::optional<std::string> variable(const char* name) {
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0' ? std::optional<std::string>(value) : std::nullopt;

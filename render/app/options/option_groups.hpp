@@ -33,7 +33,8 @@ void add_sets(CLI::App& verb, Assignments& sets, const char* about);
 void add_picture_keys(CLI::App& verb, Assignments& sets);
 // --set, those of the film, --duration and --seed.
 void add_scene_keys(CLI::App& verb, Assignments& sets);
-// Of a single picture: a PNG file, whatever the scene's film is. Throws UserError for keys of a film's file.
+// The settings for a single picture: it is a PNG file, whatever the scene's film is. Throws UserError for
+// keys of a film's file.
 Assignments sets_for_still(Assignments sets);
 // SCENE, and those of its keys.
 void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);

@@ -134,7 +134,8 @@ class Resume final : public Verb {
             folder.string()));
     }
 
-    // Of a run that has come to its end, and is not to be longer. Versions before did not note it.
+    // Whether a run has come to its end, is not to be longer, and lacks its page alone. Older versions did
+    // not note it.
     bool is_only_page_missing(const fs::path& folder) const {
         if (until_ || more_ || !accept_.empty()) return false;
         const fs::path record = folder / "run.json";

@@ -51,7 +51,7 @@ class ComparedMember {
     void close(RunStatus status, int exit_status, FirstFailure& failure);
     void note_failure(const std::string& what) { failed_.note(what); }
 
-    // Of another thread's work; for the progress line.
+    // How far another thread's work is, for the progress line.
     double done() const { return done_; }
     double speed() const { return speed_; }  // particle-steps/s
 
@@ -60,7 +60,7 @@ class ComparedMember {
     const RevisitedRun* record_ = nullptr;  // likewise, when it lies on disk
     std::unique_ptr<FrameSource> source_;
     std::optional<FolderLock> folder_;  // of what is run, once it is made
-    RunRecord report_;                  // likewise
+    RunRecord report_;                  // as above
     std::atomic<double> done_ = 0, speed_ = 0;
     FirstFailure failed_;  // of this member's own work
 };

@@ -37,7 +37,7 @@ bool is_list(std::string_view type) {
                     excerpt(type)));
 }
 
-// Of FieldData, wherever it stands.
+// Reads the element FieldData, wherever it stands.
 void read_field(const XmlArrays& arrays, const XmlElement& field, VtkContents& contents) {
     for (const XmlElement& array : field.children) {
         const std::string_view name = array.attribute("Name");

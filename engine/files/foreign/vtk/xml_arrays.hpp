@@ -27,7 +27,7 @@ class XmlArrays {
     void check(const XmlElement& array, std::uint64_t count) const;
 
     VtkPlace place_of(const XmlElement& array) const;
-    // Of an attribute, 0 where it is missing. Throws UserError for what is no count.
+    // The count that an attribute has, or 0 without the attribute. Throws UserError for what is no count.
     std::uint64_t count_in(const XmlElement& element, std::string_view attribute) const;
     const std::filesystem::path& file() const { return file_; }
 

@@ -18,7 +18,7 @@ struct Reduction {
 // NaN or not.
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values);
 
-// Of rows that are all finite.
+// The mean of rows that are all finite.
 double mean_of_values(const std::vector<double>& values);
 // 1/s times the value's unit: sum (t - mean t) (v - mean v) / sum (t - mean t)^2, the line of least squares.
 // NaN for fewer than two different times.
