@@ -6,6 +6,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/app/options/number_range.hpp"
 #include "render/app/options/option_groups.hpp"
 
 namespace grainreel {
@@ -57,6 +58,23 @@ void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, c
         out = folder;
     };
     verb.add_option_function<std::string>("--out", take, about)->type_name("DIR");
+}
+
+void add_print_size(CLI::App& verb, PrintSize& print) {
+    constexpr double most = 1e5;
+    verb.add_option("--dpi", print.dpi,
+                    "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]")
+        ->check(number_within(1, most))
+        ->type_name("N");
+    verb.add_option("--width-mm", print.width_mm,
+                    "With --at: width on paper; the picture gets the pixels that this needs")
+        ->check(number_within(1, most))
+        ->type_name("MM");
+}
+
+void check_print_size(const PrintSize& print, bool one_picture, const char* moment) {
+    if (!one_picture && print.wanted())
+        throw UserError(fmt::format("{}: is for one picture; add {}", print.dpi ? "--dpi" : "--width-mm", moment));
 }
 
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {

@@ -49,6 +49,11 @@ void add_gl(CLI::App& verb, gl::Provider& provider);
 // Where what a verb makes goes without --out: $GRAINREEL_OUTPUT, else output/.
 std::filesystem::path output_base();
 
+// --dpi and --width-mm: one picture for print.
+void add_print_size(CLI::App& verb, PrintSize& print);
+// Throws UserError where they are given for more than one. moment: the options that ask for one picture.
+void check_print_size(const PrintSize& print, bool one_picture, const char* moment);
+
 // An option that is a time of a finished run, s.
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about);
 

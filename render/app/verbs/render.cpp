@@ -1,6 +1,5 @@
 // The verb `render`: a finished run is drawn again, as a film or as one picture. What it did not keep is
 // brought back from its checkpoints; the run itself stays as it is.
-#include <tuple>
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -75,13 +74,7 @@ class Render final : public Verb {
                             "from 0, to a PNG file")
                 ->type_name("N")
                 ->excludes(at);
-        for (const auto& [flag, into, about, type] :
-             {std::tuple("--dpi", &request_.dpi,
-                         "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]",
-                         "N"),
-              {"--width-mm", &request_.width_mm,
-               "With --at: width on paper; the picture gets the pixels that this needs", "MM"}})
-            parser.add_option(flag, *into, about)->check(number_within(1, 1e5))->type_name(type);
+        add_print_size(parser, request_.print);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
@@ -109,9 +102,7 @@ class Render final : public Verb {
 
     int run(Reporter& reporter) override {
         film_.command = command;
-        if (!is_still() && (request_.dpi || request_.width_mm))
-            throw UserError(fmt::format("{}: is for one picture; add --at or --frame",
-                                        request_.dpi ? "--dpi" : "--width-mm"));
+        check_print_size(request_.print, is_still(), "--at or --frame");
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
         if (follow_) return follow(reporter);

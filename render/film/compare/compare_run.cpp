@@ -81,7 +81,7 @@ bool CompareRun::draw_still(Frames& frames) {
     still_ = fmt::format("still-{}s.png", seconds_in_names(moment.time));
     write_png(folder() / still_, picture,
               texts_of(all_.film.name, all_.film.title, *frames[all_.reference], ""),
-              all_.film.film.transparent);
+              all_.film.film.transparent, all_.dots_an_inch);
     return true;
 }
 
