@@ -31,8 +31,8 @@ int main(int argc, char** argv) try {
         grainreel::Mesh::plate("wall", {-0.05, -0.05, 0}, {0, 0.1, 0}, {0, 0, 0.1}),
     };
     const grainreel::Frame frame = spiral();
-    grainreel::Painter painter(world, frame,
-                               {"film.size=480x360", "film.camera.elevation=25", "species.big.colour=#1f4e9e"});
+    grainreel::Painter painter(
+        world, frame, {"film.size=480x360", "film.camera.elevation=25", "species.big.colour=#1f4e9e"});
     painter.draw(frame, "a spiral").write_png(argv[1]);
     if (argc == 2) return 0;
 

@@ -1,5 +1,5 @@
-// A contact law of one's own: a linear spring and dashpot with friction. A ball falls on a plane with it, and two
-// balls meet in the air.
+// A contact law of one's own: a linear spring and dashpot with friction. A ball falls on a plane with it, and
+// two balls meet in the air.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// A reader of one's own: files that begin with "beads" and have a line "x y z radius" (mm) for each bead, one frame
-// a file. It prints what it has read, draws it, and gives it on as an XYZ file:
+// A reader of one's own: files that begin with "beads" and have a line "x y z radius" (mm) for each bead, one
+// frame a file. It prints what it has read, draws it, and gives it on as an XYZ file:
 //     own_reader FILE picture.png out.xyz
 #include <cstdio>
 #include <fstream>
@@ -20,8 +20,7 @@ class Beads final : public grainreel::FrameSource {
         std::getline(in, first);
         double x = 0, y = 0, z = 0, radius = 0;
         int line = 2;
-        for (; in >> x >> y >> z >> radius; ++line)
-            frame_.add({1e-3 * x, 1e-3 * y, 1e-3 * z}, 1e-3 * radius);
+        for (; in >> x >> y >> z >> radius; ++line) frame_.add({1e-3 * x, 1e-3 * y, 1e-3 * z}, 1e-3 * radius);
         if (!in.eof() || frame_.size() == 0)
             throw grainreel::Error(path.string() + ":" + std::to_string(line) +
                                    ":1: is no line of four numbers, x y z radius in mm");

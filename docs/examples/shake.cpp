@@ -1,5 +1,5 @@
-// Shakes a box of beads and measures it, period by period: the mean height of the centres, the centre of mass as
-// measures.csv has it, and how many contacts there are.
+// Shakes a box of beads and measures it, period by period: the mean height of the centres, the centre of mass
+// as measures.csv has it, and how many contacts there are.
 #include <cstdio>
 
 #include <grainreel/error.hpp>

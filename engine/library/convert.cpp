@@ -66,8 +66,7 @@ void check_ids(const Frame& frame, const std::string& who) {
 }
 
 BodyPose pose_inside(const Pose& pose) {
-    return {inside(pose.place), inside(pose.rotation).normalized(), inside(pose.velocity),
-            inside(pose.spin)};
+    return {inside(pose.place), inside(pose.rotation).normalized(), inside(pose.velocity), inside(pose.spin)};
 }
 
 void check_poses(const std::vector<BodyPose>& bodies, const std::string& who) {

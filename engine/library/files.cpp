@@ -169,8 +169,8 @@ void FrameWriter::write(const Frame& frame) {
     const grainreel::Frame inner =
         inside(frame, impl_->world.species.size(), fmt::format("a frame for {}", impl_->file));
     if (!(inner.time >= impl_->last))
-        throw Error(fmt::format("{}: a frame of {} s comes after one of {} s", impl_->file, inner.time,
-                                impl_->last));
+        throw Error(
+            fmt::format("{}: a frame of {} s comes after one of {} s", impl_->file, inner.time, impl_->last));
     impl_->last = inner.time;
     told([&] { impl_->writer->frame(inner); });
 }

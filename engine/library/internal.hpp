@@ -1,5 +1,5 @@
-// Between the public types of the library, in grainreel::v1, and those of the program, in grainreel. Include it
-// before any public header: there grainreel does not take the names of v1 in.
+// Between the public types of the library, in grainreel::v1, and those of the program, in grainreel. Include
+// it before any public header: there grainreel does not take the names of v1 in.
 #pragma once
 
 #ifndef GRAINREEL_LIBRARY_SOURCE

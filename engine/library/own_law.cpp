@@ -11,8 +11,8 @@ namespace {
 
 constexpr int most_numbers = 16, most_vectors = 4;
 
-// The numbers of a kind, in LawParameters. The law's address stands there in halves, which doubles hold exactly:
-// it is all that a kernel is told of whose it is.
+// The numbers of a kind, in LawParameters. The law's address stands there in halves, which doubles hold
+// exactly: it is all that a kernel is told of whose it is.
 enum Parameter { address_high, address_low, stiffness, restitution, friction, parameters };
 
 // Where a contact's first number stands, as the program's own laws have it.

@@ -85,9 +85,8 @@ std::string Scene::resolved() const {
 
 ContactNumbers Scene::contact(const std::string& first, const std::string& second) const {
     const std::size_t a = place_of_species(impl_->scene, first);
-    const PairPlan& pair = second.empty()
-                               ? impl_->plan.wall[a]
-                               : impl_->plan.between(a, place_of_species(impl_->scene, second));
+    const PairPlan& pair =
+        second.empty() ? impl_->plan.wall[a] : impl_->plan.between(a, place_of_species(impl_->scene, second));
     return {pair.loading_stiffness, pair.restitution, pair.friction, pair.effective_mass, pair.contact_time};
 }
 

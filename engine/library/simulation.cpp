@@ -102,9 +102,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::Simulation(const Scene& scene, const SimulationOptions& options)
     : impl_(std::make_unique<Impl>(scene, options)) {
     Impl& m = *impl_;
-    m.running = told([&] {
-        return std::make_unique<grainreel::Simulation>(m.inner, m.plan, engine_threads(m.inner));
-    });
+    m.running = told(
+        [&] { return std::make_unique<grainreel::Simulation>(m.inner, m.plan, engine_threads(m.inner)); });
 }
 
 Simulation Simulation::from_checkpoint(const Scene& scene, const std::filesystem::path& checkpoint,
@@ -189,8 +188,7 @@ std::vector<Measure> Simulation::measures() const {
 double Simulation::measure(const std::string& column) const {
     impl_->need_grains();
     const std::vector<std::string>& names = impl_->running->measured();
-    if (std::find(names.begin(), names.end(), column) != names.end())
-        return impl_->running->measure(column);
+    if (std::find(names.begin(), names.end(), column) != names.end()) return impl_->running->measure(column);
     const std::optional<std::string> meant = nearest_name(column, names);
     throw Error(fmt::format("'{}' is no column of this scene's measures{}", column,
                             meant ? fmt::format("; '{}' is one", *meant) : ""));
@@ -225,8 +223,8 @@ namespace {
 
 grainreel::NewGrain grain_inside(const NewGrain& grain, const grainreel::Scene& scene) {
     if (grain.species < 0 || grain.species >= std::ssize(scene.species))
-        throw Error(fmt::format("a new grain is of species {}; there are {}", grain.species,
-                                scene.species.size()));
+        throw Error(
+            fmt::format("a new grain is of species {}; there are {}", grain.species, scene.species.size()));
     const Species& kind = scene.species[static_cast<std::size_t>(grain.species)];
     const bool fits = grain.radius >= 0.5 * kind.diameter.smallest * (1 - 1e-9) &&
                       grain.radius <= 0.5 * kind.diameter.largest * (1 + 1e-9);

@@ -10,6 +10,7 @@
 
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "render/library/png_file.hpp"
 #include "render/picture/whole/renderer.hpp"
@@ -42,8 +43,8 @@ std::string toml_text(const std::string& text) {
 
 // Film and colours that the settings say, read as those of a scene with these species and nothing else.
 void take_settings(FilmedScene& scene, const std::vector<std::string>& settings) {
-    if (settings.empty()) return;
-    std::string text = "[container]\nshape = \"none\"\n[run]\nduration = \"1 s\"\n";
+    std::string text = fmt::format("[film]\ntitle = {}\n", toml_text(scene.title));
+    text += "[container]\nshape = \"none\"\n[run]\nduration = \"1 s\"\n";
     for (std::size_t s = 0; s < scene.species.size(); ++s)
         text += fmt::format(
             "[[species]]\nname = {0}\ndiameter = \"1 mm\"\ndensity = \"1 g/cm3\"\n[[grain]]\nspecies = {0}\n"
@@ -53,6 +54,24 @@ void take_settings(FilmedScene& scene, const std::vector<std::string>& settings)
         read_filmed_scene_text(text, "settings of a painter", Assignments(settings), measurable_in);
     scene.film = said.film;
     scene.colours = said.colours;
+}
+
+// The scene of walls of one's own, which knows how far they reach.
+grainreel::Scene scene_with_walls(const grainreel::World& world) {
+    grainreel::Scene scene = scene_of(world);
+    for (SceneMesh& mesh : scene.meshes) {
+        const TriangleMesh& triangles = mesh.surface->mesh();
+        MeshFacts facts = mesh.surface->facts();
+        facts.low = facts.high = triangles.vertices.front();
+        for (const Vec3& point : triangles.vertices) {
+            facts.low = facts.low.cwiseMin(point);
+            facts.high = facts.high.cwiseMax(point);
+        }
+        mesh.low = facts.low;
+        mesh.high = facts.high;
+        mesh.surface.of = std::make_shared<const Surface>(triangles, facts, mesh.name);
+    }
+    return scene;
 }
 
 FilmedScene plain_scene(const grainreel::Scene& scene, const grainreel::Frame& frame,
@@ -94,7 +113,7 @@ Painter::Painter(const Scene& scene, const std::vector<std::string>& settings)
 Painter::Painter(const World& world, const Frame& first, const std::vector<std::string>& settings)
     : impl_(told([&] {
           const grainreel::Frame frame = inside(first, world.species.size(), "the first frame of a painter");
-          return std::make_unique<Impl>(plain_scene(scene_of(inside(world)), frame, settings),
+          return std::make_unique<Impl>(plain_scene(scene_with_walls(inside(world)), frame, settings),
                                         world.species.size());
       })) {}
 
@@ -102,7 +121,7 @@ Painter::Painter(const FrameFile& file, const std::vector<std::string>& settings
     : impl_(told([&] {
           const FrameArchive& frames = *file.impl().archive;
           const grainreel::Frame last = frames.grains(frames.moments().size() - 1);
-          const grainreel::Scene scene = frames.scene() ? *frames.scene() : scene_of(frames.world());
+          const grainreel::Scene scene = frames.scene() ? *frames.scene() : scene_with_walls(frames.world());
           FilmedScene filmed = plain_scene(scene, last, settings);
           const std::size_t kinds = filmed.species.size();
           return std::make_unique<Impl>(std::move(filmed), kinds);
@@ -114,9 +133,8 @@ Painter& Painter::operator=(Painter&&) noexcept = default;
 
 Picture Painter::draw(const Frame& frame, const std::string& words) {
     const grainreel::Frame inner = inside(frame, impl_->species, "a frame to draw");
-    const grainreel::Picture& drawn = told([&]() -> const grainreel::Picture& {
-        return impl_->renderer.draw(inner, words);
-    });
+    const grainreel::Picture& drawn =
+        told([&]() -> const grainreel::Picture& { return impl_->renderer.draw(inner, words); });
     return {drawn.width, drawn.height, drawn.rgba};
 }
 

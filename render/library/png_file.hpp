@@ -7,8 +7,8 @@
 
 namespace grainreel {
 
-// rgba: 4 bytes a pixel, rows from the top. Written to `path`.part and renamed. Throws RunError naming the file
-// and the reason.
+// rgba: 4 bytes a pixel, rows from the top. Written to `path`.part and renamed. Throws RunError naming the
+// file and the reason.
 void write_png_file(const std::filesystem::path& path, int width, int height,
                     const std::vector<std::uint8_t>& rgba);
 

@@ -30,8 +30,8 @@ struct ContactForce {
     Vector tangential{};  ///< N, on the second body; the opposite acts on the first. Across the normal.
 };
 
-/// What a law keeps of a contact from step to step. All is zero when the contact begins, and forgotten when the
-/// overlap ends.
+/// What a law keeps of a contact from step to step. All is zero when the contact begins, and forgotten when
+/// the overlap ends.
 struct ContactMemory {
     std::span<double> numbers;  ///< As many as ContactLaw::numbers() says.
     /// As many as ContactLaw::vectors() says. They turn with the contact, and change sign when the two bodies
@@ -41,10 +41,10 @@ struct ContactMemory {
 
 /// A law between two grains, or a grain and a wall: derive from it, and give it to SimulationOptions::laws.
 ///
-/// The scene's own law still decides the time step: say a stiffness that is like yours (contact.stiffness), and
-/// run.step if that is not enough. Calls are slower than the laws of the program, which take several contacts at
-/// once: docs/guide/library.md has the figure. Numbers are doubles whatever run.precision says, and a resistance
-/// to rolling that the scene has comes on top.
+/// The scene's own law still decides the time step: say a stiffness that is like yours (contact.stiffness),
+/// and run.step if that is not enough. Calls are slower than the laws of the program, which take several
+/// contacts at once: docs/guide/library.md has the figure. Numbers are doubles whatever run.precision says,
+/// and a resistance to rolling that the scene has comes on top.
 class ContactLaw {
   public:
     virtual ~ContactLaw();
@@ -55,13 +55,13 @@ class ContactLaw {
     virtual int vectors() const { return 0; }
 
     /// The force at the end of a step. It is called from several threads at once, and must depend on nothing
-    /// but its arguments if runs are to be alike. To see forces as they stand, without a step, it is called with
-    /// slip and step zero and a copy of the memory. What it throws comes out of Simulation::advance(), some steps
-    /// later.
+    /// but its arguments if runs are to be alike. To see forces as they stand, without a step, it is called
+    /// with slip and step zero and a copy of the memory. What it throws comes out of Simulation::advance(),
+    /// some steps later.
     virtual ContactForce force(const Touch& touch, ContactMemory memory) const = 0;
 
-    /// J, that the contact would give back if it were unloaded now. By itself it is NaN, not known: measures of
-    /// energy are then NaN too, and nobody watches whether the run gains energy out of nothing.
+    /// J, that the contact would give back if it were unloaded now. By itself it is NaN, not known: measures
+    /// of energy are then NaN too, and nobody watches whether the run gains energy out of nothing.
     virtual double stored_energy(const Touch& touch, ContactMemory memory) const;
 };
 

@@ -21,28 +21,28 @@ struct ReadOptions {
     std::map<std::string, std::string> columns{};  ///< The file's column for a meaning: {"radius", "c_rad"}.
     std::optional<double> radius{};                ///< m, of all grains.
     std::optional<double> time_step{};             ///< s, of one step of the file.
-    std::string units{};                           ///< "lj", "si", "cgs", "micro"; empty: as the file says, else SI.
-    std::optional<double> density{};               ///< kg/m3.
+    std::string units{};              ///< "lj", "si", "cgs", "micro"; empty: as the file says, else SI.
+    std::optional<double> density{};  ///< kg/m3.
 };
 
 /// A file or a run's folder with frames, of any kind that can be read. Its moments come by rising time.
 class FrameFile {
   public:
-    /// Readers of one's own are asked first, then those of the program, each by the file's content. Throws Error
-    /// where none takes it, or it is damaged.
+    /// Readers of one's own are asked first, then those of the program, each by the file's content. Throws
+    /// Error where none takes it, or it is damaged.
     explicit FrameFile(const std::filesystem::path& file, const ReadOptions& options = {});
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;             ///< Moves.
     FrameFile& operator=(FrameFile&&) noexcept;  ///< Moves.
 
-    std::size_t size() const;                 ///< How many frames, at least 1.
-    double time(std::size_t index) const;     ///< s, of a frame; NaN where that is not known.
-    std::size_t nearest(double time) const;   ///< The frame whose time is nearest, s.
+    std::size_t size() const;                ///< How many frames, at least 1.
+    double time(std::size_t index) const;    ///< s, of a frame; NaN where that is not known.
+    std::size_t nearest(double time) const;  ///< The frame whose time is nearest, s.
     /// A frame. Throws Error where there is none of that number, and where it is damaged.
     Frame frame(std::size_t index) const;
-    World world() const;                      ///< Species and walls of triangles, as far as the file knows them.
-    bool has_velocities() const;              ///< Whether it knows velocities; else they are zero.
-    std::vector<std::string> news() const;    ///< What one should know of it (damage, guesses), a line each.
+    World world() const;          ///< Species and walls of triangles, as far as the file knows them.
+    bool has_velocities() const;  ///< Whether it knows velocities; else they are zero.
+    std::vector<std::string> news() const;  ///< What one should know of it (damage, guesses), a line each.
 
     /// Writes all frames in another format, as FrameWriter has them; the file must not be there.
     void write(const std::filesystem::path& file, const std::string& format) const;
@@ -82,9 +82,9 @@ class FrameSource {
 class FrameReader {
   public:
     virtual ~FrameReader();
-    virtual std::string name() const = 0;                                        ///< "tipsy"
-    virtual std::string about() const = 0;                                       ///< "a snapshot of Tipsy", for messages.
-    virtual bool takes(const FileHead& head) const = 0;                          ///< Decide by the content.
+    virtual std::string name() const = 0;                ///< "tipsy"
+    virtual std::string about() const = 0;               ///< "a snapshot of Tipsy", for messages.
+    virtual bool takes(const FileHead& head) const = 0;  ///< Decide by the content.
     virtual std::unique_ptr<FrameSource> open(const std::filesystem::path& file) const = 0;  ///< Reads it.
 };
 

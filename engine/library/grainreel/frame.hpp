@@ -24,16 +24,17 @@ struct Frame {
     double time = 0;        ///< s since the drive started; NaN where a file does not tell.
     double cycles = 0;      ///< Periods since the drive started.
 
-    std::vector<std::int32_t> id{};        ///< Each once, rising.
-    std::vector<std::int32_t> species{};   ///< Places in the list of species, from 0.
-    std::vector<double> radius{};          ///< m.
-    std::vector<Vector> position{};        ///< m.
-    std::vector<Vector> velocity{};        ///< m/s.
-    std::vector<Vector> spin{};            ///< rad/s.
-    std::vector<Rotation> orientation{};   ///< Empty unless the scene keeps orientations.
+    std::vector<std::int32_t> id{};       ///< Each once, rising.
+    std::vector<std::int32_t> species{};  ///< Places in the list of species, from 0.
+    std::vector<double> radius{};         ///< m.
+    std::vector<Vector> position{};       ///< m.
+    std::vector<Vector> velocity{};       ///< m/s.
+    std::vector<Vector> spin{};           ///< rad/s.
+    std::vector<Rotation> orientation{};  ///< Empty unless the scene keeps orientations.
 
     /// Container and floor, then the planes of the scene, then its meshes. In a frame of one's own: empty, or
-    /// the poses of the walls of its World, behind two for container and floor. A body without one is at rest.
+    /// the poses of the walls of its World, behind two for container and floor. A body without one is at
+    /// rest.
     std::vector<Pose> bodies{};
 
     /// How many grains there are.

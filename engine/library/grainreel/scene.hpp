@@ -34,16 +34,17 @@ class Scene {
     static Scene from_text(std::string_view text, const std::filesystem::path& file = "scene.toml",
                            const std::vector<std::string>& settings = {});
 
-    std::string name() const;                    ///< The file's stem.
-    std::string title() const;                   ///< As the scene says; may be empty.
-    std::vector<std::string> species() const;    ///< Names; a grain's species is a place in this list.
-    std::int64_t grains() const;                 ///< At the start, and all that ever come.
-    double duration() const;                     ///< s, from the start of the drive.
-    double step() const;                         ///< s, of one time step.
-    std::int64_t steps() const;                  ///< Of the whole duration.
-    double period() const;                       ///< s, of the drive; 0 without one.
-    std::vector<std::string> walls() const;      ///< Names, by the numbers that contacts give walls.
-    std::vector<std::string> warnings() const;   ///< What will run, but perhaps not as one wishes; a line each.
+    std::string name() const;                  ///< The file's stem.
+    std::string title() const;                 ///< As the scene says; may be empty.
+    std::vector<std::string> species() const;  ///< Names; a grain's species is a place in this list.
+    std::int64_t grains() const;               ///< At the start, and all that ever come.
+    double duration() const;                   ///< s, from the start of the drive.
+    double step() const;                       ///< s, of one time step.
+    std::int64_t steps() const;                ///< Of the whole duration.
+    double period() const;                     ///< s, of the drive; 0 without one.
+    std::vector<std::string> walls() const;    ///< Names, by the numbers that contacts give walls.
+    std::vector<std::string> warnings()
+        const;  ///< What will run, but perhaps not as one wishes; a line each.
 
     /// The contact between two species, or with an empty name for `second` between a species and the walls.
     /// Throws Error where there is no such species.

@@ -14,16 +14,18 @@ namespace grainreel::v1 {
 
 /// A wall of triangles, at rest.
 struct Mesh {
-    std::string name{};                                   ///< For people.
-    std::vector<Vector> points{};                         ///< m.
-    std::vector<std::array<std::int32_t, 3>> triangles{};  ///< Places in `points`; counter-clockwise from in front.
+    std::string name{};            ///< For people.
+    std::vector<Vector> points{};  ///< m.
+    std::vector<std::array<std::int32_t, 3>>
+        triangles{};  ///< Places in `points`; counter-clockwise from in front.
 
     /// A parallelogram with a corner (m) and two edges (m).
-    static Mesh plate(const std::string& name, const Vector& corner, const Vector& first, const Vector& second);
+    static Mesh plate(const std::string& name, const Vector& corner, const Vector& first,
+                      const Vector& second);
     /// The six sides of a box between two corners, m. Their fronts face its inside.
     static Mesh box(const std::string& name, const Vector& low, const Vector& high);
-    /// Reads STL, OBJ or PLY, whose numbers are multiplied by `scale` to give m. Throws Error where the file is
-    /// missing, damaged or of another kind.
+    /// Reads STL, OBJ or PLY, whose numbers are multiplied by `scale` to give m. Throws Error where the file
+    /// is missing, damaged or of another kind.
     static Mesh from_file(const std::filesystem::path& file, double scale = 1);
 };
 

@@ -19,8 +19,8 @@ namespace grainreel::v1 {
 struct Picture {
     int width = 0;   ///< Pixels.
     int height = 0;  ///< Pixels.
-    /// Rows from the top, 4 bytes a pixel: red, green, blue, alpha (255: opaque; colours are not multiplied by
-    /// it). width * height * 4 bytes.
+    /// Rows from the top, 4 bytes a pixel: red, green, blue, alpha (255: opaque; colours are not multiplied
+    /// by it). width * height * 4 bytes.
     std::vector<std::uint8_t> rgba{};
 
     /// Writes a PNG, under another name first, so that a file with the name is whole. Throws Error where it
@@ -35,12 +35,14 @@ struct Picture {
 /// and colours, "species.big.colour=#2a6fb0"; docs/reference/scenes.md has all of them.
 class Painter {
   public:
-    /// With the walls and the film of a scene; its frames come from Simulation, run() or a file. The camera has
-    /// all of the container in the picture. Throws Error where a setting is wrong, or no context is to be had.
+    /// With the walls and the film of a scene; its frames come from Simulation, run() or a file. The camera
+    /// has all of the container in the picture. Throws Error where a setting is wrong, or no context is to be
+    /// had.
     explicit Painter(const Scene& scene, const std::vector<std::string>& settings = {});
     /// With walls of one's own. The camera has the walls and the grains of `first` in the picture.
     Painter(const World& world, const Frame& first, const std::vector<std::string>& settings = {});
-    /// As a file's frames are to be drawn: with the walls of its scene or its world, framed for its last frame.
+    /// As a file's frames are to be drawn: with the walls of its scene or its world, framed for its last
+    /// frame.
     explicit Painter(const FrameFile& file, const std::vector<std::string>& settings = {});
     ~Painter();
     Painter(Painter&&) noexcept;             ///< Moves.
