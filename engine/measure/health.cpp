@@ -192,6 +192,8 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
 void EnergyWatch::check(double energy, double work, double through, double allowance,
                         const HealthLimits& limits, const Grains& grains, std::int64_t step) {
     const double balance = energy - work;
+    if (std::isnan(balance))
+        return;  // a caller's law does not know its energy; check_state() has seen the rest
     largest_through_ = std::max(largest_through_, through);
     if (std::isnan(first_)) first_ = balance;
     work_done_ = std::max(work_done_, std::abs(work));

@@ -3,6 +3,7 @@
 include(GNUInstallDirs)
 set(package_sources ${CMAKE_CURRENT_LIST_DIR})
 set(package_made ${CMAKE_BINARY_DIR}/package)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(GRAINREEL_CONTACT "The grainreel authors <grainreel@users.noreply.github.com>" CACHE STRING
     "Who answers for the Debian package")
 
@@ -24,6 +25,8 @@ install(FILES ${package_made}/grainreel.fish DESTINATION ${CMAKE_INSTALL_DATADIR
 install(FILES ${package_sources}/copyright ${package_made}/changelog.gz ${package_made}/CHANGELOG.md.gz
               ${CMAKE_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel)
+
+include(${package_sources}/library.cmake)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME grainreel)
@@ -48,4 +51,18 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6, libavfilter8, fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libegl1, fonts-noto-core, fonts-noto-cjk, python3-xarray, lammps, openmpi-bin")
+
+# Two packages: what people run, and what programs link.
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program dev)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grainreel)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libgrainreel-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "cmake, g++")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "grainreel")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "The library, for programs that link it.
+Static libraries, headers and CMake files of grainreel: run a scene step by
+step, read and write frames, draw them.")
 include(CPack)

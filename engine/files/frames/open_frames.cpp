@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/files/frames/own_readers.hpp"
 #include "engine/files/frames/path_pattern.hpp"
 
 // All readers, a line each, in the order in which they are asked: FrameReader NAME_reader() in
@@ -46,6 +47,7 @@ FileHead head_of(const fs::path& path) {
 
 [[noreturn]] void refuse(const fs::path& path) {
     std::string known;
+    for (const auto& reader : own_readers()) known += fmt::format("\n  {}", reader->about());
     for (const FrameReader& reader : frame_readers()) known += fmt::format("\n  {}", reader.about);
     throw UserError(
         fmt::format("{}: holds no frames that can be read. These can be:{}", path.string(), known));
@@ -67,7 +69,26 @@ const FrameReader* reader_of(const fs::path& path) {
     return nullptr;
 }
 
+namespace {
+
+// By a reader that the calling program has given; null where none takes the file, and mostly none is given.
+std::unique_ptr<FrameArchive> open_by_own_reader(const fs::path& path, const FrameRequest& request) {
+    const std::vector<std::shared_ptr<const OwnReader>> readers = own_readers();
+    if (readers.empty()) return nullptr;
+    const FileHead head = head_of(path);
+    for (const std::shared_ptr<const OwnReader>& reader : readers)
+        if (request.format.empty() ? reader->takes(head) : request.format == reader->name())
+            return reader->open(path, request);
+    return nullptr;
+}
+
+}  // namespace
+
 std::unique_ptr<FrameArchive> open_frames(const fs::path& path, const FrameRequest& request) {
+    if (std::unique_ptr<FrameArchive> own = open_by_own_reader(path, request)) {
+        if (own->moments().empty()) throw UserError(fmt::format("{}: holds no frame", path.string()));
+        return own;
+    }
     if (request.format.empty()) {
         const FrameReader* reader = reader_of(path);
         if (reader == nullptr) refuse(path);

@@ -1,0 +1,180 @@
+// Public values from the program's and back.
+#include "engine/library/internal.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/files/frame_faults.hpp"
+#include "engine/mesh/load_mesh.hpp"
+
+namespace grainreel::v1 {
+
+Vec3 inside(const Vector& v) {
+    return {v.x, v.y, v.z};
+}
+Vector outside(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+Quaternion inside(const Rotation& r) {
+    return {r.w, r.x, r.y, r.z};
+}
+Rotation outside(const Quaternion& q) {
+    return {q.w(), q.x(), q.y(), q.z()};
+}
+
+namespace {
+
+template <class To, class From>
+std::vector<To> each_inside(const std::vector<From>& from) {
+    std::vector<To> to;
+    to.reserve(from.size());
+    for (const From& one : from) to.push_back(inside(one));
+    return to;
+}
+
+template <class To, class From>
+std::vector<To> each_outside(const std::vector<From>& from) {
+    std::vector<To> to;
+    to.reserve(from.size());
+    for (const From& one : from) to.push_back(outside(one));
+    return to;
+}
+
+void check_lengths(const Frame& frame, const std::string& who) {
+    const std::size_t n = frame.id.size();
+    const auto check = [&](std::size_t size, const char* array, bool may_be_empty) {
+        if (size == n || (may_be_empty && size == 0)) return;
+        throw Error(
+            fmt::format("{}: has {} ids and {} entries of {}; give one a grain", who, n, size, array));
+    };
+    check(frame.species.size(), "species", false);
+    check(frame.radius.size(), "radius", false);
+    check(frame.position.size(), "position", false);
+    check(frame.velocity.size(), "velocity", true);
+    check(frame.spin.size(), "spin", true);
+    check(frame.orientation.size(), "orientation", true);
+}
+
+void check_ids(const Frame& frame, const std::string& who) {
+    for (std::size_t i = 0; i < frame.id.size(); ++i) {
+        if (frame.id[i] < 0) throw Error(fmt::format("{}: has id {}; ids start at 0", who, frame.id[i]));
+        if (i > 0 && frame.id[i] <= frame.id[i - 1])
+            throw Error(fmt::format("{}: id {} follows id {}; give grains by rising id, each once", who,
+                                    frame.id[i], frame.id[i - 1]));
+    }
+}
+
+BodyPose pose_inside(const Pose& pose) {
+    return {inside(pose.place), inside(pose.rotation).normalized(), inside(pose.velocity), inside(pose.spin)};
+}
+
+void check_poses(const std::vector<BodyPose>& bodies, const std::string& who) {
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+        if (!bodies[k].place.allFinite() || !bodies[k].rotation.coeffs().allFinite())
+            throw Error(fmt::format("{}: the pose of body {} is no place and rotation", who, k));
+}
+
+}  // namespace
+
+Frame outside(const grainreel::Frame& from) {
+    Frame frame;
+    frame.step = from.step;
+    frame.time = from.time;
+    frame.cycles = from.cycles;
+    frame.id = from.id;
+    frame.species = from.species;
+    frame.radius = from.radius;
+    frame.position = each_outside<Vector>(from.position);
+    frame.velocity = each_outside<Vector>(from.velocity);
+    frame.spin = each_outside<Vector>(from.spin);
+    frame.orientation = each_outside<Rotation>(from.orientation);
+    for (const BodyPose& pose : from.bodies)
+        frame.bodies.push_back(
+            {outside(pose.place), outside(pose.rotation), outside(pose.velocity), outside(pose.spin)});
+    return frame;
+}
+
+grainreel::Frame inside(const Frame& from, std::size_t species, const std::string& who) {
+    check_lengths(from, who);
+    check_ids(from, who);
+    grainreel::Frame frame;
+    frame.step = from.step;
+    frame.time = from.time;
+    frame.cycles = from.cycles;
+    frame.phase = std::isfinite(from.cycles) ? from.cycles - std::floor(from.cycles) : 0;
+    frame.id = from.id;
+    frame.species = from.species;
+    frame.radius = from.radius;
+    frame.position = each_inside<Vec3>(from.position);
+    frame.velocity = each_inside<Vec3>(from.velocity);
+    frame.spin = each_inside<Vec3>(from.spin);
+    frame.velocity.resize(frame.size(), Vec3(0, 0, 0));
+    frame.spin.resize(frame.size(), Vec3(0, 0, 0));
+    for (const Rotation& one : from.orientation) frame.orientation.push_back(inside(one).normalized());
+    if (!from.bodies.empty()) frame.bodies.clear();
+    for (const Pose& pose : from.bodies) frame.bodies.push_back(pose_inside(pose));
+    while (frame.bodies.size() < kFirstPlaneBody) frame.bodies.emplace_back();
+    check_poses(frame.bodies, who);
+    if (const std::optional<std::string> fault = grains_fault(frame, species))
+        throw Error(fmt::format("{}: {}", who, *fault));
+    return frame;
+}
+
+World outside(const grainreel::World& from) {
+    World world;
+    world.title = from.title;
+    for (const WorldSpecies& one : from.species) {
+        world.species.push_back(one.name);
+        world.density.push_back(one.density);
+    }
+    for (std::size_t k = kFirstPlaneBody; k < from.bodies.size(); ++k) {
+        Mesh& mesh = world.walls.emplace_back();
+        mesh.name = from.bodies[k].name;
+        mesh.points = each_outside<Vector>(from.bodies[k].mesh.vertices);
+        mesh.triangles = from.bodies[k].mesh.triangles;
+    }
+    return world;
+}
+
+namespace {
+
+TriangleMesh mesh_inside(const Mesh& from) {
+    TriangleMesh mesh;
+    mesh.vertices = each_inside<Vec3>(from.points);
+    mesh.triangles = from.triangles;
+    if (mesh.empty()) throw Error(fmt::format("wall \"{}\": has no triangle", from.name));
+    for (const Vec3& point : mesh.vertices)
+        if (!point.allFinite()) throw Error(fmt::format("wall \"{}\": a point is no number", from.name));
+    const auto points = static_cast<std::int32_t>(mesh.vertices.size());
+    for (const TriangleMesh::Triangle& triangle : mesh.triangles)
+        for (const std::int32_t corner : triangle)
+            if (corner < 0 || corner >= points)
+                throw Error(fmt::format("wall \"{}\": a triangle names point {}; there are {}", from.name,
+                                        corner, points));
+    MeshFacts facts;
+    mend(mesh, facts);
+    if (mesh.empty()) throw Error(fmt::format("wall \"{}\": no triangle has an area", from.name));
+    return mesh;
+}
+
+}  // namespace
+
+grainreel::World inside(const World& from) {
+    if (from.species.empty()) throw Error("a world has no species; name one at least");
+    if (!from.density.empty() && from.density.size() != from.species.size())
+        throw Error(fmt::format("a world has {} species and {} densities; give one each, or none",
+                                from.species.size(), from.density.size()));
+    grainreel::World world;
+    world.title = from.title;
+    for (std::size_t s = 0; s < from.species.size(); ++s) {
+        WorldSpecies& one = world.species.emplace_back();
+        one.name = from.species[s];
+        if (!from.density.empty()) one.density = from.density[s];
+    }
+    world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
+    for (const Mesh& wall : from.walls) world.bodies.push_back({wall.name, {}, mesh_inside(wall)});
+    return world;
+}
+
+}  // namespace grainreel::v1

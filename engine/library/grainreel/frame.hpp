@@ -1,0 +1,47 @@
+/// @file
+/// One moment: every grain and every body.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "grainreel/vector.hpp"
+
+namespace grainreel::v1 {
+
+/// Where a body (container, floor, plane, mesh) is and how it moves.
+struct Pose {
+    Vector place{};       ///< m, of the body's origin; at rest it is that of the scene.
+    Rotation rotation{};  ///< About that origin.
+    Vector velocity{};    ///< m/s, of the origin.
+    Vector spin{};        ///< rad/s.
+};
+
+/// The grains of one moment as arrays with one entry a grain, by rising id, and the poses of the bodies.
+struct Frame {
+    std::int64_t step = 0;  ///< Steps since the drive started.
+    double time = 0;        ///< s since the drive started; NaN where a file does not tell.
+    double cycles = 0;      ///< Periods since the drive started.
+
+    std::vector<std::int32_t> id{};       ///< Each once, rising.
+    std::vector<std::int32_t> species{};  ///< Places in the list of species, from 0.
+    std::vector<double> radius{};         ///< m.
+    std::vector<Vector> position{};       ///< m.
+    std::vector<Vector> velocity{};       ///< m/s.
+    std::vector<Vector> spin{};           ///< rad/s.
+    std::vector<Rotation> orientation{};  ///< Empty unless the scene keeps orientations.
+
+    /// Container and floor, then the planes of the scene, then its meshes. In a frame of one's own: empty, or
+    /// the poses of the walls of its World, behind two for container and floor. A body without one is at
+    /// rest.
+    std::vector<Pose> bodies{};
+
+    /// How many grains there are.
+    std::size_t size() const { return id.size(); }
+
+    /// Adds a grain at rest; its id is one more than the last one. position and radius in m.
+    void add(const Vector& position, double radius, std::int32_t species = 0);
+};
+
+}  // namespace grainreel::v1

@@ -1,0 +1,67 @@
+/// @file
+/// What is to be run: a scene file, read and planned.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grainreel/version.hpp"
+
+namespace grainreel::v1 {
+
+/// The numbers of one kind of contact, as the plan chose them or the scene said them.
+struct ContactNumbers {
+    double stiffness = 0;       ///< N/m while loading; of Hertz' law at the allowed overlap.
+    double restitution = 1;     ///< At the speed of impact that is expected.
+    double friction = 0;        ///< Coefficient.
+    double effective_mass = 0;  ///< kg, of the lightest pair.
+    double contact_time = 0;    ///< s, of a free impact.
+};
+
+/// A scene that can be run as it stands. It never changes, and copies share it. The keys of scene files:
+/// docs/reference/scenes.md of the program.
+class Scene {
+  public:
+    /// Reads a scene file, or a scene that is shipped with the program where there is no such file
+    /// ("wedge_segregation"). `settings` take precedence over the file: "run.duration=2 s",
+    /// "species.big.count=30". Throws Error at the first mistake, with file, line and column.
+    static Scene from_file(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+    /// The same from text. `file` is its name in messages, and paths in the scene count from its folder.
+    static Scene from_text(std::string_view text, const std::filesystem::path& file = "scene.toml",
+                           const std::vector<std::string>& settings = {});
+
+    std::string name() const;                  ///< The file's stem.
+    std::string title() const;                 ///< As the scene says; may be empty.
+    std::vector<std::string> species() const;  ///< Names; a grain's species is a place in this list.
+    std::int64_t grains() const;               ///< At the start, and all that ever come.
+    double duration() const;                   ///< s, from the start of the drive.
+    double step() const;                       ///< s, of one time step.
+    std::int64_t steps() const;                ///< Of the whole duration.
+    double period() const;                     ///< s, of the drive; 0 without one.
+    std::vector<std::string> walls() const;    ///< Names, by the numbers that contacts give walls.
+    std::vector<std::string> warnings()
+        const;  ///< What will run, but perhaps not as one wishes; a line each.
+
+    /// The contact between two species, or with an empty name for `second` between a species and the walls.
+    /// Throws Error where there is no such species.
+    ContactNumbers contact(const std::string& first, const std::string& second = "") const;
+
+    /// The scene as TOML with everything filled in that was left to the program.
+    std::string resolved() const;
+
+    /// Internal.
+    struct Impl;
+    /// Internal.
+    explicit Scene(std::shared_ptr<const Impl> impl);
+    /// Internal.
+    const Impl& impl() const { return *impl_; }
+
+  private:
+    std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace grainreel::v1

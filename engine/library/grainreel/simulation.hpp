@@ -1,0 +1,119 @@
+/// @file
+/// A scene in motion, step by step.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grainreel/contact.hpp"
+#include "grainreel/contact_law.hpp"
+#include "grainreel/frame.hpp"
+#include "grainreel/scene.hpp"
+
+namespace grainreel::v1 {
+
+/// Which contacts have a law of one's own.
+struct LawChoice {
+    std::shared_ptr<const ContactLaw> law;  ///< Not null.
+    std::string first{};                    ///< Name of a species; empty: any.
+    std::string second{};                   ///< Name of a species, or "walls"; empty: anything.
+};
+
+/// How a simulation is set up.
+struct SimulationOptions {
+    int threads = 0;                ///< 0: as the scene says, or as many as are of use. No bit depends on it.
+    std::vector<LawChoice> laws{};  ///< Of two for one pair the later wins.
+};
+
+/// A grain that is put in while the run goes on.
+struct NewGrain {
+    std::int32_t species = 0;  ///< Place in Scene::species().
+    double radius = 0;         ///< m.
+    double density = 0;        ///< kg/m3; 0: that of its species.
+    Vector position{};         ///< m.
+    Vector velocity{};         ///< m/s.
+    Vector spin{};             ///< rad/s.
+};
+
+/// One number of measures.csv.
+struct Measure {
+    std::string column{};  ///< Its name there, as docs/reference/scenes.md lists them.
+    double value = 0;      ///< In the unit of that list; NaN where there is none.
+};
+
+/// A direction of a field's grid.
+struct FieldAxis {
+    std::string name{};        ///< "z".
+    std::string unit{};        ///< "m".
+    std::vector<double> at{};  ///< The middles of the cells, rising.
+};
+
+/// Means on a grid, for scenes with output.fields.
+struct Field {
+    std::string name{};             ///< "solid_fraction".
+    std::string unit{};             ///< "1".
+    std::vector<FieldAxis> axes{};  ///< That of the last one runs fastest in `values`.
+    std::vector<double> values{};   ///< A cell each; NaN where there is none.
+};
+
+/// A scene that is run: the grains are packed and settle, then the drive begins at time 0. Can be moved, not
+/// copied. Not to be used by two threads at once.
+class Simulation {
+  public:
+    /// Throws Error where the grains do not fit the scene, or a law is chosen for a species that is not
+    /// there.
+    explicit Simulation(const Scene& scene, const SimulationOptions& options = {});
+    /// Goes on from a checkpoint of the same scene (and with the same laws). Throws Error where it cannot be
+    /// used.
+    static Simulation from_checkpoint(const Scene& scene, const std::filesystem::path& checkpoint,
+                                      const SimulationOptions& options = {});
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;             ///< Moves.
+    Simulation& operator=(Simulation&&) noexcept;  ///< Moves.
+
+    /// Places the grains and lets them settle, if the scene does that; advance() does so too. `watcher` is
+    /// told the share that is done of the stage at work, and stops it by false; then false is returned.
+    bool pack(const std::function<bool(double)>& watcher = nullptr);
+
+    /// Runs up to a time (s since the drive began), to the step nearest to it; returns the time reached. A
+    /// time that is past does nothing. Beyond the scene's duration the drive goes on. Throws Error (failure)
+    /// when the run stopped being healthy: overlaps too deep, energy out of nothing, a grain out of its
+    /// container.
+    double advance(double time);
+    /// Runs so many steps, at least 0.
+    void advance_steps(std::int64_t steps);
+
+    double time() const;         ///< s since the drive began.
+    std::int64_t step() const;   ///< Steps since the drive began.
+    bool finished() const;       ///< Whether the scene's duration is reached.
+    const Scene& scene() const;  ///< What is run.
+
+    Frame frame() const;                    ///< Every grain and body now.
+    std::vector<Contact> contacts() const;  ///< All that touch now, by rising `first`, then `second`.
+    std::vector<Measure> measures()
+        const;  ///< All columns of measures.csv. Those of instruments too, if asked for.
+    /// One of them. Throws Error where the scene has no such column.
+    double measure(const std::string& column) const;
+    std::vector<Field> fields() const;  ///< Means on grids now; empty where the scene asks for none.
+    std::uint64_t state_hash() const;   ///< Of every bit that decides the future.
+
+    /// Puts grains in; they must touch nothing. Returns the id of the first. Throws Error where one does not
+    /// fit.
+    std::int32_t insert(const std::vector<NewGrain>& grains);
+    /// Takes grains out, by id. Throws Error where there is no such grain.
+    void remove(const std::vector<std::int32_t>& ids);
+
+    /// Everything that is needed to go on with the same bits. Throws Error where it cannot be written.
+    void save_checkpoint(const std::filesystem::path& file) const;
+
+  private:
+    struct Impl;
+    explicit Simulation(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grainreel::v1

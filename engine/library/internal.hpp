@@ -1,0 +1,68 @@
+// Between the public types of the library, in grainreel::v1, and those of the program, in grainreel. Include
+// it before any public header: there grainreel does not take the names of v1 in.
+#pragma once
+
+#ifndef GRAINREEL_LIBRARY_SOURCE
+#define GRAINREEL_LIBRARY_SOURCE
+#endif
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/base/error.hpp"
+#include "engine/base/vector.hpp"
+#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/world.hpp"
+#include "engine/frame.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "grainreel/error.hpp"
+#include "grainreel/files.hpp"
+#include "grainreel/frame.hpp"
+#include "grainreel/scene.hpp"
+#include "grainreel/world.hpp"
+
+namespace grainreel::v1 {
+
+// Calls a function of the program, and gives its errors as those of the library.
+template <class Call>
+auto told(const Call& call) -> decltype(call()) {
+    try {
+        return call();
+    } catch (const UserError& error) {
+        throw Error(error.what(), Error::Kind::mistake);
+    } catch (const RunError& error) {
+        throw Error(error.what(), Error::Kind::failure);
+    } catch (const std::filesystem::filesystem_error& error) {
+        throw Error(error.what(), Error::Kind::failure);
+    }
+}
+
+Vec3 inside(const Vector& v);
+Vector outside(const Vec3& v);
+Quaternion inside(const Rotation& r);
+Rotation outside(const Quaternion& q);
+
+Frame outside(const grainreel::Frame& frame);
+// Throws Error where lengths differ, ids do not rise, a number is none or a species is not one of `species`;
+// `who` begins the message.
+grainreel::Frame inside(const Frame& frame, std::size_t species, const std::string& who);
+
+World outside(const grainreel::World& world);
+grainreel::World inside(const World& world);
+
+// What was read, how, and its plan.
+struct Scene::Impl {
+    grainreel::Scene scene;
+    Plan plan;
+    std::string text;            // of the file
+    std::filesystem::path file;  // its name
+    std::vector<std::string> settings;
+};
+
+struct FrameFile::Impl {
+    std::unique_ptr<FrameArchive> archive;
+};
+
+}  // namespace grainreel::v1

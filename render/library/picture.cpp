@@ -1,0 +1,141 @@
+// Pictures of frames.
+#include "engine/library/internal.hpp"
+
+#include "grainreel/picture.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/team.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/mesh/surface.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "render/library/png_file.hpp"
+#include "render/picture/whole/renderer.hpp"
+#include "render/scene/plain_film.hpp"
+#include "render/scene/read_scene.hpp"
+
+namespace grainreel::v1 {
+namespace {
+
+FilmedScene filmed_scene(const Scene& scene, const std::vector<std::string>& settings) {
+    const Scene::Impl& read = scene.impl();
+    std::vector<std::string> all = read.settings;
+    all.insert(all.end(), settings.begin(), settings.end());
+    return read_filmed_scene_text(read.text, read.file, Assignments(all), measurable_in);
+}
+
+// A TOML string: quotes, backslashes and control characters escaped.
+std::string toml_text(const std::string& text) {
+    std::string toml = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            toml += fmt::format("\\{}", c);
+        else if (static_cast<unsigned char>(c) < 0x20)
+            toml += fmt::format("\\u{:04x}", static_cast<int>(c));
+        else
+            toml += c;
+    }
+    return toml + '"';
+}
+
+// Film and colours that the settings say, read as those of a scene with these species and nothing else.
+void take_settings(FilmedScene& scene, const std::vector<std::string>& settings) {
+    std::string text = fmt::format("[film]\ntitle = {}\n", toml_text(scene.title));
+    text += "[container]\nshape = \"none\"\n[run]\nduration = \"1 s\"\n";
+    for (std::size_t s = 0; s < scene.species.size(); ++s)
+        text += fmt::format(
+            "[[species]]\nname = {0}\ndiameter = \"1 mm\"\ndensity = \"1 g/cm3\"\n[[grain]]\nspecies = {0}\n"
+            "position = [\"{1} m\", \"0 m\", \"0 m\"]\n",
+            toml_text(scene.species[s].name), s);
+    const FilmedScene said =
+        read_filmed_scene_text(text, "settings of a painter", Assignments(settings), measurable_in);
+    scene.film = said.film;
+    scene.colours = said.colours;
+}
+
+// The scene of walls of one's own, which knows how far they reach.
+grainreel::Scene scene_with_walls(const grainreel::World& world) {
+    grainreel::Scene scene = scene_of(world);
+    for (SceneMesh& mesh : scene.meshes) {
+        const TriangleMesh& triangles = mesh.surface->mesh();
+        MeshFacts facts = mesh.surface->facts();
+        facts.low = facts.high = triangles.vertices.front();
+        for (const Vec3& point : triangles.vertices) {
+            facts.low = facts.low.cwiseMin(point);
+            facts.high = facts.high.cwiseMax(point);
+        }
+        mesh.low = facts.low;
+        mesh.high = facts.high;
+        mesh.surface.of = std::make_shared<const Surface>(triangles, facts, mesh.name);
+    }
+    return scene;
+}
+
+FilmedScene plain_scene(const grainreel::Scene& scene, const grainreel::Frame& frame,
+                        const std::vector<std::string>& settings) {
+    FilmedScene filmed = with_plain_film(scene, frame);
+    take_settings(filmed, settings);
+    return filmed;
+}
+
+// A painter holds one thread's worth of drawing; more than a few are of no use to one picture.
+int raster_threads() {
+    return std::clamp(usable_processors(), 1, 8);
+}
+
+}  // namespace
+
+void Picture::write_png(const std::filesystem::path& file) const {
+    if (width < 1 || height < 1 ||
+        rgba.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4)
+        throw Error(fmt::format("{}: a picture of {} x {} pixels has {} bytes; 4 a pixel were expected",
+                                file.string(), width, height, rgba.size()));
+    told([&] { write_png_file(file, width, height, rgba); });
+}
+
+struct Painter::Impl {
+    Impl(FilmedScene filmed, std::size_t kinds)
+        : scene(std::move(filmed)), species(kinds), renderer(scene, raster_threads()) {}
+
+    FilmedScene scene;
+    std::size_t species;
+    Renderer renderer;
+};
+
+Painter::Painter(const Scene& scene, const std::vector<std::string>& settings)
+    : impl_(told([&] {
+          return std::make_unique<Impl>(filmed_scene(scene, settings), scene.impl().scene.species.size());
+      })) {}
+
+Painter::Painter(const World& world, const Frame& first, const std::vector<std::string>& settings)
+    : impl_(told([&] {
+          const grainreel::Frame frame = inside(first, world.species.size(), "the first frame of a painter");
+          return std::make_unique<Impl>(plain_scene(scene_with_walls(inside(world)), frame, settings),
+                                        world.species.size());
+      })) {}
+
+Painter::Painter(const FrameFile& file, const std::vector<std::string>& settings)
+    : impl_(told([&] {
+          const FrameArchive& frames = *file.impl().archive;
+          const grainreel::Frame last = frames.grains(frames.moments().size() - 1);
+          const grainreel::Scene scene = frames.scene() ? *frames.scene() : scene_with_walls(frames.world());
+          FilmedScene filmed = plain_scene(scene, last, settings);
+          const std::size_t kinds = filmed.species.size();
+          return std::make_unique<Impl>(std::move(filmed), kinds);
+      })) {}
+
+Painter::~Painter() = default;
+Painter::Painter(Painter&&) noexcept = default;
+Painter& Painter::operator=(Painter&&) noexcept = default;
+
+Picture Painter::draw(const Frame& frame, const std::string& words) {
+    const grainreel::Frame inner = inside(frame, impl_->species, "a frame to draw");
+    const grainreel::Picture& drawn =
+        told([&]() -> const grainreel::Picture& { return impl_->renderer.draw(inner, words); });
+    return {drawn.width, drawn.height, drawn.rgba};
+}
+
+}  // namespace grainreel::v1
