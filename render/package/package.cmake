@@ -25,6 +25,9 @@ install(FILES ${package_sources}/copyright ${package_made}/changelog.gz ${packag
               ${CMAKE_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel)
 
+# A module of Python alone, which needs nothing until somebody imports it.
+install(FILES ${package_sources}/python/grainreel.py DESTINATION lib/python3/dist-packages)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME grainreel)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
