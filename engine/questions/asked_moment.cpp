@@ -232,4 +232,32 @@ void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool 
     }
 }
 
+void MomentFinder::at_every(double interval, const ReplayWatcher& watcher,
+                            const std::function<void(const Snapshot&)>& see) {
+    constexpr double most = 1e6, rounding = 1e-9;
+    const Clock& clock = record_.clock();
+    const std::int64_t last_step = record_.moments().back().step;
+    const double first = std::ceil(record_.from() / interval - rounding),
+                 count = std::floor(record_.to() / interval + rounding) - first + 1;
+    if (count > most)
+        throw UserError(fmt::format(
+            "--every: makes {:.3g} moments, and the most are {:.0g}; take a longer time", count, most));
+    if (count < 1) throw UserError("--every: no multiple of it lies in the run; take a shorter time");
+    const auto step_of = [&](double k) {
+        return std::min(last_step,
+                        static_cast<std::int64_t>(std::llround((first + k) * interval / clock.step)));
+    };
+    AskedMoment begin;
+    begin.step = step_of(0);
+    begin.time = clock.time(begin.step);
+    check_can_bring_back(begin);
+    Simulation run = replayed(record_.frames().path(), record_.checkpoints(), begin.step,
+                              record_.scene().run.threads, watcher);
+    for (double k = 0; k < count; ++k) {
+        run.advance(step_of(k));
+        see(snapshot_of(run, record_));
+        if (!watcher((k + 1) / count)) throw RunError("stopped before the moments were reached");
+    }
+}
+
 }  // namespace grainreel

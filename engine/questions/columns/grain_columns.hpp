@@ -53,6 +53,7 @@ class GrainVocabulary final : public Vocabulary {
     // Throws UserError for a column that needs what the snapshot lacks.
     std::optional<Word> find(std::string_view name) const override;
     std::vector<std::string> names() const override;
+    std::optional<Word> touching(std::string_view who) const override;
 
   private:
     const Snapshot& snapshot_;

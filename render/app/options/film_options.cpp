@@ -97,6 +97,20 @@ void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
     add_gl(verb, film.gl);
 }
 
+CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest) {
+    constexpr double worth_a_file = 1;  // s
+    shortest = worth_a_file;
+    if (const auto word = variable("GRAINREEL_PACKINGS")) {
+        if (*word != "off" && *word != "all")
+            throw UserError(fmt::format("GRAINREEL_PACKINGS={}: is neither off nor all", excerpt(*word)));
+        shortest = *word == "all" ? std::optional(0.0) : std::nullopt;
+    }
+    return verb.add_flag_callback(
+        "--no-cache", [&shortest] { shortest.reset(); },
+        "Pack anew, and keep no packing: one that took longer than a second is else kept in the user's\n"
+        "cache folder for later runs of the same start, whose bits are the same [$GRAINREEL_PACKINGS]");
+}
+
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about) {
     return verb
         .add_option_function<std::string>(

@@ -53,6 +53,10 @@ std::filesystem::path output_base();
 void add_print_size(CLI::App& verb, PrintSize& print);
 // Throws UserError where they are given for more than one. moment: the options that ask for one picture.
 void check_print_size(const PrintSize& print, bool one_picture, const char* moment);
+// --no-cache, of a verb that runs scenes: packings are neither taken from the user's cache folder nor kept
+// there. shortest: s, of packings that are kept; none once that is said, by the option or by
+// GRAINREEL_PACKINGS=off; 0 with GRAINREEL_PACKINGS=all. Throws UserError for another value.
+CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest);
 
 // An option that is a time of a finished run, s.
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about);

@@ -45,6 +45,7 @@ class Compare final : public Verb {
         add_camera_file(parser, camera_, keep);
         add_film(parser, film_,
                  "Folder of the film, with one in it for each run [output/ and the scenes' names]");
+        add_no_cache(parser, film_.keep_packings);
         for (const char* option : {"--part", "--parts"})
             parser
                 .add_option_function<std::string>(
