@@ -59,8 +59,8 @@ void change_line(std::string& bytes, std::size_t at, Random& random) {
 
 void change_number(std::string& bytes, std::size_t at, Random& random) {
     constexpr std::array<std::string_view, 12> numbers{
-        "0",   "-1",  "1000000000", "4294967295", "4294967297", "9223372036854775807", "1e308", "1e-320",
-        "nan", "inf", "0.5",        "99999999999999999999999"};
+        "0",     "-1",     "1000000000", "4294967295", "4294967297", "9223372036854775807",
+        "1e308", "1e-320", "nan",        "inf",        "0.5",        "99999999999999999999999"};
     constexpr std::string_view digits = "0123456789";
     const std::size_t begin = bytes.find_first_of(digits, at);
     if (begin == std::string::npos) return;

@@ -1,6 +1,6 @@
 // Expressions on grains, with units, names and species; what is one is worked out for a grain.
-#include "engine/base/error.hpp"
 #include "engine/questions/expression.hpp"
+#include "engine/base/error.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace grainreel::fuzz {

@@ -37,8 +37,7 @@ void replay(const Target& target, const fs::path& file, int copies) {
     std::mt19937 random(1);
     for (int k = 0; k < copies; ++k) {
         std::string bytes = whole;
-        for (auto times = 1 + random() % 3; times > 0; --times)
-            grainreel::fuzz::damage(bytes, random);
+        for (auto times = 1 + random() % 3; times > 0; --times) grainreel::fuzz::damage(bytes, random);
         target.attempt(bytes);
     }
 }

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -17,11 +18,10 @@ class Scratch {
     Scratch() {
         const std::filesystem::path memory = "/dev/shm";
         std::error_code none;
-        std::string name = ((std::filesystem::is_directory(memory, none)
-                                 ? memory
-                                 : std::filesystem::temp_directory_path()) /
-                            "grainreel-fuzz-XXXXXX")
-                               .string();
+        std::string name =
+            ((std::filesystem::is_directory(memory, none) ? memory : std::filesystem::temp_directory_path()) /
+             "grainreel-fuzz-XXXXXX")
+                .string();
         if (::mkdtemp(name.data()) == nullptr) std::abort();
         path_ = name;
         maker_ = ::getpid();
@@ -36,11 +36,13 @@ class Scratch {
     Scratch(const Scratch&) = delete;
     Scratch& operator=(const Scratch&) = delete;
 
-    // The same file, with other content each time.
+    // The same file, with other content each time. It is as old as if it had been there for an hour: readers
+    // wait a little for the rest of what was written a moment ago.
     std::filesystem::path write(const std::string& name, std::string_view bytes) const {
         const std::filesystem::path file = path_ / name;
-        std::ofstream(file, std::ios::binary)
-            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        std::filesystem::last_write_time(
+            file, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
         return file;
     }
 

@@ -53,8 +53,7 @@ double TopOfMost::value() const {
     std::int64_t below = 0;
     for (const auto& [size, count] : classes_) {
         below += count;
-        if (100 * below >= 99 * all_)
-            return size == no_size ? 0 : std::pow(10, (size + 1) / classes_a_power);
+        if (100 * below >= 99 * all_) return size == no_size ? 0 : std::pow(10, (size + 1) / classes_a_power);
     }
     return 0;
 }

@@ -170,9 +170,7 @@ const KeyTable<Output>& output_table() {
             },
             [](const O&, const Scene& scene) { return names_text(scene.instruments()); })
             .written_at(1),
-        bound_by<O>(
-            entry("also", KeyKind::name_list, note("none"), about.c_str()),
-            read_also, also_text)
+        bound_by<O>(entry("also", KeyKind::name_list, note("none"), about.c_str()), read_also, also_text)
             .useless_for(without_record)
             .unwritten_if([](const O& output) { return !output.also.any(); })
             .written_at(1),

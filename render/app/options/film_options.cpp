@@ -74,7 +74,8 @@ void add_print_size(CLI::App& verb, PrintSize& print) {
 
 void check_print_size(const PrintSize& print, bool one_picture, const char* moment) {
     if (!one_picture && print.wanted())
-        throw UserError(fmt::format("{}: is for one picture; add {}", print.dpi ? "--dpi" : "--width-mm", moment));
+        throw UserError(
+            fmt::format("{}: is for one picture; add {}", print.dpi ? "--dpi" : "--width-mm", moment));
 }
 
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {

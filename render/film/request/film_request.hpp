@@ -31,9 +31,9 @@ struct RenderRequest {
     std::filesystem::path beside;  // where what is drawn goes without --out; empty: beside the run
     Assignments sets;              // other values for keys of its film
     std::optional<double> from, to, at;
-    std::optional<std::int64_t> frame;    // in place of `at`: of the film, from 0
-    bool frame_of_file = false;           // frame counts the frames of another program's files
-    PrintSize print;                      // of one picture
+    std::optional<std::int64_t> frame;  // in place of `at`: of the film, from 0
+    bool frame_of_file = false;         // frame counts the frames of another program's files
+    PrintSize print;                    // of one picture
     std::optional<int> every;  // kept frames of the trajectory, one of so many; none: the film's pictures
     bool replay = true;        // what was not kept is brought back
     std::optional<PartsWanted> parts;

@@ -58,7 +58,8 @@ Assignments with_range_of_frames(const fs::path& folder, Assignments sets) {
     }
     if (by == nullptr) return sets;
     if (const auto range = imported_range(folder, by->value()))
-        sets.push_back({fmt::format("film.colour.range=[{:.6g}, {:.6g}]", (*range)[0], (*range)[1]), by->place()});
+        sets.push_back(
+            {fmt::format("film.colour.range=[{:.6g}, {:.6g}]", (*range)[0], (*range)[1]), by->place()});
     return sets;
 }
 

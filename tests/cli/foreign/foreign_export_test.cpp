@@ -76,7 +76,7 @@ struct Returned {
 };
 
 constexpr Returned returned_formats[] = {
-    {"lammps-dump", "", 0, false},   {"xyz", "", 0, true},    {"csv", "", 0, false},
+    {"lammps-dump", "", 0, false},  {"xyz", "", 0, true},    {"csv", "", 0, false},
     {"vtk", "grains.pvd", 0, true}, {"gsd", "", 4e-9, true}, {"netcdf", "", 0, true},
 };
 

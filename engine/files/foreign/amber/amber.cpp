@@ -134,10 +134,11 @@ void AmberFile::refuse_without_frames() const {
     std::string count;
     for (int k = variables_.count_bytes() - 1; k >= 0; --k)
         count += fmt::format("\\{:03o}", *behind >> 8 * k & 0xffU);
-    throw UserError(fmt::format(
-        "{}: its header counts no frame, and behind it there is room for {}; if the program that wrote it was "
-        "stopped, put this count there: printf '{}' | dd of={} bs=1 seek=4 conv=notrunc",
-        name, *behind, count, name));
+    throw UserError(
+        fmt::format("{}: its header counts no frame, and behind it there is room for {}; if the program that "
+                    "wrote it was "
+                    "stopped, put this count there: printf '{}' | dd of={} bs=1 seek=4 conv=notrunc",
+                    name, *behind, count, name));
 }
 
 // Fewer than there is room for: the rest has the fill value.
