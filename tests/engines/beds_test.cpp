@@ -1,6 +1,6 @@
-// Beds that LAMMPS and LIGGGHTS run on two ranks with the decks that we write, beside ours with the same laws,
-// steps and starts: means over a run agree within three combined standard errors over four seeds, which were
-// fixed beforehand. A scene that misses is run once more with eight others.
+// Beds that LAMMPS and LIGGGHTS run on two ranks with the decks that we write, beside ours with the same
+// laws, steps and starts: means over a run agree within three combined standard errors over four seeds, which
+// were fixed beforehand. A scene that misses is run once more with eight others.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,11 +22,11 @@ constexpr double kErrors = 3;
 
 struct Bed {
     std::string name;
-    std::string text;       // but for the seed
-    double from = 0;        // s: means are over what follows
-    double periodic = 0;    // m
-    bool leaves = false;    // through an outlet: the rate counts, and nothing else is steady
-    bool turns = false;     // a drum about x: the torque of the grains' weight, which the drum bears
+    std::string text;     // but for the seed
+    double from = 0;      // s: means are over what follows
+    double periodic = 0;  // m
+    bool leaves = false;  // through an outlet: the rate counts, and nothing else is steady
+    bool turns = false;   // a drum about x: the torque of the grains' weight, which the drum bears
 };
 
 // On a machine that others use, two ranks wait for each other at every step.
@@ -88,9 +88,9 @@ std::string differences(const Bed& bed, PeerEngine engine, const std::vector<int
         const double error = std::sqrt(mine.squared_error() + other.squared_error());
         const double errors = std::abs(mine.mean() - other.mean()) / std::max(error, 1e-12);
         const std::string line =
-            fmt::format("{} on {}: {}: {:.4f} +- {:.4f} here, {:.4f} +- {:.4f} there: {:.1f} errors\n", bed.name,
-                        name_of(engine), what, mine.mean(), std::sqrt(mine.squared_error()), other.mean(),
-                        std::sqrt(other.squared_error()), errors);
+            fmt::format("{} on {}: {}: {:.4f} +- {:.4f} here, {:.4f} +- {:.4f} there: {:.1f} errors\n",
+                        bed.name, name_of(engine), what, mine.mean(), std::sqrt(mine.squared_error()),
+                        other.mean(), std::sqrt(other.squared_error()), errors);
         std::fputs(line.c_str(), stdout);
         std::fflush(stdout);
         if (!(errors <= kErrors)) apart += line;
@@ -190,14 +190,14 @@ TEST_P(BedsOfEngines, AreAsOurs) {
 std::vector<Case> cases() {
     std::vector<Case> all;
     for (const char* bed : {"wedge", "floor", "cylinder", "periodic", "outlet"})
-        for (const PeerEngine engine : {PeerEngine::lammps, PeerEngine::liggghts}) all.push_back({engine, bed});
+        for (const PeerEngine engine : {PeerEngine::lammps, PeerEngine::liggghts})
+            all.push_back({engine, bed});
     all.push_back({PeerEngine::liggghts, "drum"});
     return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, BedsOfEngines, testing::ValuesIn(cases()), [](const auto& one) {
-    return one.param.bed + "_" + key_of(one.param.engine);
-});
+INSTANTIATE_TEST_SUITE_P(Both, BedsOfEngines, testing::ValuesIn(cases()),
+                         [](const auto& one) { return one.param.bed + "_" + key_of(one.param.engine); });
 
 }  // namespace
 }  // namespace grainreel::test

@@ -14,8 +14,8 @@ namespace grainreel::test {
 struct Moment {
     double time = 0;  // s
     std::vector<int> species;
-    std::vector<double> radius;    // m
-    std::vector<Vec3> position;    // m
+    std::vector<double> radius;  // m
+    std::vector<Vec3> position;  // m
     std::size_t size() const { return species.size(); }
 };
 using Course = std::vector<Moment>;  // by rising time
