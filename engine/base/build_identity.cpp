@@ -43,8 +43,7 @@ int look_at_program(dl_phdr_info* info, std::size_t, void* into) {
     for (int part = 0; part < info->dlpi_phnum && identity.empty(); ++part) {
         const ElfW(Phdr)& head = info->dlpi_phdr[part];
         if (head.p_type != PT_NOTE) continue;
-        identity =
-            identity_in({reinterpret_cast<const char*>(info->dlpi_addr + head.p_vaddr), head.p_memsz});
+        identity = identity_in({reinterpret_cast<const char*>(info->dlpi_addr + head.p_vaddr), head.p_memsz});
     }
     return 1;
 }

@@ -239,6 +239,9 @@ void MomentFinder::at_every(double interval, const ReplayWatcher& watcher,
     const std::int64_t last_step = record_.moments().back().step;
     const double first = std::ceil(record_.from() / interval - rounding),
                  count = std::floor(record_.to() / interval + rounding) - first + 1;
+    if (interval < clock.step)
+        throw UserError(fmt::format(
+            "--every: is shorter than a step of the run, {:.4g} s; take a longer time", clock.step));
     if (count > most)
         throw UserError(fmt::format(
             "--every: makes {:.3g} moments, and the most are {:.0g}; take a longer time", count, most));

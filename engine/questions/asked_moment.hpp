@@ -52,8 +52,8 @@ class MomentFinder {
                       const std::function<void(Snapshot)>& see);
     static constexpr int kMomentsAPeriod = 20;
     // The moments at the multiples of a time (s) from the run's first moment to its last, brought back. The
-    // run is computed once more, from its first checkpoint. Throws UserError where it has none from there, or
-    // where there are more than a million.
+    // run is computed once more, from its first checkpoint. Throws UserError where it has none from there,
+    // where the time is shorter than a step, and where there are more than a million.
     void at_every(double interval, const ReplayWatcher& watcher,
                   const std::function<void(const Snapshot&)>& see);
     // Whether there is a checkpoint of the moment, or before it.

@@ -196,9 +196,7 @@ Answer steady_answer(const std::filesystem::path& run, const Scene& scene, const
     for (const MeasureColumn& one : measure_columns(scene))
         if (one.name == column) dimension = one.dimension;
     const std::string unit = text_of(dimension).unit;
-    const auto known = [](double value) {
-        return std::isfinite(value) ? AnswerCell(value) : AnswerCell();
-    };
+    const auto known = [](double value) { return std::isfinite(value) ? AnswerCell(value) : AnswerCell(); };
     AnswerTable answer{"steady",
                        fmt::format("Is {} steady?", column),
                        {{"verdict", Dimension::number, ""},

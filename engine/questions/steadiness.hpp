@@ -20,7 +20,7 @@
 
 namespace grainreel {
 
-constexpr std::size_t kRowsWithoutDrive = 5;  // of a batch of MSER
+constexpr std::size_t kRowsWithoutDrive = 5;                  // of a batch of MSER
 constexpr std::size_t kLeastBatches = 10, kMostBatches = 20;  // of the test of drift
 constexpr double kSignificance = 0.05;                        // of the test of drift, on both sides
 
@@ -33,7 +33,7 @@ struct Steadiness {
     std::size_t tested = 0;   // means that the test of drift saw
     // Of the rest: mean, and half the width of its interval of 95 % (Student's t, of the means tested).
     double mean = std::numeric_limits<double>::quiet_NaN(), half_width = mean;
-    double slope = mean;      // Sen's, 1/s times the value's unit
+    double slope = mean;          // Sen's, 1/s times the value's unit
     double tau = mean, p = mean;  // Kendall's tau, and the probability of one as large without a trend
 };
 

@@ -36,7 +36,8 @@ bool is_meant(const Snapshot& s, int number, std::int32_t other) {
 
 int touches_column(const Snapshot& snapshot, std::string_view who) {
     if (!snapshot.has(Needs::contacts))
-        throw UserError("'touches' needs contacts, and the run kept none; run it with output.contacts = true");
+        throw UserError(
+            "'touches' needs contacts, and the run kept none; run it with output.contacts = true");
     const std::string name(who);
     std::int32_t id = 0;
     const auto [end, failure] = std::from_chars(who.data(), who.data() + who.size(), id);

@@ -35,9 +35,10 @@ void PackingSharing::add_setting(const Scene& scene, const Plan& plan) {
 std::string PackingSharing::text() const {
     if (packing_ < 2) return "";
     if (packings_.size() < packing_)
-        return fmt::format("{} settings begin with {} different packings for each seed; each is made once, if it "
-                           "takes longer than a second, and found by those that start later",
-                           packing_, packings_.size());
+        return fmt::format(
+            "{} settings begin with {} different packings for each seed; each is made once, if it "
+            "takes longer than a second, and found by those that start later",
+            packing_, packings_.size());
     if (without_drive_.size() == packing_) return "";
     return grows_ ? "settings that differ in the drive share no packing, since radii grow while it moves; "
                     "start.method = \"rain\", with contact.stiffness and run.step given, shares one"

@@ -46,7 +46,7 @@ TEST(MannKendallTest, OfARisingAndAFallingSeries) {
     EXPECT_EQ(up.s, 45);
     EXPECT_EQ(up.tau, 1);
     EXPECT_DOUBLE_EQ(up.z, 44 / std::sqrt(125.0));
-    EXPECT_DOUBLE_EQ(up.p, std::erfc(44 / std::sqrt(250.0)));
+    EXPECT_NEAR(up.p, std::erfc(44 / std::sqrt(250.0)), 1e-15);
     const MannKendall down = mann_kendall({rising.rbegin(), rising.rend()});
     EXPECT_EQ(down.s, -45);
     EXPECT_DOUBLE_EQ(down.p, up.p);
@@ -150,8 +150,10 @@ TEST_F(InspectOverTime, TellsWhetherAColumnIsSteady) {
     EXPECT_THAT(answer.dump(), HasSubstr("too short to tell"));  // of a line the transient never ends
     const Ended wrong = ask({"--steady", "heigth_m"});
     EXPECT_EQ(wrong.status, 2);
-    EXPECT_THAT(wrong.err, HasSubstr("--steady: 'heigth_m' is no column of measures.csv; did you mean 'height_m'?"));
-    EXPECT_THAT(ask({"--steady", "height_m", "--at", "0.1 s"}).err, HasSubstr("--steady: is of the whole run"));
+    EXPECT_THAT(wrong.err,
+                HasSubstr("--steady: 'heigth_m' is no column of measures.csv; did you mean 'height_m'?"));
+    EXPECT_THAT(ask({"--steady", "height_m", "--at", "0.1 s"}).err,
+                HasSubstr("--steady: is of the whole run"));
 }
 
 // Twenty moments of 10 ms from 0 to 0.2 s, brought back; all grains lie above the floor.
@@ -171,7 +173,8 @@ TEST_F(InspectOverTime, GivesCountsAndMeansAtEachMultipleOfATime) {
         ++rows;
     }
     EXPECT_EQ(rows, 21);
-    EXPECT_THAT(ask({"--where", "height > 0", "--every", "1 us"}).err, HasSubstr("--every: makes 2e+05")) << 0;
+    EXPECT_THAT(ask({"--where", "height > 0", "--every", "1 us"}).err,
+                HasSubstr("--every: is shorter than a step of the run, "));
 }
 
 TEST_F(InspectOverTime, RefusesWhatMakesNoSense) {
@@ -180,8 +183,9 @@ TEST_F(InspectOverTime, RefusesWhatMakesNoSense) {
     EXPECT_THAT(ask({"--where", "height > 0", "--over-time", "--mean", "hight"}).err,
                 HasSubstr("'hight' is no quantity of a grain"));
     EXPECT_THAT(ask({"--where", "height > 0", "--every", "0 s"}).err, HasSubstr("longer than 0 s"));
-    EXPECT_THAT(ask({"--where", "touches(nobody)", "--at", "0.1 s"}).err,
-                HasSubstr("touches: 'nobody' is no species, no wall and no id of a grain; there are wall, small"));
+    EXPECT_THAT(
+        ask({"--where", "touches(nobody)", "--at", "0.1 s"}).err,
+        HasSubstr("touches: 'nobody' is no species, no wall and no id of a grain; there are wall, small"));
 }
 
 // A grain touches a wall or grains, or both, exactly where it has contacts.
@@ -189,8 +193,7 @@ TEST_F(InspectOverTime, KnowsWhatTouches) {
     const auto count = [&](const std::string& condition) {
         const Ended ended = ask({"--where", condition, "--at", "0 s", "--json", "--limit", "0"});
         EXPECT_EQ(ended.status, 0) << ended.err;
-        const auto rows = nlohmann::json::parse(ended.out)["count"];
-        return rows.empty() ? -1 : rows.back()["grains"].get<int>();
+        return nlohmann::json::parse(ended.out)["tables"]["count"]["rows"].back()[1].get<int>();
     };
     const int any = count("contacts > 0");
     EXPECT_GT(any, 10);

@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -14,6 +16,7 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/cli/small_disk.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -34,8 +37,9 @@ Scene scene_with(std::vector<std::string> sets, const std::string& more = "") {
     return read_scene_text(small_scene_text + more, "fifty.toml", all, measurable_in);
 }
 
-constexpr const char* kFeed = "[[feed]]\nspecies = \"small\"\nrate = 400\ncount = 20\n"
-                              "low = [-0.004, -0.006, 0.032]\nhigh = [0.004, 0.006, 0.036]\n";
+constexpr const char* kFeed =
+    "[[feed]]\nspecies = \"small\"\nrate = 400\ncount = 20\n"
+    "low = [-0.004, -0.006, 0.032]\nhigh = [0.004, 0.006, 0.036]\n";
 
 struct Variant {
     const char* name;
@@ -48,7 +52,7 @@ const Variant variants[] = {
     {"rain", {"start.method=rain"}},
     {"phase", {"drive.phase=0.25", "drive.ramp=0"}},
     {"orientations", {"output.orientation=true", "output.contacts=true"}},
-    {"walls", {"output.instruments=[\"wall_forces\"]"}},
+    {"walls", {"output.instruments=[\"walls\", \"energy_balance\", \"bed\"]"}},
     {"periodic", {"container.periodic_depth=true"}},
     {"glued", {"container.wall_grains.faces=[\"floor\"]", "container.wall_grains.species=small"}},
     {"mixed", {"run.precision=mixed"}},
@@ -58,13 +62,18 @@ const Variant variants[] = {
 
 struct End {
     std::uint64_t state;
-    std::vector<double> measures;
+    std::vector<std::string> measures;  // by column, every digit, as measures.csv has them
     bool operator==(const End&) const = default;
 };
 
 End end_of(Simulation& run, std::int64_t steps) {
     run.advance(steps);
-    return {run.state_hash(), run.measures().values()};
+    End end{run.state_hash(), {}};
+    const std::vector<double> values = run.measures().values();
+    for (std::size_t k = 0; k < values.size(); ++k)
+        end.measures.push_back(
+            fmt::format("{} {}", run.measured()[k], std::isnan(values[k]) ? 0.5 : values[k]));
+    return end;
 }
 
 TEST(KeptPacking, RunsOnBitByBit) {
@@ -86,7 +95,9 @@ TEST(KeptPacking, RunsOnBitByBit) {
             ASSERT_TRUE(takes) << variant.name;
             EXPECT_EQ(takes->step(), 0);
             EXPECT_EQ(takes->state_hash(), start) << variant.name;
-            EXPECT_EQ(end_of(*takes, 300), end) << variant.name << " at " << threads << " threads";
+            const End there = end_of(*takes, 300);
+            EXPECT_EQ(there.state, end.state) << variant.name << " at " << threads << " threads";
+            EXPECT_EQ(there.measures, end.measures) << variant.name << " at " << threads << " threads";
             EXPECT_EQ(found.settle_time, result.settle_time);
             EXPECT_EQ(found.solid_fraction, result.solid_fraction);
             EXPECT_EQ(found.settled, result.settled);
@@ -112,8 +123,9 @@ TEST(KeptPacking, IsAnotherWhereAnythingDecidesIt) {
          {"run.seed=2", "species.small.count=41", "species.big.density=2600", "contact.friction=0.3",
           "contact.wall.friction=0.3", "container.width=31 mm", "gravity=9.7", "run.overlap=0.04",
           "run.precision=mixed", "run.integrator=leapfrog", "start.settle_limit=0.06 s",
-          "start.settle_damping=20 1/s", "start.method=rain", "output.orientation=true", "contact.arms=radius",
-          "drive.g_level=3", "drive.moves=floor", "run.step=1 us", "contact.rolling_friction=0.1"})
+          "start.settle_damping=20 1/s", "start.method=rain", "output.orientation=true",
+          "contact.arms=radius", "drive.g_level=3", "drive.moves=floor", "run.step=1 us",
+          "contact.rolling_friction=0.1"})
         EXPECT_NE(key_with({set}), key) << set;
 }
 
@@ -187,8 +199,8 @@ class PackingProgram : public testing::Test {
     }
     Ended movie(const std::string& out, const std::vector<std::string>& more = {},
                 const std::string& packings = "all") const {
-        std::vector<std::string> words{"movie", scene.string(), "--no-film", "--no-report",
-                                       "--out", out, "--set", "output.contacts=true"};
+        std::vector<std::string> words{"movie", scene.string(), "--no-film",           "--no-report", "--out",
+                                       out,     "--set",        "output.contacts=true"};
         words.insert(words.end(), more.begin(), more.end());
         return run_program(words, setting(packings));
     }
@@ -255,9 +267,20 @@ TEST_F(PackingProgram, RunsWhereNothingCanBeKept) {
     EXPECT_THAT(ended.err, HasSubstr("for later runs it is not kept: "));
 }
 
+TEST_F(PackingProgram, RunsWithAFullCacheAndLeavesNothingThere) {
+    fs::create_directory(here / "cache");
+    const SmallDisk disk(here / "cache", 8192);
+    if (!disk.mounted()) GTEST_SKIP() << "no small disk can be made here";
+    const Ended full = movie("full", {"--verbose"});
+    EXPECT_EQ(full.status, 0) << full.err;
+    EXPECT_THAT(full.err, HasSubstr("for later runs it is not kept: "));
+    EXPECT_THAT(full.err, HasSubstr("is the disk full?"));
+    EXPECT_TRUE(kept().empty());
+}
+
 TEST_F(PackingProgram, TwoRunsAtOnceBothKeepIt) {
-    const std::vector<std::string> words{"movie", scene.string(), "--no-film", "--no-report", "--set",
-                                         "output.contacts=true", "--out"};
+    const std::vector<std::string> words{"movie", scene.string(),         "--no-film", "--no-report",
+                                         "--set", "output.contacts=true", "--out"};
     auto with = [&](const char* out) {
         std::vector<std::string> all = words;
         all.emplace_back(out);
@@ -278,8 +301,8 @@ TEST_F(PackingProgram, DoctorTellsTheSize) {
 }
 
 TEST_F(PackingProgram, ComparisonsTakeIt) {
-    const std::vector<std::string> words{"compare", scene.string(), "--no-film", "--vary",
-                                         "run.seed=1,2", "--out"};
+    const std::vector<std::string> words{"compare", scene.string(), "--size", "480x270",
+                                         "--vary",  "run.seed=1,2", "--out"};
     auto with = [&](const char* out) {
         std::vector<std::string> all = words;
         all.emplace_back(out);
