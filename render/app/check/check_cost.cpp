@@ -47,15 +47,16 @@ void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& h
     for (const PeerEngine engine : {PeerEngine::lammps, PeerEngine::liggghts}) {
         const double seconds = peer_seconds(engine, frame, grains, plan.steps, count);
         fastest = std::min(fastest, seconds);
-        list.line(name, fmt::format("{}: about {} on {} ranks, with {} in all", name_of(engine),
-                                    span_text(seconds), grouped(count),
-                                    data_size_text(peer_bytes(engine, grains))));
+        list.line(name,
+                  fmt::format("{}: about {} on {} ranks, with {} in all", name_of(engine), span_text(seconds),
+                              grouped(count), data_size_text(peer_bytes(engine, grains))));
         name.clear();
     }
     const double mine = here.packing_seconds + here.engine_seconds;
-    list.line("", mine > long_run && mine > much_faster * fastest
-                      ? "hand it over where you have as many processors: ./movie handover (docs/guide/clusters.md)"
-                      : fmt::format("stay here: one of our threads does the work of {:.0f} ranks", kRanksAThread));
+    list.line(
+        "", mine > long_run && mine > much_faster * fastest
+                ? "hand it over where you have as many processors: ./movie handover (docs/guide/clusters.md)"
+                : fmt::format("stay here: one of our threads does the work of {:.0f} ranks", kRanksAThread));
 }
 
 std::string threads_text(int threads) {

@@ -137,9 +137,9 @@ class Handover final : public Verb {
         const double seconds =
             peer_seconds(carried.engine, carried.frame, carried.grains(),
                          carried.last - carried.first + carried.packing_steps, carried.ranks);
-        reporter.info(fmt::format("{} for {} on {} rank{}, about {} there; {} dumps",
-                                  folder.string(), name_of(carried.engine), carried.ranks,
-                                  carried.ranks == 1 ? "" : "s", duration_text(seconds), carried.dumps.size()));
+        reporter.info(fmt::format("{} for {} on {} rank{}, about {} there; {} dumps", folder.string(),
+                                  name_of(carried.engine), carried.ranks, carried.ranks == 1 ? "" : "s",
+                                  duration_text(seconds), carried.dumps.size()));
         reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
                                   folder.string(), folder.string()));
         reporter.info(fmt::format("draw it:     ./movie render {}", folder.string()));
