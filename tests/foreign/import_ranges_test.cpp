@@ -26,7 +26,8 @@ TEST(TopOfMost, OneThatIsFarOffDoesNotCount) {
 TEST(TopOfMost, NothingAndNumbersThatAreNone) {
     TopOfMost top;
     EXPECT_EQ(top.value(), 0);
-    for (const double odd : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (const double odd :
+         {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         top.add(odd);
     EXPECT_EQ(top.value(), 0);
     for (int k = 0; k < 100; ++k) top.add(0);
