@@ -1,5 +1,7 @@
 // The verb `study`: one scene is run with many values of its keys, measured, and drawn in charts.
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <CLI/App.hpp>
@@ -63,7 +65,7 @@ class StudyVerb final : public Verb {
         parser.add_flag_callback(
             "--no-posters", [this] { request_.posters = false; },
             "Leave out the pictures of the members' last frames");
-        no_cache_ = add_no_cache(parser, shortest_packing_);
+        add_no_cache(parser, shortest_packing_);
         parser.add_flag("--yes", yes_, "More than 10,000 members are meant");
         add_ways(parser);
         CLI::Option* charts = add_paper(
@@ -79,7 +81,9 @@ class StudyVerb final : public Verb {
         check_paper(paper_);
         const Study study = read_study(file_);
         count_members(study, yes_);
-        request_.cache = no_cache_->count() == 0;
+        // What the environment says, members hear too.
+        const char* const said = std::getenv("GRAINREEL_PACKINGS");
+        request_.cache = shortest_packing_ || (said != nullptr && std::string_view(said) == "off");
         std::vector<std::vector<ReferencePoint>> references;
         for (const StudyChart& chart : study.charts)
             references.push_back(chart.reference ? read_reference(*chart.reference)
@@ -252,7 +256,6 @@ class StudyVerb final : public Verb {
     std::filesystem::path file_;
     std::optional<std::filesystem::path> out_;
     StudyRunRequest request_;
-    CLI::Option* no_cache_ = nullptr;
     std::optional<double> shortest_packing_;  // s, that the cache keeps
     PackingSharing sharing_;
     bool yes_ = false, dry_ = false, print_commands_ = false;

@@ -257,7 +257,6 @@ TEST_F(StudyVerb, SharesPackings) {
     EXPECT_THAT(dry("\"title=same\""),
                 HasSubstr("packings     settings that differ in the drive share no packing, since "
                           "radii grow while it moves"));
-    EXPECT_THAT(dry("\"start.method=rain\""), HasSubstr("since stiffness and step follow the drive"));
     const std::string shared = "\"start.method=rain\", \"contact.stiffness=700 N/m\", \"run.step=10 us\"";
     EXPECT_THAT(dry(shared), HasSubstr("2 settings begin with 1 different packings"));
     const Ended ended = run_program(
