@@ -19,7 +19,6 @@ libudunits2-dev      udunits2, with its XML database
 libxxhash-dev        libxxhash
 libhwy-dev           libhwy (Highway)
 libnetcdf-dev        netcdf
-libfftw3-dev         fftw3
 libpng-dev           libpng
 libdeflate-dev       libdeflate
 zlib1g-dev           zlib

@@ -40,5 +40,5 @@ install(FILES ${package_sources}/copyright DESTINATION ${library_doc} COMPONENT 
 
 # What a program that links the archives needs beside them.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libnetcdf-dev, libhwy-dev, \
-libfftw3-dev, libudunits2-dev, libxxhash-dev, zlib1g-dev, libzstd-dev, liblz4-dev, libexpat1-dev, libpng-dev, \
+libudunits2-dev, libxxhash-dev, zlib1g-dev, libzstd-dev, liblz4-dev, libexpat1-dev, libpng-dev, \
 libpango1.0-dev, libosmesa6, fonts-dejavu-core, pkg-config")

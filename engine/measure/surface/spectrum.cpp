@@ -1,38 +1,25 @@
 #include "engine/measure/surface/spectrum.hpp"
 
-#include <fftw3.h>
-
 #include <cmath>
 #include <complex>
-#include <mutex>
 #include <numeric>
+
+#include <unsupported/Eigen/FFT>
 
 #include "engine/base/error.hpp"
 #include "engine/measure/no_value.hpp"
 
 namespace grainreel {
-namespace {
-
-// FFTW makes and destroys plans one at a time; several runs may be compared at once.
-std::mutex planning;
-
-}  // namespace
 
 struct Spectrum::Plan {
-    explicit Plan(std::size_t count) : bins(count), in(2 * count, 0), out(count + 1) {
-        const std::scoped_lock lock(planning);
-        plan = fftw_plan_dft_r2c_1d(static_cast<int>(in.size()), in.data(),
-                                    reinterpret_cast<fftw_complex*>(out.data()), FFTW_ESTIMATE);
-    }
-    ~Plan() {
-        const std::scoped_lock lock(planning);
-        fftw_destroy_plan(plan);
+    explicit Plan(std::size_t count) : bins(count), in(2 * count, 0) {
+        transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
     }
 
     const std::size_t bins;
+    Eigen::FFT<double> transform;  // keeps its twiddles
     std::vector<double> in;
-    std::vector<std::complex<double>> out;  // the same bytes as fftw_complex, as FFTW's manual says
-    fftw_plan plan;
+    std::vector<std::complex<double>> out;
 };
 
 Spectrum::Spectrum(std::size_t bins) : plan_(std::make_unique<Plan>(bins)) {}
@@ -45,7 +32,7 @@ DominantWave Spectrum::dominant(const std::vector<double>& heights, double width
     GRAINREEL_CHECK(heights.size() == bins);
     const double mean = mean_height_of(heights), variance = variance_of(heights);
     for (std::size_t j = 0; j < bins; ++j) plan_->in[j] = heights[j] - mean;
-    fftw_execute(plan_->plan);
+    plan_->transform.fwd(plan_->out, plan_->in);
     std::size_t dominant = 0;
     double largest = 0;
     for (std::size_t k = 1; k <= bins / 2; ++k) {

@@ -15,8 +15,9 @@ struct DominantWave {
 // The periodogram of a surface of N bins over the width W, its mean m taken off (Schuster 1898, Terr. Magn.
 // 3, 13), at half and whole numbers of waves across, for standing waves between two walls have both:
 //     H_k = sum over j of (h_j - m) exp(-i pi k (j + 1/2) / N),   wavelength 2 W / k.
-// It is a Fourier transform of twice the length, half of it zeros (FFTW). The dominant wave is the largest
-// |H_k| of those whose wavelength is at least four bins; its share in the variance v is 2 |H_k|^2 / (N^2 v).
+// It is a Fourier transform of twice the length, half of it zeros (by Eigen's KISS FFT). The dominant wave is
+// the largest |H_k| of those whose wavelength is at least four bins; its share in the variance v is 2 |H_k|^2
+// / (N^2 v).
 class Spectrum {
   public:
     explicit Spectrum(std::size_t bins);
