@@ -51,7 +51,8 @@ gr::Scene scene() {
 
 class Folder {
   public:
-    Folder() : path_(std::filesystem::temp_directory_path() / ("library_test." + std::to_string(::getpid()))) {
+    Folder()
+        : path_(std::filesystem::temp_directory_path() / ("library_test." + std::to_string(::getpid()))) {
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }
