@@ -52,6 +52,12 @@ python3-selenium     Selenium for Python
 python3-netcdf4      netCDF4 for Python
 "
 
+peers_packages="
+lammps               LAMMPS, for ./test --peers
+liggghts             LIGGGHTS
+openmpi-bin          mpirun
+"
+
 say() { printf '%s\n' "$*" >&2; }
 
 list_libraries() {  # $1: a package table

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::string_view plain_header = "id,type,radius,x,y,z,vx,vy,vz,wx,wy,wz";
 constexpr std::string_view orientation_columns = ",qx,qy,qz,qw";
-// Of earlier versions, where `species` counted from 0.
+// The header of earlier versions, where `species` counted from 0.
 constexpr std::string_view old_header = "id,species,radius,x,y,z,vx,vy,vz,wx,wy,wz";
 
 struct TableForm {

@@ -6,10 +6,14 @@
 
 namespace grainreel {
 
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 // Takes it off the front of a text or of its first line.
 inline void drop_byte_order_mark(std::string& text) {
-    constexpr std::string_view mark = "\xef\xbb\xbf";
-    if (text.starts_with(mark)) text.erase(0, mark.size());
+    if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+}
+inline void drop_byte_order_mark(std::string_view& text) {
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
 }
 
 }  // namespace grainreel

@@ -13,7 +13,7 @@ struct PeriodStretch {
     double start = 0;
     double cycles = 0;  // periods until its start, a whole number
     double period = 0;  // at its start
-    // Of a change, in which f(u) = f0 + (f1 - f0) s(u) with u from 0 to 1 and s of smooth_step.hpp.
+    // The change: f(u) = f0 + (f1 - f0) s(u), with u from 0 to 1 and s of smooth_step.hpp.
     double period_after = 0;
     double length = std::numeric_limits<double>::infinity();  // infinite: nothing changes
 
@@ -23,7 +23,7 @@ struct PeriodStretch {
     // Where nothing changes: how long ago the last whole period began, in [0, period). The time since the
     // start is `whole`, of which no digit is lost however large it is, and a small part more.
     double into_period(double whole, double part) const;
-    // Periods since the start less whole ones, in [0, 1); likewise.
+    // Periods since the start less whole ones, in [0, 1); as above.
     double turns_after(double whole, double part) const;
     // The time since its start after so many periods.
     double time_after(double cycles) const;

@@ -15,7 +15,7 @@ class TextFile {
     // made.
     explicit TextFile(const std::filesystem::path& path);
     // Goes on with a file that is there, behind its first `bytes`; what comes after them is cut off.
-    // Throws RunError likewise, and where the file is a link.
+    // Throws RunError as above, and where the file is a link.
     TextFile(const std::filesystem::path& path, std::uintmax_t bytes);
 
     // Throws RunError when not all of `text` could be written.

@@ -31,7 +31,7 @@ class ContactsWriter {
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);
     ~ContactsWriter();
 
-    // How much stays of the file then. Throws UserError likewise, and where it lacks some of these.
+    // How much stays of the file then. Throws UserError as above, and where it lacks some of these.
     static KeptRecords kept_of(const std::filesystem::path& path, std::size_t frames);
 
     // The rows are in the file when this returns. Throws RunError when they could not be written; those of

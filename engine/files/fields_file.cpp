@@ -126,7 +126,7 @@ void FieldsWriter::Impl::define_fields(const FieldSet& set) {
     }
 }
 
-// Of a file that is there already.
+// Finds the variables of a file that is there already.
 void FieldsWriter::Impl::find_fields(const FieldSet& set) {
     fields.emplace_back();
     for (const FieldInfo& field : set.fields) {

@@ -10,7 +10,7 @@
 namespace grainreel {
 
 // The first thing wrong: "its time is nan s", "grain 12 has a radius of -1 m"; none when all is possible.
-// Of time, phase and pose; and of the grains, of which there are `species` kinds.
+// What is wrong with time, phase and pose, and with the grains of so many species; empty for nothing.
 std::optional<std::string> moment_fault(const Frame& frame);
 std::optional<std::string> grains_fault(const Frame& frame, std::size_t species);
 

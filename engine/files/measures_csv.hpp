@@ -31,7 +31,7 @@ class MeasuresWriter {
     // off. Throws UserError where it has other columns.
     MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns, std::int64_t step);
 
-    // How many bytes stay of the file then. Throws UserError likewise.
+    // How many bytes stay of the file then. Throws UserError as above.
     static std::uintmax_t bytes_before(const std::filesystem::path& path,
                                        const std::vector<std::string>& columns, std::int64_t step) {
         return cut_before(path, columns, step).bytes;

@@ -13,7 +13,7 @@ namespace grainreel {
 void keep_mesh_files(const Scene& scene, const std::filesystem::path& folder,
                      const std::filesystem::path& previous = {});
 
-// One file to a place of that name, whose folder is made. Throws likewise.
+// One file to a place of that name, whose folder is made. Throws as above.
 void keep_file(const std::filesystem::path& from, const std::string& hash, const std::filesystem::path& to);
 
 }  // namespace grainreel

@@ -40,7 +40,7 @@ struct RunRecord : ProgramInfo {
     std::vector<DrawnRun> drawn;
     // Which part of a film this one is; none for a whole film.
     std::optional<DrawnPart> part;
-    // Of a film of several: where each one's files are, a folder beside run.json or another run's.
+    // Where the files of each panel of a film are: a folder beside run.json, or another run's.
     std::vector<std::string> panels;
 
     std::string command;  // as typed, words quoted where the shell needs it

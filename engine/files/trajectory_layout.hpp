@@ -25,7 +25,7 @@ struct TrajectoryVariable {
     const char* comment = "";
 };
 
-// Of every frame, in the order in which `frame_checksum` takes them.
+// Variables with one value a frame, in the order in which `frame_checksum` takes them.
 inline constexpr std::array frame_variables{
     TrajectoryVariable{"time", NC_DOUBLE, nullptr, "second", "time since the drive started"},
     TrajectoryVariable{"cycles", NC_DOUBLE, nullptr, "1", "periods of the drive since it started",
@@ -49,7 +49,7 @@ inline constexpr std::array frame_variables{
                        "0 where nothing is periodic"},
     TrajectoryVariable{"cell_angles", NC_DOUBLE, "cell_angular", "degree", "angles of the periodic cell"}};
 
-// Of every grain of a frame, in the order in which `grain_checksum` takes them.
+// Variables with one value a grain and frame, in the order in which `grain_checksum` takes them.
 inline constexpr std::array grain_variables{
     TrajectoryVariable{
         "id", NC_INT, nullptr, "1", "number of the grain",

@@ -212,7 +212,7 @@ std::vector<Value> those_at(const std::vector<Value>& values, const Places& plac
     return those;
 }
 
-// Of the n grains that are there. Without traffic these have the first places.
+// Places of the n grains that are there. Without traffic they have the first ones.
 Places TrajectoryReader::Impl::places_of(std::size_t index, std::size_t n) const {
     Places places(n);
     std::iota(places.begin(), places.end(), std::size_t{0});

@@ -118,7 +118,7 @@ void TrajectoryWriter::Impl::define_bodies() {
     file.attribute(variables["body_place"], "names", fmt::format("{}", fmt::join(info.bodies, "\n")));
 }
 
-// Of a file that is there already.
+// Finds the variables of a file that is there already.
 void TrajectoryWriter::Impl::find_variables() {
     const auto find = [&](const char* variable) { variables[variable] = file.find_variable(variable); };
     for (const TrajectoryVariable& variable : frame_variables) find(variable.name);

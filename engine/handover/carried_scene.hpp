@@ -48,11 +48,11 @@ struct CarriedPair {
     double hardening = 0;            // 1/m, S of luding
     double tangential = 0;           // N/m; Hertz: 8 G*, Pa
     double damping = 0;              // 1/s, times m_eff; hertz: alpha of Tsuji's dashpot, see dashpot.hpp
-    double tangential_damping = 0;   // 1/s, likewise
+    double tangential_damping = 0;   // 1/s, as above
     double restitution = 1;          // wanted, of two of mean size
     double lowest = 1, highest = 1;  // restitution of others of these types, with one damping for all
     double effective_mass = 0;       // kg, of two of mean size; a surface and a glued grain weigh nothing
-    double effective_radius = 0;     // m, likewise
+    double effective_radius = 0;     // m, as above
     double friction = 0;             // finite: kEndlessFriction stands for infinity
     double rolling = 0;              // torque at most so much x effective radius x N
     bool attraction = false;         // the dashpot may pull

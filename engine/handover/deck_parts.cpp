@@ -1,5 +1,7 @@
 #include "engine/handover/deck_parts.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace grainreel {
@@ -14,6 +16,11 @@ std::string dump_name(PeerEngine engine) {
 
 std::string restart_name(PeerEngine engine) {
     return fmt::format("{}.restart", key_of(engine));
+}
+
+std::string restart_line(const CarriedScene& carried) {
+    return fmt::format("restart {} {}.*", std::max<std::int64_t>(1000, (carried.last - carried.first) / 10),
+                       restart_name(carried.engine));
 }
 
 std::string three(const Vec3& v) {

@@ -10,9 +10,12 @@ namespace grainreel {
 
 // Names of files in a hand-over's folder.
 inline constexpr const char* data_name = "grains.data";
+inline constexpr const char* end_name = "end.restart";
 std::string deck_name(PeerEngine engine);     // "in.lammps"
 std::string dump_name(PeerEngine engine);     // "lammps.dump"
-std::string restart_name(PeerEngine engine);  // "lammps.restart"; the engine keeps two by turns: .1, .2
+std::string restart_name(PeerEngine engine);  // "lammps.restart"; a point and the engine's step follow
+// "restart 1000 lammps.restart.*": some ten of them.
+std::string restart_line(const CarriedScene& carried);
 
 // "processors 1 * *", or none where the engine chooses.
 std::string processors_line(const CarriedScene& carried);

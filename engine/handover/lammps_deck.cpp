@@ -49,7 +49,7 @@ class LammpsDeck {
     std::string there(std::int64_t step) const { return fmt::format("{}", step + carried_.shift()); }
 
     void head() {
-        add("# Handed over by grainreel, for LAMMPS {}. Goes on with: -var goes_on 1 -var restart {}.1",
+        add("# Handed over by grainreel, for LAMMPS {}. Goes on with: -var goes_on 1 -var restart {}.STEP",
             version_of(carried_.engine), restart_name(carried_.engine));
         add("variable goes_on index 0");
         add("variable restart index none");
@@ -157,9 +157,7 @@ class LammpsDeck {
             run_up_to(carried_.first, false);
             if (carried_.packing_drag > 0) add("unfix drag");
         }
-        const std::string restart = restart_name(carried_.engine);
-        add("restart {} {}.1 {}.2", std::max<std::int64_t>(1000, (carried_.last - carried_.first) / 10),
-            restart, restart);
+        lines_.push_back(restart_line(carried_));
         bool waits = !carried_.opened.empty() && carried_.opens > carried_.first, begun = false;
         for (const DumpPace& pace : dump_paces(carried_.dumps)) {
             add("variable nextdump equal {}", pace.next_text(carried_.shift()));
@@ -179,7 +177,7 @@ class LammpsDeck {
             run_up_to(pace.end(), begun);
             begun = true;
         }
-        add("write_restart end.restart");
+        add("write_restart {}", end_name);
     }
 
     const CarriedScene& carried_;

@@ -68,11 +68,14 @@ class Deck {
     const char* free() const { return glued_.empty() ? "all" : "free"; }
 
     void head() {
-        add("# {}: written for LIGGGHTS-PUBLIC {}", carried_.scene.name, version_of(PeerEngine::liggghts));
+        add("# {}: written for LIGGGHTS-PUBLIC {}. Goes on with: -var goes_on 1 -var restart {}.STEP",
+            carried_.scene.name, version_of(PeerEngine::liggghts), restart_name(PeerEngine::liggghts));
+        add_all({"variable goes_on index 0", "variable restart index none"});
         add_all({"units si", "atom_style granular", "atom_modify map array"});
         add("boundary {} f f", carried_.periodic ? "p" : "f");
         add_all({"newton off", "communicate single vel yes", processors_line(carried_)});
-        add("read_data {}", data_name);
+        // Walls come back where they were; contacts with them begin anew.
+        add("if \"${{goes_on}} == 0\" then \"read_data {}\" else \"read_restart ${{restart}}\"", data_name);
         add("neighbor {} bin", carried_.skin);
         add("neigh_modify delay 0 one 5000 page 200000");
         for (std::size_t t = 0; t < carried_.types.size(); ++t)
@@ -219,6 +222,11 @@ class Deck {
         add("thermo_modify lost {} norm no", exit_plane(carried_).empty() ? "error" : "ignore");
     }
 
+    // In a run that goes on, what lies behind it is left out.
+    void run_up_to(std::int64_t step) {
+        add("if \"$(step) < {}\" then \"run {} upto\"", there(step), there(step));
+    }
+
     void pack() {
         std::string drags;
         double first = 0;
@@ -231,15 +239,13 @@ class Deck {
                 drags += fmt::format(" scale {} {}", t + 1, mass * carried_.packing_drag / first);
         }
         if (first > 0) add("fix drag {} viscous {}{}", free(), first, drags);
-        add("run {}", carried_.packing_steps);
+        run_up_to(carried_.first);
         if (first > 0) add("unfix drag");
     }
 
     void run() {
         if (carried_.packs) pack();
-        const std::string restart = restart_name(PeerEngine::liggghts);
-        const std::int64_t steps = carried_.last - carried_.first;
-        add("restart {} {}.1 {}.2", std::max<std::int64_t>(1000, steps / 10), restart, restart);
+        lines_.push_back(restart_line(carried_));
         bool waits = !carried_.opened.empty() && carried_.opens > carried_.first;
         bool begun = false;
         for (const DumpPace& pace : dump_paces(carried_.dumps)) {
@@ -247,20 +253,20 @@ class Deck {
             if (!begun) {
                 add("dump grains {} custom 1 {} id type radius x y z vx vy vz omegax omegay omegaz", free(),
                     dump_name(PeerEngine::liggghts));
-                add("dump_modify grains every v_nextdump first yes sort id format \"%d %d{}\"",
-                    ten_numbers());
+                add("if \"${{goes_on}} == 0\" then \"dump_modify grains first yes\" else \"dump_modify "
+                    "grains "
+                    "append yes\"");
+                add("dump_modify grains every v_nextdump sort id format \"%d %d{}\"", ten_numbers());
             }
             begun = true;
-            std::int64_t from = pace.from;
             if (waits && carried_.opens < pace.end()) {
-                if (carried_.opens > from) add("run {}", carried_.opens - from);
+                if (carried_.opens > pace.from) run_up_to(carried_.opens);
                 set_up_walls(true);
-                from = carried_.opens;
                 waits = false;
             }
-            add("run {}", pace.end() - from);
+            run_up_to(pace.end());
         }
-        add("write_restart end.restart");
+        add("write_restart {}", end_name);
     }
 
     static std::string ten_numbers() {

@@ -11,7 +11,7 @@ namespace grainreel {
 std::size_t liggghts_types(const CarriedScene& carried);
 
 // Reads grains.data and walls/*.stl; writes liggghts.dump, outflow.txt where there is an outlet,
-// liggghts.restart.1 and .2 on its way, end.restart.
+// liggghts.restart.STEP on its way, end.restart.
 std::string liggghts_deck(const CarriedScene& carried);
 
 }  // namespace grainreel

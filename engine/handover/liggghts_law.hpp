@@ -17,7 +17,7 @@ struct LiggghtsLaw {
 // All pairs have one law. With the softest number that makes sense where a pair never touches.
 LiggghtsLaw liggghts_law(const CarriedScene& carried);
 
-// Of luding: how many times as stiff as loading the unloading can become.
+// How many times stiffer than loading the unloading of `luding` can become.
 inline constexpr double kLudingRatio = 50;
 // The plasticity depth that gives K2 = K1 + S F_max: (r - 1)^2 / (2 r S R_eff).
 double luding_depth(const CarriedPair& pair);

@@ -5,8 +5,8 @@
 namespace grainreel {
 
 PeerRate rate_of(PeerEngine engine) {
-    if (engine == PeerEngine::lammps) return {4.0e6, 3.1e6, 1500};
-    return {7.0e6, 6.7e6, 2000};
+    if (engine == PeerEngine::lammps) return {4.0e6, 3.1e6, 2100};
+    return {7.0e6, 6.7e6, 1400};
 }
 
 std::int64_t useful_ranks(std::int64_t grains) {

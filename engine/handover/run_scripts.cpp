@@ -61,20 +61,25 @@ constexpr const char* lammps_check = R"sh(case $("$engine" -h 2>/dev/null | head
 esac
 )sh";
 
-constexpr const char* lammps_restart = R"sh(if [ "$1" = --continue ]; then
-    last=$(ls -t {restart}.1 {restart}.2 2>/dev/null | head -n 1)
-    [ -n "$last" ] || {{ echo "run.sh: there is no restart file to go on from" >&2; exit 2; }}
-    set -- -var goes_on 1 -var restart "$last"
+constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
+    step=$(ls {restart}.* 2>/dev/null | sed 's/.*\.//' | sort -n | tail -n 1)
+    [ -n "$step" ] || {{ echo "run.sh: there is no restart file to go on from" >&2; exit 2; }}
+    # What the dump has of later steps comes again; its last frame may have been cut off.
+    size=$(LC_ALL=C awk -v last="$step" -v size="$(wc -c < {dump})" '
+        {{ bytes += length($0) + 1 }}
+        wanted == "step" {{ now = $1; wanted = "" }}
+        wanted == "rows" {{ rows = $1; wanted = "" }}
+        /^ITEM: TIMESTEP/ {{ wanted = "step"; counts = 0 }}
+        /^ITEM: NUMBER/ {{ wanted = "rows" }}
+        counts {{ if (++row == rows && now <= last && bytes <= size) whole = bytes }}
+        /^ITEM: ATOMS/ {{ counts = 1; row = 0; if (rows == 0 && now <= last) whole = bytes }}
+        END {{ printf "%.0f", whole }}' {dump}) || exit 1
+    truncate -s "$size" {dump}
+    set -- -var goes_on 1 -var restart {restart}."$step"
 else
+    rm -f {restart}.*  # of a run before
     set --
 fi
-)sh";
-
-constexpr const char* liggghts_restart = R"sh(if [ "$1" = --continue ]; then
-    echo "run.sh: LIGGGHTS' deck begins anew; meshes and their motion are in no restart file" >&2
-    exit 2
-fi
-set --
 )sh";
 
 constexpr const char* slurm_text = R"sh(#!/bin/sh
@@ -94,9 +99,8 @@ RANKS=${{SLURM_NTASKS:-{ranks}}} exec sh run.sh "$@"
 
 std::string run_script(const CarriedScene& carried) {
     const bool lammps = carried.engine == PeerEngine::lammps;
-    const std::string restart =
-        lammps ? fmt::format(lammps_restart, fmt::arg("restart", restart_name(carried.engine)))
-               : liggghts_restart;
+    const std::string restart = fmt::format(restart_text, fmt::arg("restart", restart_name(carried.engine)),
+                                            fmt::arg("dump", dump_name(carried.engine)));
     return fmt::format(run_text, fmt::arg("title", one_line(carried.scene.title)),
                        fmt::arg("name", name_of(carried.engine)), fmt::arg("ranks", carried.ranks),
                        fmt::arg("program", program_of(carried.engine)),

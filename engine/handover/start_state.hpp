@@ -17,7 +17,7 @@ struct StartState {
         double diameter = 0;     // m
         double density = 0;      // kg/m3
         Vec3 position{0, 0, 0};  // m, in the run's frame
-        Vec3 velocity{0, 0, 0};  // m/s, likewise
+        Vec3 velocity{0, 0, 0};  // m/s, as above
         Vec3 spin{0, 0, 0};      // rad/s
     };
     std::vector<Grain> grains;
@@ -29,8 +29,8 @@ struct StartState {
 // `carried` (low, high) so that it holds all of them. Throws UserError and RunError as Simulation does.
 StartState start_state(CarriedScene& carried, int threads, const PackingWatcher& watcher);
 
-// Of atom_style sphere and LIGGGHTS' granular alike. types: how many the deck has, for LIGGGHTS counts walls
-// among them.
+// Writes a file for atom_style sphere, and for LIGGGHTS' granular. types: how many the deck has, for LIGGGHTS
+// counts walls among them.
 void write_data_file(const std::filesystem::path& path, const CarriedScene& carried, const StartState& start,
                      std::size_t types);
 

@@ -17,12 +17,12 @@ struct Touch {
     Triple<R> normal;    // unit k, from grain i to grain j, or from the grain to the wall
     R overlap;           // m, > 0
     R inverse_mass;      // 1/kg, of the effective mass; set only for laws that use it
-    R effective_mass;    // kg; likewise
-    R effective_radius;  // m; likewise
+    R effective_mass;    // kg; as above
+    R effective_radius;  // m; as above
     R closing_speed;     // m/s, k . (v_i - v_j), > 0 when approaching; set only for laws that use velocity
     Triple<R> slip;      // m, of i over j at the contact during this step; set only for laws that rub
     Triple<R> turn;      // Cayley's vector, tan(angle / 2) along the axis, of the contact's turn during this
-                         // step: as k has turned, and about k by the mean of the two bodies; likewise
+                         // step: as k has turned, and about k by the mean of the two bodies; as above
     Triple<R> slip_velocity;  // m/s; set only for laws that rub and have a dashpot
     R step;                   // s, between two forces; set only for laws that use velocity
 };

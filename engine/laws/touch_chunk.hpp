@@ -64,7 +64,7 @@ struct TouchChunk {
     [[gnu::always_inline]] inline void fetch_some() const {
         if (ahead) ahead->fetch_some();
     }
-    // Of `count` contacts from c on.
+    // Whether any of `count` contacts from c on touches.
     bool any_touching(int c, int count) const {
         return (touching >> c & ((std::uint64_t{2} << (count - 1)) - 1)) != 0;
     }
@@ -83,7 +83,7 @@ struct alignas(64) EnergyChunk {
     double damping[kChunk] = {}, rubbing[kChunk] = {};                        // W
 };
 
-// Of contacts that resist rolling: their motion, and the answer.
+// Contacts that resist rolling: their motion, and the torque that answers it.
 struct RollingChunk {
     Row rate[3];    // rad/s, spin of i against j, across k
     Row torque[3];  // N m, on j, the opposite on i

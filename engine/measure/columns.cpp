@@ -25,7 +25,7 @@ std::string names_of(const std::vector<MeasureColumn>& columns) {
     return fmt::format("{}{}`{}`", first, columns.size() > 2 ? " to " : ", ", columns.back().name);
 }
 
-// Of the documentation.
+// The scene whose columns the documentation lists.
 Scene scene_of_names() {
     Scene scene;
     scene.species.resize(1);

@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-// Of all grains' centres, or of those of one species. floor: m, its height.
+// Heights of all grains' centres above the floor, or of those of one species. floor: m, its height.
 std::vector<double> heights_above(const Grains& grains, double floor,
                                   std::optional<std::size_t> species = {});
 

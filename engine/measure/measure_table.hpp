@@ -27,7 +27,7 @@ class MeasureTable {
         const std::scoped_lock lock(mutex_);
         return values_.size() / columns_.size();
     }
-    // Of one column, rows `from` up to, without, `to`.
+    // Values of one column in the rows from `from` to the one before `to`.
     std::vector<double> values(std::size_t column, std::size_t from, std::size_t to) const {
         GRAINREEL_CHECK(column < columns_.size());
         std::vector<double> part;

@@ -50,12 +50,12 @@ struct Moment {
     const Traffic& traffic;  // what came and left since then
     std::span<const Face> faces = {};
     const WallSums* wall_sums = nullptr;  // since the drive started; null unless somebody needs them
-    // Of a run; null for a state that was put together by hand.
+    // The run's; null for a state that was put together by hand.
     const Surroundings* around = nullptr;
     const StepLoop* loop = nullptr;
     std::span<const std::int64_t> fed = {};  // how many grains each of the scene's feeds has given
 
-    double floor_height() const { return pose.offset.z(); }  // m
+    double floor_height() const { return pose.offset.z() + scene.container.base(); }  // m
     // Whether there is anything to segregate.
     bool has_two_kinds() const { return scene.species.size() > 1 && grains.size() > 0; }
 };

@@ -17,8 +17,8 @@ struct ContactKind {
     Species first;
     std::optional<Species> second;  // empty: a wall or a mesh; of infinite density where it is glued to one
     bool at_wall = false;           // a wall, a mesh, or what is glued to a wall
-    // Of all contacts between grains, or of those at walls. Estimated: a grain has contacts in proportion to
-    // its surface.
+    // Share of all contacts between grains, or of all at walls. It is estimated: a grain has contacts in
+    // proportion to its surface.
     double share = 0;
 
     const Species* other() const { return second ? &*second : nullptr; }
@@ -29,7 +29,7 @@ struct ContactKind {
 // A single grain never meets its like, and there are walls only where there is a container or a plane.
 std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan);
 
-// Of all grains, how many contacts those of a species have; 0 for one that is only glued to walls.
+// Share of contacts that each species has among all grains; 0 for one that is only glued to walls.
 std::vector<double> contact_shares(const Scene& scene);
 
 // The smallest and the largest restitution of a free impact at the plan's impact speed, over the smallest and

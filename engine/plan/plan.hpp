@@ -61,7 +61,7 @@ struct PairPlan {
     std::string stiffness_reason;
 
     double damping_rate(double mass) const;  // 1/s, of the normal dashpot of two with this effective mass
-    double tangential_damping_rate(double mass) const;  // 1/s, likewise
+    double tangential_damping_rate(double mass) const;  // 1/s, as above
     // The restitution of a free impact at that speed (m/s) between two bodies with this effective mass (kg).
     double restitution_of(double mass, double speed) const;
     bool operator==(const PairPlan&) const = default;
@@ -113,7 +113,7 @@ struct Plan {
     std::int64_t capacity = 0;
     bool traffic = false;
     std::optional<std::int64_t> opens;  // the step in which the container's outlet opens
-    // Of a drive that changes, where the scene has no interval: so many periods of the stage that is on,
+    // Where a drive changes and the scene gives no interval: so many periods of the stage that is on,
     // which are those steps on average. 0: every so many steps.
     double trajectory_periods = 0, measures_periods = 0;
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6

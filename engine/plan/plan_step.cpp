@@ -15,8 +15,8 @@ namespace {
 constexpr double pair_share = std::numbers::pi / 2 / 2.75;
 // A dense bed has its own fastest mode; it decides over stability only, not over accuracy.
 constexpr double bed_share = 1.2;
-// Of the step at which dashpots would make it grow. Those along the contact end at Coulomb's cap, and no bed
-// has twelve contacts a grain: 300 grains blew up from 2.4 times that step on, at e = 0.165.
+// Shares of the step at which dashpots would let the motion grow. Dashpots along the contact end at Coulomb's
+// cap, and no bed has twelve contacts a grain: 300 grains blew up from 2.4 times that step on, at e = 0.165.
 constexpr double damped_share = 0.6, damped_sideways_share = 1.7;
 
 std::string pair_name(const Scene& scene, std::size_t a, std::size_t b) {

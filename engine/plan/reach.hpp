@@ -11,7 +11,7 @@ namespace grainreel {
 // it: in empty space, without gravity along -z, with planes of the scene's own.
 std::optional<double> resting_top(const Scene& scene);
 
-// m above the floor's rest position: what the grains reach in flight; empty likewise. Shaken at more than g,
+// m above the floor's rest position: what the grains reach in flight; empty as above. Shaken at more than g,
 // grains at the top of a bed leave it at up to 1.6 times the plate's speed a w, at most from the upper end of
 // the stroke. Measured in seven beds of 5 to 20 layers, restitution 0.6 to 0.9 and Gamma 3 to 4: 99 of 100
 // grains stayed below what 1.2 to 1.7 times that speed gives.

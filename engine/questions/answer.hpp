@@ -39,7 +39,7 @@ struct AnswerTable {
     std::string most_of{};
 };
 
-// Of which moment an answer is.
+// The moment that an answer is about.
 struct AnswerMoment {
     double time = 0;  // s; NaN when it is not known
     std::int64_t step = 0;

@@ -21,8 +21,8 @@ struct AnswerForces {
 // that.
 AnswerForces forces_on_grain(const Snapshot& snapshot, std::int64_t id);
 
-// Of each contact of a wall, on the wall. Of a moment that was brought back. Throws UserError for a name that
-// is no wall.
+// Forces of each contact of a wall, on the wall, at a moment that was brought back. Throws UserError for a
+// name that is no wall.
 AnswerForces forces_on_wall(const Snapshot& snapshot, const std::string& name);
 
 }  // namespace grainreel

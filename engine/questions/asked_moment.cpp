@@ -99,8 +99,8 @@ AskedMoment MomentFinder::last() const {
     return {moments[back].step, moments[back].time, back, back, true};
 }
 
-// Of the film that the run made: its kept moments, one a picture, and where a caption holds a picture, as
-// often as the film shows it.
+// The step that a picture of the run's film shows. The run kept its moments, one a picture, and where a
+// caption holds a picture, as often as the film shows it.
 std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
     const std::filesystem::path file = record_.frames().path() / kFilmMoments;
     std::error_code ignored;
@@ -229,6 +229,37 @@ void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool 
         see(snapshot_of(run, record_));
         if (!watcher(static_cast<double>(k + 1) / static_cast<double>(count)))
             throw RunError("stopped before the moments were reached");
+    }
+}
+
+void MomentFinder::at_every(double interval, const ReplayWatcher& watcher,
+                            const std::function<void(const Snapshot&)>& see) {
+    constexpr double most = 1e6, rounding = 1e-9;
+    const Clock& clock = record_.clock();
+    const std::int64_t last_step = record_.moments().back().step;
+    const double first = std::ceil(record_.from() / interval - rounding),
+                 count = std::floor(record_.to() / interval + rounding) - first + 1;
+    if (interval < clock.step)
+        throw UserError(fmt::format(
+            "--every: is shorter than a step of the run, {:.4g} s; take a longer time", clock.step));
+    if (count > most)
+        throw UserError(fmt::format(
+            "--every: makes {:.3g} moments, and the most are {:.0g}; take a longer time", count, most));
+    if (count < 1) throw UserError("--every: no multiple of it lies in the run; take a shorter time");
+    const auto step_of = [&](double k) {
+        return std::min(last_step,
+                        static_cast<std::int64_t>(std::llround((first + k) * interval / clock.step)));
+    };
+    AskedMoment begin;
+    begin.step = step_of(0);
+    begin.time = clock.time(begin.step);
+    check_can_bring_back(begin);
+    Simulation run = replayed(record_.frames().path(), record_.checkpoints(), begin.step,
+                              record_.scene().run.threads, watcher);
+    for (double k = 0; k < count; ++k) {
+        run.advance(step_of(k));
+        see(snapshot_of(run, record_));
+        if (!watcher((k + 1) / count)) throw RunError("stopped before the moments were reached");
     }
 }
 

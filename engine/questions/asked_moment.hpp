@@ -51,6 +51,11 @@ class MomentFinder {
     void over_periods(const AskedMoment& moment, double periods, bool replay, const ReplayWatcher& watcher,
                       const std::function<void(Snapshot)>& see);
     static constexpr int kMomentsAPeriod = 20;
+    // The moments at the multiples of a time (s) from the run's first moment to its last, brought back. The
+    // run is computed once more, from its first checkpoint. Throws UserError where it has none from there,
+    // where the time is shorter than a step, and where there are more than a million.
+    void at_every(double interval, const ReplayWatcher& watcher,
+                  const std::function<void(const Snapshot&)>& see);
     // Whether there is a checkpoint of the moment, or before it.
     bool can_bring_back(const AskedMoment& moment) const;
     // Whether the moment is that of a checkpoint, so that it comes back at once.

@@ -60,8 +60,8 @@ AnswerTable sum_table(const Snapshot& s, std::int32_t wall, const Forces& on_wal
             true};
 }
 
-// Of a wall whose body moves: where that is. Containers that only shake are left out: there is a column for
-// the work of all walls.
+// Where the body of a wall is, if that body moves. Containers that only shake are left out: there is a column
+// for the work of all walls.
 std::optional<BodyPose> turning_pose(const Snapshot& s, std::int32_t wall) {
     if (const std::optional<std::size_t> mesh = mesh_of_wall(s.scene, wall)) {
         if (!s.scene.meshes[*mesh].moves()) return std::nullopt;
@@ -254,6 +254,23 @@ AnswerTable touching_pairs_table(const Snapshot& s) {
 
 }  // namespace
 
+std::string overlap_verdict(const Snapshot& s) {
+    const double limit = overlap_limit(s.scene);
+    double most = 0;
+    std::size_t beyond = 0;
+    for (const ContactForce& one : s.forces->contacts) {
+        const double share = one.overlap / one.smaller_radius;
+        most = std::max(most, share), beyond += share > limit;
+    }
+    if (beyond == 0)
+        return fmt::format("within the limit: the largest overlap is {:.3g} of what run.overlap allows",
+                           most / limit);
+    return fmt::format(
+        "beyond the limit: {} of {} that touch overlap more than run.overlap allows, at most {:.3g} times as "
+        "much; a larger contact.stiffness or a lower run.overlap makes grains stiffer",
+        beyond, s.forces->contacts.size(), most / limit);
+}
+
 Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
     Forces all;
     for (const ContactForce& one : s.forces->contacts) all.push_back(&one);
@@ -284,6 +301,7 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
     }
     Answer answer{{touching_pairs_table(s)}, {}};
     if (most > 0) answer.tables.push_back(std::move(table));
+    if (!s.forces->contacts.empty()) answer.notes.push_back(overlap_verdict(s));
     if (s.forces->contacts.empty()) answer.notes.emplace_back("nothing touches");
     return answer;
 }

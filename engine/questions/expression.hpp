@@ -4,7 +4,8 @@
 // parser is our own: the expression libraries at hand (muParser, exprtk) know plain numbers only.
 //
 // From the loosest to the tightest: or; and; not; < <= > >= == != (a < b < c is a < b and b < c); + -; * /;
-// ^ with a plain whole number; functions abs, sqrt, min, max; numbers, names, parentheses.
+// ^ with a plain whole number; functions abs, sqrt, min, max; touches(WHO), a condition; numbers, names,
+// parentheses.
 #pragma once
 
 #include <cstddef>
@@ -35,6 +36,9 @@ class Vocabulary {
     };
     virtual std::optional<Word> find(std::string_view name) const = 0;
     virtual std::vector<std::string> names() const = 0;  // for messages
+    // Of touches(who), a condition. None where there are no contacts to ask for. Throws UserError where `who`
+    // is nothing that can be touched.
+    virtual std::optional<Word> touching(std::string_view /*who*/) const { return std::nullopt; }
 };
 
 class Expression {

@@ -243,6 +243,8 @@ std::size_t ExpressionParser::word() {
     if (std::find(joining_words.begin(), joining_words.end(), name) != joining_words.end())
         fail(start, fmt::format("something is missing before '{}'", name));
     if (std::find(functions.begin(), functions.end(), name) != functions.end()) return function(name, start);
+    skip_spaces();
+    if (name == "touches" && text_.substr(at_, 1) == "(") return touches(start);
     return named(name, start);
 }
 
@@ -268,6 +270,26 @@ std::size_t ExpressionParser::function(const std::string& name, std::size_t star
     return add(Op::root, number_of(powers), first);
 }
 
+// touches(wall), touches("left slant"), touches(big), touches(12): up to the parenthesis or the quote.
+std::size_t ExpressionParser::touches(std::size_t start) {
+    take("(");
+    skip_spaces();
+    const bool quotes = at_ < text_.size() && (text_[at_] == '"' || text_[at_] == '\'');
+    const std::size_t from = quotes ? at_ + 1 : at_;
+    const std::size_t end = text_.find(quotes ? text_[at_] : ')', from);
+    if (end == std::string_view::npos)
+        fail(start, quotes ? "the closing quote is missing" : "after touches( a ')' is missing");
+    std::string_view who = text_.substr(from, end - from);
+    while (!quotes && !who.empty() && std::isspace(static_cast<unsigned char>(who.back())))
+        who.remove_suffix(1);
+    if (who.empty()) fail(start, "touches() wants what is touched, as in touches(wall) or touches(12)");
+    at_ = quotes ? end + 1 : end;
+    if (!take(")")) fail(at_, "a ')' is missing");
+    const std::optional<Vocabulary::Word> word = words_.touching(who);
+    if (!word) fail(start, "'touches' is not known here");
+    return add_word(*word);
+}
+
 std::size_t ExpressionParser::named(const std::string& name, std::size_t start) {
     const std::optional<Vocabulary::Word> word = words_.find(name);
     if (!word) {
@@ -277,12 +299,16 @@ std::size_t ExpressionParser::named(const std::string& name, std::size_t start) 
                                 meant ? fmt::format("did you mean '{}'?", *meant)
                                       : fmt::format("there are {}", fmt::join(all, ", "))));
     }
-    if (word->constant) return add(Op::constant, word->type, 0, 0, *word->constant);
+    return add_word(*word);
+}
+
+std::size_t ExpressionParser::add_word(const Vocabulary::Word& word) {
+    if (word.constant) return add(Op::constant, word.type, 0, 0, *word.constant);
     auto& columns = into_.columns_;
-    const auto known = std::find(columns.begin(), columns.end(), word->column);
+    const auto known = std::find(columns.begin(), columns.end(), word.column);
     const auto place = static_cast<std::size_t>(known - columns.begin());
-    if (known == columns.end()) columns.push_back(word->column);
-    return add(Op::column, word->type, place);
+    if (known == columns.end()) columns.push_back(word.column);
+    return add(Op::column, word.type, place);
 }
 
 // A name that is not plain letters: a species called "big beads".

@@ -32,7 +32,9 @@ class ExpressionParser {
     std::size_t number();
     std::size_t word();
     std::size_t function(const std::string& name, std::size_t start);
+    std::size_t touches(std::size_t start);
     std::size_t named(const std::string& name, std::size_t start);
+    std::size_t add_word(const Vocabulary::Word& word);
     std::size_t quoted();
     std::size_t inside();  // what stands in parentheses, the first of them read
 

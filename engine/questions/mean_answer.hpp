@@ -21,7 +21,7 @@ class MeanAnswer {
     explicit MeanAnswer(std::size_t most) : most_(most) {}
 
     void add(const Answer& answer, double time);  // s, of the moment
-    // Of at least one.
+    // The mean of the answers so far, of which there must be at least one.
     Answer mean() const;
 
   private:

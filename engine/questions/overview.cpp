@@ -240,7 +240,7 @@ bool outside_mesh(const Snapshot& s, std::size_t i) {
     return !c.room->holds(at) && !s.scene.meshes[*vessel].surface->any_within(at, s.frame.radius[i]);
 }
 
-// Of a container of faces that turns: behind one of them.
+// Whether a grain is behind a face of a container that turns.
 bool outside_turned(const Snapshot& s, std::size_t i) {
     const Vec3 at = s.frame.container().at_rest(s.frame.position[i]);
     for (const Face& face : container_faces(s.scene.container, s.scene.drive))

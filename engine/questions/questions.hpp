@@ -18,13 +18,17 @@ Answer overview_of(const Snapshot& snapshot);
 // they push, their sum against its weight and its acceleration, and its neighbours.
 Answer grain_answer(const Snapshot& snapshot, std::int64_t id);
 
-// Of a moment that was brought back. The wall is named as in contacts, "left slant" or "left_slant": its sums
-// of force and moment, the force by height, and the grains that touch it, at most `most` of them.
+// A wall at a moment that was brought back. It is named as in contacts, "left slant" or "left_slant". The
+// answer has its sums of force and moment, the force by height, and the grains that touch it, at most `most`
+// of them.
 Answer wall_answer(const Snapshot& snapshot, const std::string& name, std::size_t most);
 
 // Likewise: how many touch, how far they overlap and what the plan allows; the `most` contacts that overlap
 // most.
 Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
+
+// Of a moment that was brought back: a sentence on whether its overlaps keep to what run.overlap allows.
+std::string overlap_verdict(const Snapshot& snapshot);
 
 // Grains for which `condition` holds: how many of each species, statistics of their columns, and a list of at
 // most `most` of them.
@@ -39,7 +43,7 @@ Answer slice_answer(const Snapshot& snapshot, const std::string& plane, std::siz
 // container also its solid fraction (solid_fraction.hpp).
 Answer profile_answer(const Snapshot& snapshot, const std::string& along);
 
-// Of a column: counts in `bins` equal bins from its smallest value to its largest, by species.
+// Counts of a column's values in `bins` equal bins from the smallest to the largest, by species.
 Answer histogram_answer(const Snapshot& snapshot, const std::string& column, std::size_t bins);
 
 // Radial distribution g(r) of centres up to four mean diameters: partners found over those that a uniform bed

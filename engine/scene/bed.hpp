@@ -7,7 +7,7 @@ namespace grainreel {
 
 double mean_cube(const SizeSpread& diameter);  // m3, the mean of d^3
 double largest_diameter(const Scene& scene);   // m, that a grain of any species may have
-// Of all grains together, those that come during the run among them.
+// Sums over all grains, those that come during the run among them.
 double solid_volume(const Scene& scene);   // m3
 double mean_diameter(const Scene& scene);  // m
 double total_mass(const Scene& scene);     // kg

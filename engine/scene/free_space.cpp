@@ -102,13 +102,13 @@ void FreeSpace::measure() {
     volume_ *= static_cast<double>(heights_.size()) / std::max(inside, 1);
 }
 
-double FreeSpace::height_of_share(double share) const {
+double FreeSpace::height_of_share(double part) const {
     if (measured_) {
         if (heights_.empty()) return 0;
-        const double at = share * static_cast<double>(heights_.size() - 1);
+        const double at = part * static_cast<double>(heights_.size() - 1);
         return heights_[static_cast<std::size_t>(at)];
     }
-    const double wanted = share * volume_;
+    const double wanted = part * volume_;
     double low = container_.base(), high = container_.height;
     for (int halving = 0; halving < 60; ++halving) {
         const double middle = 0.5 * (low + high);

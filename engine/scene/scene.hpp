@@ -90,7 +90,7 @@ struct PairContact {
     double gamma = 1.0 / 3.0;              // exponent of Walton's incremental slip
     bool attraction = false;               // laws with a dashpot may pull at the end of contact
     std::optional<double> normal_damping;  // 1/s, force = value * m_eff * v; from the restitution when empty
-    std::optional<double> tangential_damping;  // 1/s, likewise; half of the normal damping when empty
+    std::optional<double> tangential_damping;  // 1/s, as above; half of the normal damping when empty
     // As `stiffness`, of grains of one species with glued ones of the other. When empty it is `stiffness`;
     // when both are, the plan chooses it.
     std::optional<double> glued_stiffness;
@@ -137,8 +137,8 @@ struct WallGrains {
 struct Container {
     enum class Shape { wedge, box, cylinder, mesh, none };
     Shape shape = Shape::wedge;  // none: empty space; the sizes then are those of what is looked at
-    // Of `mesh`: the vessel's name, and the room that it encloses. Half-width, depth and height then are
-    // those of the room, the height from z = 0 to lid or rim.
+    // For the shape `mesh`: the vessel's name, and the room that it encloses. Half-width, depth and height
+    // then are those of the room, the height from z = 0 to lid or rim.
     std::string mesh;
     Shared<EnclosedRoom> room;
     double half_width = 0;    // m, along y: y_max, at and above the slanted part; the radius of a cylinder

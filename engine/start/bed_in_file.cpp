@@ -74,7 +74,7 @@ bool same_face(const Face& one, const Face& other) {
            one.radius == other.radius;
 }
 
-// Of the faces that the grains touched in the run they are from.
+// Whether the faces that grains touched in the run they are from are still there.
 bool faces_stay(const std::vector<Face>& before, const std::vector<Face>& now, const Grains& grains) {
     return std::all_of(before.begin(), before.end(), [&](const Face& face) {
         const auto touches = [&](const Place& p) {

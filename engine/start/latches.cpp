@@ -15,7 +15,7 @@ namespace {
 // Index of a grain; of the other grain, of the face, of the glued grain or of the mesh; and the group's sort.
 using Bodies = std::tuple<std::int32_t, std::int32_t, int>;
 
-// Of a wall: its number among the meshes; below 0 for a face.
+// Number of the wall among the meshes; below 0 for a face.
 std::int32_t mesh_of(const ContactView& c, const Surroundings& around) {
     return -1 - c.second - static_cast<std::int32_t>(around.faces.size());
 }

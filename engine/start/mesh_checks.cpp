@@ -127,7 +127,7 @@ void check_meshes_near(const Scene& scene, const Plan& plan) {
     }
 }
 
-// Of the vessel only the room is used (Feeder).
+// A feed uses only the room of a vessel (Feeder).
 void check_feed_boxes(const Scene& scene) {
     for (std::size_t k = 0; k < scene.feeds.size(); ++k) {
         const Feed& feed = scene.feeds[k];

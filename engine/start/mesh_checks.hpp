@@ -11,7 +11,7 @@ namespace grainreel {
 // at.
 void check_meshes(const Scene& scene, Plan& plan);
 
-// The parts of it; they throw likewise.
+// The parts of it; they throw as above.
 //
 // A grain is near where it starts, where it is fed, and where it may fly and fall to from there: in a closed
 // container nowhere else, else as far as ten times that box to all sides, and down as far as a free fall.

@@ -66,8 +66,13 @@ void write_state(std::ostream& out, std::int64_t step, const Grains& grains, con
 void save_checkpoint(const std::filesystem::path& path, const Scene& scene, const Plan& plan,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
                      const std::string& gathered, const std::vector<std::int64_t>& given) {
+    save_checkpoint(path, scene_to_keep(scene, plan), header, grains, loop, gathered, given);
+}
+
+void save_checkpoint(const std::filesystem::path& path, const std::string& kept,
+                     const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
+                     const std::string& gathered, const std::vector<std::int64_t>& given) {
     std::ostringstream body;
-    const std::string kept = scene_to_keep(scene, plan);
     write_vector(body, std::vector<char>(kept.begin(), kept.end()));
     write_value(body, header);
     write_value(body, static_cast<std::uint8_t>(loop.is_fresh() ? 1 : 0));

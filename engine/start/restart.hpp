@@ -24,6 +24,11 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
                      const std::string& gathered, const std::vector<std::int64_t>& given = {});
 
+// The same with `kept` in place of the scene, which says what the state is of.
+void save_checkpoint(const std::filesystem::path& path, const std::string& kept,
+                     const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
+                     const std::string& gathered, const std::vector<std::int64_t>& given);
+
 // The bytes behind save_checkpoint, for hashes.
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
                  const std::vector<std::int64_t>& given = {});
@@ -41,7 +46,7 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
 Grains grains_from_checkpoint(const Scene& scene);
 
 // Beside those grains, in the same order: the contacts they had, group by group of the rules that the
-// checkpoint's own scene gives. Throws likewise.
+// checkpoint's own scene gives. Throws as above.
 std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const ContactRules& rules,
                                                    const WallParts& walls);
 

@@ -28,7 +28,7 @@ void check_grains_possible(const Scene& scene, const Grains& grains);
 // Numbered from 0 without gaps, as grains of which none have left.
 void check_grains_numbered(const Scene& scene, const Grains& grains);
 
-// Of the sizes that the scene says.
+// Throws UserError where the grains have other sizes than the scene says.
 void check_sizes_match(const Scene& scene, const Grains& grains);
 
 // Likewise, and as many grains of each species as the scene says, and as large.

@@ -22,11 +22,11 @@ struct StartOrigin {
     WallParts parts() const { return parts_of(around); }
 };
 
-// Of a checkpoint. None where it does not say, or says what this program does not understand.
+// The origin that a checkpoint tells. None where it tells none, or one that this program does not understand.
 std::optional<StartOrigin> origin_of(const std::filesystem::path& checkpoint);
 
-// Of a final.csv: the checkpoint beside it, if that has the same grains at the same places (those of
-// `grains`, numbered without gaps).
+// The origin of a final.csv is that of the checkpoint beside it, if that has the same grains at the same
+// places (those of `grains`, numbered without gaps).
 std::optional<StartOrigin> origin_beside(const Scene& scene, const Grains& grains);
 
 // Whether contacts of both kinds have the same forces for the same history, as far as a bed at rest feels it:

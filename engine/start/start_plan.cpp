@@ -25,7 +25,7 @@ std::optional<double> stiffness_there(const PairContact& here, const PairContact
     return here.normal == NormalLaw::hertz ? plan.modulus : plan.loading_stiffness;
 }
 
-// Of meshes that have the same name there.
+// Takes the stiffness of meshes that have the same name there.
 void take_mesh_stiffness(const Scene& scene, const StartOrigin& origin, StartFacts& facts) {
     const std::size_t count = scene.species.size();
     facts.mesh.resize(scene.contact.mesh.size());

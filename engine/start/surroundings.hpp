@@ -9,7 +9,7 @@ namespace grainreel {
 
 Surroundings make_surroundings(const Scene& scene, const Plan& plan);
 
-// Of a scene with an outlet: from now on it is open, and grains that have fallen deep enough leave.
+// Opens the outlet of a scene that has one. From then on, grains that have fallen deep enough leave.
 void open_outlet(const Scene& scene, Surroundings& around);
 
 }  // namespace grainreel

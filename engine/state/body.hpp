@@ -34,7 +34,7 @@ struct BodyPose {
 // The numbers of a scene's bodies: these two, whatever the container, then its planes in their order, then
 // its meshes.
 constexpr std::int32_t kContainerBody = 0, kFloorBody = 1, kFirstPlaneBody = 2;
-// Of a tray, which stands still. It has no pose in files.
+// Number of a tray as a body. It stands still and has no pose in files.
 constexpr std::int32_t kTrayBody = -1;
 
 // How a body moves: with the drive or not, and by a motion of its own on top of it.
@@ -48,7 +48,7 @@ struct Body {
     bool turns() const { return turn || (path && path->turns()); }
     bool has_own_motion() const { return turn || path; }  // beside a steady velocity
     BodyPose at(const Pose& drive) const;
-    // Of one that has no motion of its own but its velocity: the displacement and velocity of all its points.
+    // Displacement and velocity of all points of a body that has no motion of its own but its velocity.
     Vec3 place_at(const Pose& drive) const {
         return (driven ? drive.offset : Vec3(0, 0, 0)) + drive.time * velocity;
     }

@@ -28,10 +28,10 @@ struct Face {
     double gap = 0;       // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
     bool round_gap = false;
 
-    // Of a face whose body turns; see set_reach() (face_reach.hpp).
+    // For a face whose body turns; see set_reach() (face_reach.hpp).
     double reach = 0;  // m, of its farthest point from the axis
 
-    // Of a face whose body does not turn (Body::has_own_motion); else see distance_at() and velocity_of().
+    // For a face whose body does not turn (Body::has_own_motion); else see distance_at() and velocity_of().
     Vec3 displacement(const Pose& drive) const { return body.place_at(drive); }
     Vec3 velocity_at(const Pose& drive) const { return body.velocity_at(drive); }
 };
@@ -43,9 +43,9 @@ struct FaceDistance {
 
 // Vertical wall d = y_max - |y|; slant d = [y_max - |y| - (H - z) tan theta] cos theta.
 //
-// Of a face that ends: the vector from its nearest point is v = A u + B s. u is the distance from the endless
-// face and A its direction. s <= 0 is how far the centre lies beyond the edge and B the direction back onto
-// the face.
+// Distance to a face that ends: the vector from its nearest point is v = A u + B s. u is the distance from
+// the endless face and A its direction. s <= 0 is how far the centre lies beyond the edge and B the direction
+// back onto the face.
 FaceDistance distance_to_plate(const Face& face, const Vec3& offset, const Vec3& centre);
 inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3& centre) {
     if (face.ends) return distance_to_plate(face, offset, centre);
@@ -59,7 +59,7 @@ inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3
 // The same at a pose of the drive, also of a face whose body turns or follows a path.
 FaceDistance distance_at(const Face& face, const Pose& drive, const Vec3& centre);
 
-// m/s, of the point (m) of a face at a pose of the drive, likewise.
+// m/s, of the point (m) of a face at a pose of the drive, as above.
 Vec3 velocity_of(const Face& face, const Pose& drive, const Vec3& point);
 
 // The faces of a scene's container at rest; their bodies follow the scene's drive, but do not turn. Front and

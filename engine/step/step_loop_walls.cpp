@@ -54,7 +54,7 @@ void StepLoop::go_on_tallying(const WallSums& before, const WallScale& scale) {
     members_[0].tally.take(before);
 }
 
-// Of a step, that the forces of its last evaluation act.
+// Share of a step for which the forces of its last evaluation act.
 double StepLoop::last_share() const {
     return scheme_.acts(scheme_.stages.size() - 1);
 }

@@ -27,6 +27,8 @@ install(FILES ${package_sources}/copyright ${package_made}/changelog.gz ${packag
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel)
 
 include(${package_sources}/library.cmake)
+# A module of Python alone, which needs nothing until somebody imports it.
+install(FILES ${package_sources}/python/grainreel.py DESTINATION lib/python3/dist-packages)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME grainreel)

@@ -63,7 +63,7 @@ class FieldsFile {
         return {ends[0], ends[1]};
     }
 
-    // Of the plane: in three dimensions the mean over the depth, or the sum.
+    // The values in the plane: in three dimensions the mean over the depth, or the sum.
     Values plane(const std::string& name, std::size_t record, bool sum = false) const {
         const int variable = file_.find_variable(name);
         if (nx_ == 1) return read(variable, record);

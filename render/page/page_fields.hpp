@@ -43,8 +43,8 @@ struct PageFields {
 
 constexpr std::size_t kMostFieldBytes = 1'000'000;  // packed
 
-// Of fields.nc in a run's folder; with a grid in three dimensions means over the depth. Nothing where the run
-// kept none.
+// The fields of fields.nc in a run's folder; with a grid in three dimensions means over the depth. Nothing
+// where the run kept none.
 PageFields page_fields(const FilmedScene& scene, const std::filesystem::path& folder);
 
 }  // namespace grainreel

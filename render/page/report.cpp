@@ -157,7 +157,7 @@ class Page {
         return differences_html(scenes);
     }
 
-    // Of all runs: from the first one's beginning to the last one's end.
+    // The facts of all runs: from the first one's beginning to the last one's end.
     std::string facts() const {
         Span all = parts_.front().span();
         std::string runs;

@@ -26,7 +26,7 @@ class RunPart {
     void read(const PageProgress& progress);
     // Bytes of the page that read() has taken.
     std::size_t taken() const;
-    // Grains, into so many packed bytes. Throws likewise.
+    // Grains, into so many packed bytes. Throws as above.
     void read_bed(std::size_t most_bytes, const PageProgress& progress);
 
     const FilmedScene& scene() const { return run_.scene; }

@@ -20,7 +20,7 @@ Colour default_colour(const std::vector<Colour>& taken);
 // "#rrggbb".
 std::string colour_text(const Colour& colour);
 
-// Of a film's pictures, where the scene names none.
+// The background of a film's pictures, where the scene names none.
 Colour default_background(FilmLook::Style style);
 
 }  // namespace grainreel

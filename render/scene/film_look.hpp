@@ -25,7 +25,7 @@ struct FilmWalls {
     // they wear it.
     enum class Colour { plain, pressure, wear };
     Colour colour = Colour::plain;
-    // Of the colours, for the whole film: Pa or J/m2. Of no meaning where walls are plain.
+    // Range of the colours for the whole film, in Pa or J/m2. It has no meaning where walls are plain.
     std::array<double, 2> range{0, 0};
     bool fixed = false;              // the range is the user's
     double edge_angle = 30;          // degrees; edges whose faces turn more are drawn

@@ -31,7 +31,7 @@ enum class ColourMap { viridis, cividis, vik, bilbao };  // bilbao: of walls alo
 
 struct GrainColouring {
     GrainValue by = GrainValue::species;
-    // Of no meaning when coloured by species.
+    // These have no meaning when grains are coloured by species.
     ColourMap map = ColourMap::viridis;
     std::array<double, 2> range{0, 1};  // of the quantity, for the whole film
     bool fixed = false;                 // the range is the user's

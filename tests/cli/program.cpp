@@ -46,6 +46,7 @@ void become_program(const std::vector<std::string>& words, const Program::Settin
     // Not the tester's own cache; all tests together measure the machine once.
     const std::filesystem::path cache = std::filesystem::temp_directory_path() / "grainreel-test-cache";
     ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+    ::setenv("GRAINREEL_PACKINGS", "off", 1);
     for (const std::string& variable : setting.environment) ::putenv(const_cast<char*>(variable.c_str()));
     ::signal(SIGHUP, setting.hang_up_ignored ? SIG_IGN : SIG_DFL);
     limit(RLIMIT_FSIZE, setting.file_size_limit);

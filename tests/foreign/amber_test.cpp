@@ -165,6 +165,26 @@ TEST(Amber, ACutFileGivesItsWholeFrames) {
     EXPECT_THAT(complaint_of(amber_format(), packed.substr(0, 30)), HasSubstr("is cut off"));
 }
 
+// The header counts records (bytes 4 to 7, or 4 to 11 in CDF-5), and a program that was stopped may not have
+// counted any.
+TEST(Amber, AHeaderThatCountsNoFrameIsRefusedWithTheCount) {
+    std::string bytes = Bed(NC_64BIT_OFFSET).bytes();
+    bytes.replace(4, 4, 4, '\0');
+    EXPECT_THAT(complaint_of(amber_format(), bytes),
+                testing::AllOf(HasSubstr("counts no frame, and behind it there is room for 2"),
+                               HasSubstr("printf '\\000\\000\\000\\002' | dd of=")));
+    bytes = Bed(NC_64BIT_DATA).bytes();
+    bytes.replace(4, 8, 8, '\0');
+    EXPECT_THAT(complaint_of(amber_format(), bytes), HasSubstr("'\\000\\000\\000\\000\\000\\000\\000\\002'"));
+}
+
+// "Streaming": as many as there is room for.
+TEST(Amber, AHeaderMayLeaveTheCountOpen) {
+    std::string bytes = Bed(NC_64BIT_OFFSET).bytes();
+    bytes.replace(4, 4, 4, '\xff');
+    EXPECT_THAT(counts(amber_format(), bytes), ElementsAre(grains, grains));
+}
+
 TEST(TrialInChild, ACrashEndsTheChildAlone) {
     int changed = 0;
     EXPECT_TRUE(survives([&] { changed = 1; }, 10));

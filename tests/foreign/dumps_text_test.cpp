@@ -75,6 +75,18 @@ TEST(TextDump, LineEndsBlanksTabsAndNoLastLineFeed) {
     }
 }
 
+// An editor on Windows may put a byte order mark before the first item.
+TEST(TextDump, AByteOrderMarkIsPassedOver) {
+    const DumpFolder folder;
+    const auto file =
+        folder.write("marked", "\xef\xbb\xbf" + frame_text("0", "1", "id x y z radius", "9 1 2 3 4\n") +
+                                   frame_text("7", "1", "id x y z radius", "9 5 2 3 4\n"));
+    const auto dump = open_text(file);
+    ASSERT_EQ(dump->moments().size(), 2u);
+    EXPECT_THAT(column_of(dump->read(1).grains, "x"), ElementsAre(5));
+    EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(1));
+}
+
 TEST(TextDump, DoubledNamesAndWords) {
     const DumpFolder folder;
     const auto dump =

@@ -90,6 +90,19 @@ TEST_F(Collections, PartsOfOneTimeAreOneMoment) {
 }
 
 // Hand-written lists give both files of a time part 0.
+// As a program on Windows writes it.
+TEST_F(Collections, BackslashesInNames) {
+    std::filesystem::create_directory(folder.path() / "vtk");
+    folder.write("vtk/g7.vtp", grain(7));
+    const auto one = open("a.pvd", pvd({{"timestep=\"1\"", "vtk\\g7.vtp"}}));
+    ASSERT_EQ(one->moments().size(), 1u);
+    EXPECT_EQ(one->read(0).grains.find("x")->values.at(0), 7);
+    // A file of that very name is it.
+    folder.write("vtk\\g7.vtp", grain(3));
+    EXPECT_EQ(open("b.pvd", pvd({{"timestep=\"1\"", "vtk\\g7.vtp"}}))->read(0).grains.find("x")->values.at(0),
+              3);
+}
+
 TEST_F(Collections, FilesOfOneTimeAndPartWithOtherStems) {
     const auto file = open(
         "a.pvd", pvd({{"timestep=\"0\" part=\"0\"", "g0.vtp"}, {"timestep=\"0\" part=\"0\"", "w0.vtp"}}));

@@ -56,6 +56,31 @@ TEST(VtkXml, EveryType) {
         }
 }
 
+// As our export writes them: types from 1, and their names as bytes with a 0 behind each.
+TEST(VtkXml, TypesThatHaveNames) {
+    const Folder folder;
+    const auto types = [&](const std::vector<double>& numbers, const std::string& names) {
+        XmlWriter writer({});
+        const std::string set =
+            "<FieldData><Array type=\"String\" Name=\"species\" NumberOfTuples=\"2\" "
+            "format=\"ascii\">" +
+            names + "</Array></FieldData><Piece NumberOfPoints=\"2\"><PointData>" +
+            writer.array("Int32", "Name=\"type\"", numbers) + "</PointData>" +
+            writer.points({0, 0, 0, 1, 1, 1}) + "</Piece>";
+        return *frame(folder, writer.file("PolyData", set)).grains.find("type");
+    };
+    const RawColumn named = types({2, 1}, "98 105 103 0 97 0 ");  // "big", "a"
+    EXPECT_THAT(named.words, ElementsAre("big", "a"));
+    EXPECT_THAT(named.values, ElementsAre(1, 0));
+    // A type without a name, names without an end, one twice, what is no byte, and none at all.
+    for (const char* names : {"98 0 ", "98 0 97", "98 0 98 0 ", "98 0 300 0 ", "98 0 0 ", ""}) {
+        SCOPED_TRACE(names);
+        const RawColumn plain = types({2, 1}, names);
+        EXPECT_TRUE(plain.words.empty());
+        EXPECT_THAT(plain.values, ElementsAre(2, 1));
+    }
+}
+
 // VTK packs eight bits in a byte, the first one highest; the file is one of VTK 9.1.
 TEST(VtkXml, Bits) {
     const Folder folder;

@@ -30,6 +30,22 @@ TEST(Reduction, SlopeIsThatOfLeastSquares) {
     EXPECT_DOUBLE_EQ(slope_of({0, 1, 2, 3}, {0, 1, 4, 9}), 3);
 }
 
+// Of 1, 2, 3, 4 the squares about 5/2 sum to 5, over n - 1 = 3; NaN and rows outside the window are left out.
+TEST(Reduction, MaxMinAndDeviation) {
+    const std::vector<double> times{0, 1, 2, 3, 4, 5}, values{-9, 1, 2, nan, 3, 4};
+    const auto of = [&](Kind kind, double from) {
+        Reduction how;
+        how.kind = kind, how.from = from;
+        return reduce(how, times, values);
+    };
+    EXPECT_EQ(of(Kind::max, 0), 4);
+    EXPECT_EQ(of(Kind::min, 0), -9);
+    EXPECT_EQ(of(Kind::min, 0.5), 1);
+    EXPECT_DOUBLE_EQ(of(Kind::deviation, 0.5), std::sqrt(5.0 / 3));
+    EXPECT_TRUE(std::isnan(of(Kind::deviation, 5)));
+    EXPECT_TRUE(std::isnan(of(Kind::max, 6)));
+}
+
 TEST(Reduction, SlopeNeedsTwoTimes) {
     EXPECT_TRUE(std::isnan(slope_of({}, {})));
     EXPECT_TRUE(std::isnan(slope_of({1}, {2})));

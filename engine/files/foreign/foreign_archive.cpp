@@ -112,7 +112,7 @@ void ForeignArchive::choose_files() {
     for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
 }
 
-// Of several series of grains in one folder the longest is taken: a run is often written in two formats.
+// Takes the longest of several series of grains in a folder, because a run is often written in two formats.
 void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     const std::vector<FileGroup> groups = grouped(files);
     const FileGroup* chosen = nullptr;
@@ -204,7 +204,7 @@ void ForeignArchive::list_moments() {
         std::sort(sorted.begin(), sorted.end());
         const double median =
             sorted.empty() || !(sorted[sorted.size() / 2] > 0) ? 1 : sorted[sorted.size() / 2];
-        // Of a single frame nothing can be told.
+        // A single frame tells no interval.
         for (double& time : times) time = times.size() == 1 ? 0 : time / (median * kUntimedRate);
         for (double& interval : intervals) interval /= median * kUntimedRate;
         news_.push_back(fmt::format("{}: says no times; its frames are taken as {} a second{}",

@@ -195,7 +195,7 @@ void check_heights(const Scene& scene, const MeasureTable& table, std::size_t ro
     }
 }
 
-// Of all rows: they follow each other, and each has the time of its step.
+// Checks that rows follow each other, and that each has the time of its step.
 void check_rows(double step_length, const std::vector<double>& steps, const std::vector<double>& times,
                 const std::string& measures) {
     for (std::size_t row = 0; row < steps.size(); ++row) {

@@ -24,7 +24,7 @@ class NetcdfFile {
     // Opens one that create() made, to write on behind its first `records`; whatever comes behind them is cut
     // off. Throws UserError when there are fewer, or as open() does, and RunError when it cannot be written.
     static NetcdfFile append(const std::filesystem::path& path, std::size_t records);
-    // How much of such a file that is. Throws UserError likewise.
+    // How much of such a file that is. Throws UserError as above.
     static KeptRecords kept_of(const std::filesystem::path& path, std::size_t records);
     // Puts the count of records into a file that was cut off. Does nothing where it cannot.
     static void count_records(const std::filesystem::path& path, std::size_t records);

@@ -28,6 +28,8 @@ class DumpTail {
     // The next frame that is whole; none so far, or ever. Throws UserError with the line where the file holds
     // something else, and RunError where it got shorter.
     std::optional<DumpRows> next();
+    // Bytes of the file up to the end of the last frame that next() gave.
+    std::uintmax_t taken() const { return place_ - text_.size(); }
 
   private:
     bool read_more();

@@ -6,11 +6,15 @@
 
 namespace grainreel {
 
-EngineJob::EngineJob(PeerEngine engine, int ranks, const std::string& deck)
+EngineJob::EngineJob(PeerEngine engine, int ranks, const std::string& deck, const std::string& restart)
     : engine_(engine),
       deck_(deck),
       program_(find_engine(engine)),
-      ranks_(rank_words(engine, program_, deck, ranks)) {}
+      ranks_(rank_words(engine, program_, deck, ranks)) {
+    if (!restart.empty())
+        for (const char* word : {"-var", "goes_on", "1", "-var", "restart", restart.c_str()})
+            ranks_.words.emplace_back(word);
+}
 
 std::string EngineJob::command() const {
     std::string text;

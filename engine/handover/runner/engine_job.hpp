@@ -13,8 +13,9 @@ namespace grainreel {
 
 class EngineJob {
   public:
-    // Throws UserError where engine or mpirun are missing, are of no use, or processors are too few.
-    EngineJob(PeerEngine engine, int ranks, const std::string& deck);
+    // restart: a restart file in the deck's folder that it goes on from; empty: from the start. Throws
+    // UserError where engine or mpirun are missing, are of no use, or processors are too few.
+    EngineJob(PeerEngine engine, int ranks, const std::string& deck, const std::string& restart = {});
 
     const EngineProgram& program() const { return program_; }
     const std::vector<std::string>& notes() const { return ranks_.notes; }

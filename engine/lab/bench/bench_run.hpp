@@ -53,7 +53,7 @@ struct BenchOutcome {
 };
 BenchOutcome run_bench(const BenchCase& bench, const BenchRequest& request, const BenchWatcher& watcher);
 
-// Of places, velocities and spins, by id.
+// A hash of places, velocities and spins, by id.
 std::uint64_t hash_of_motion(const Grains& grains);
 
 }  // namespace grainreel

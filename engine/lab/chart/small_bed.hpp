@@ -18,8 +18,8 @@ struct BedSetting {
 
 struct BedResult {
     double height = 0;       // m, mean height over the moving floor, averaged over the second half
-    double temperature = 0;  // m2/s2, mean square of the velocities about the bed's, likewise
-    double contacts = 0;     // force-carrying contacts a grain, likewise
+    double temperature = 0;  // m2/s2, mean square of the velocities about the bed's, as above
+    double contacts = 0;     // force-carrying contacts a grain, as above
     double mixing = 0;       // Lacey's index of the lower half against the upper, at the end
     double cost = 0;         // ns of one thread a grain and simulated microsecond
 };
@@ -30,7 +30,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
                                  const std::function<bool()>& goes_on);
 
 // What a setting changes of the bed: the mean over its seeds, and how far that is from the reference's, in
-// per cent of it; `error` is the standard error of the difference, likewise.
+// per cent of it; `error` is the standard error of the difference, as above.
 struct BedDifference {
     std::string setting;
     int seeds = 0;

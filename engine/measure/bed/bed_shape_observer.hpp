@@ -23,8 +23,8 @@ class BedShape final : public Observer {
     void look(const Moment& m, std::vector<double>& row) override {
         if (m.grains.size() == 0) return add_no_values(row, 2);
         std::vector<double> heights = heights_above(m.grains, m.floor_height());
-        const double height = bed_height(heights), floor = m.floor_height();
-        row.insert(row.end(), {height, solid_fraction(m.scene.container, m.grains, floor, floor + height)});
+        const double height = bed_height(heights), top = m.floor_height() + height;
+        row.insert(row.end(), {height, solid_fraction(m.scene.container, m.grains, m.pose.offset.z(), top)});
     }
 };
 

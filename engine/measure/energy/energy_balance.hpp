@@ -62,7 +62,7 @@ class EnergyBalance {
     }
 
   private:
-    // Of one contact, at the last step it touched.
+    // What is kept of one contact, at the last step it touched.
     struct Kept {
         std::int64_t step;
         double latched = 0, sideways = 0;  // J

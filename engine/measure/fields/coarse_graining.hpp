@@ -45,7 +45,7 @@ struct CoarseFields {
     CellValues density;                      // kg/m3
     std::vector<CellValues> solid_fraction;  // one a species
     std::vector<CellValues> velocity;        // m/s: x, y, z; NaN where no grain is near, and in the walls
-    CellValues temperature;                  // m2/s2; likewise
+    CellValues temperature;                  // m2/s2; as above
     std::vector<CellValues> kinetic_stress;  // Pa: xx, xy, xz, yy, yz, zz
     std::vector<CellValues> contact_stress;  // Pa: xx, xy, xz, yx, ... zz
 };
@@ -62,7 +62,7 @@ class CoarseGraining {
 
     // Adds a moment. 0 <= phase < phases. The order of grains and contacts decides the last bits.
     void add(const FieldState& state, int phase);
-    // Of all moments since the last clear(); each phase must have had as many of them as the others.
+    // Mean over all moments since the last clear(). Each phase must have had as many of them as the others.
     CoarseFields mean() const;
     void clear();
     std::int64_t moments() const { return moments_; }

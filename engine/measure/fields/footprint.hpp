@@ -31,11 +31,12 @@ class Footprint {
     Footprint(const FieldGrid& grid, const FieldKernel& kernel)
         : grid_(grid), kernel_(kernel), along_(grid.axes[0].resolved ? 0 : 1), across_(1 - along_) {}
 
-    // Of the kernel about a point.
+    // Weights of the kernel about a point.
     std::span<const CellWeight> of_point(const Vec3& point, double radius = 0);
-    // Of the kernel's mean along a straight line: the integral over s from 0 to 1 of W(r - begin - s branch),
-    // by Gauss-Legendre quadrature of four points in each stretch of at most 2.5 widths. That leaves an error
-    // below 1e-4 of the kernel's largest value, but where the Gaussian is cut off, at 1 % of that value.
+    // Weights of the kernel's mean along a straight line: the integral over s from 0 to 1 of W(r - begin - s
+    // branch), by Gauss-Legendre quadrature of four points in each stretch of at most 2.5 widths. That leaves
+    // an error below 1e-4 of the kernel's largest value, but where the Gaussian is cut off, at 1 % of that
+    // value.
     std::span<const CellWeight> of_line(const Vec3& begin, const Vec3& branch, double radius = 0);
     // Likewise of a line along which the kernel W_s changes its width w_s evenly, from that of the one radius
     // to that of the other: integral over s of W_s (branch + (r - begin - s branch) d(ln w_s)/ds). Its

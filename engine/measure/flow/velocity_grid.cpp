@@ -39,7 +39,7 @@ class Squares {
     const double from_, to_;  // m
 };
 
-// Of the filled cells.
+// Mean weight of the filled cells.
 double mean_weight(const VelocityGrid& grid) {
     double sum = 0, filled = 0;
     for (const double w : grid.weight) {

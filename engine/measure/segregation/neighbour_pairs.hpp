@@ -50,7 +50,7 @@ class NeighbourPairs {
     const double gap_, period_;
     Cells cells_;
     std::vector<std::int32_t> order_;  // by the order of the cells, which find partners fast only there
-    LargeArray<Place> place_;          // likewise
+    LargeArray<Place> place_;          // as above
 };
 
 }  // namespace grainreel

@@ -12,8 +12,9 @@ namespace grainreel {
 // Grains a sample of the Lacey index, on average; the index depends on it, so it is fixed.
 inline constexpr int kLaceySample = 32;
 
-// Of the rarer kind, on average a sample: with fewer there is no index. By chance one sample in exp(3) = 20
-// then has none of them (Poisson), and what the samples hold no longer tells a layer from a mixture.
+// Grains of the rarer kind that a sample must have on average; with fewer there is no index. By chance one
+// sample in exp(3) = 20 then has none of them (Poisson), and what the samples hold no longer tells a layer
+// from a mixture.
 inline constexpr double kLeastOfRareKind = 3;
 
 // What samples of the bed show of one kind of grain among all. The samples have equal counts of grains,

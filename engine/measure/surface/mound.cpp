@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLeastBins = 6;
 
-// Of the bins from `first` up to, without, `end`.
+// Slope over the bins from `first` to the one before `end`.
 double slope_of(const BedOutline& s, std::size_t first, std::size_t end) {
     const auto count = static_cast<double>(end - first);
     double places = 0, heights = 0;

@@ -6,8 +6,8 @@
 
 namespace grainreel {
 
-// Of the container at rest, as wide as it is free at the height that the grains fill. Bins go by the mean
-// diameter of all grains. Of no width in empty space, and in a drum (drum_surface.hpp).
+// The frame of the container at rest, as wide as it is free at the height that the grains fill. Bins go by
+// the mean diameter of all grains. It has no width in empty space, nor in a drum (drum_surface.hpp).
 SurfaceFrame surface_frame(const Scene& scene);
 
 }  // namespace grainreel

@@ -100,7 +100,7 @@ std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
 struct Around {
     double all = 0, unlike = 0;
     double mass = 0;         // kg, its own too
-    Vec3 momentum{0, 0, 0};  // likewise
+    Vec3 momentum{0, 0, 0};  // as above
 };
 
 class AllAround {

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/nearest_name.hpp"
+#include "engine/questions/columns/touches.hpp"
 #include "engine/questions/dimensions.hpp"
 
 namespace grainreel {
@@ -53,6 +54,7 @@ const std::vector<GrainColumn>& grain_columns() {
 }
 
 std::vector<double> values_of(const Snapshot& snapshot, int number, const GrainList& grains) {
+    if (is_touches_column(number)) return values_of_touches(snapshot, number, grains);
     return grain_columns().at(static_cast<std::size_t>(number)).of(snapshot, grains);
 }
 
@@ -79,9 +81,12 @@ std::vector<Needs> needs_of(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         std::size_t end = at;
         while (end < text.size() && is_of_name(text[end])) ++end;
-        const auto column = column_named(text.substr(at, end - at));
-        if (column && std::find(needs.begin(), needs.end(), grain_columns()[*column].needs) == needs.end())
-            needs.push_back(grain_columns()[*column].needs);
+        const std::string_view name = text.substr(at, end - at);
+        const auto column = column_named(name);
+        std::optional<Needs> what;
+        if (column) what = grain_columns()[*column].needs;
+        if (name == "touches") what = Needs::contacts;
+        if (what && std::find(needs.begin(), needs.end(), *what) == needs.end()) needs.push_back(*what);
         at = std::max(end, at + 1);
     }
     return needs;
@@ -105,6 +110,10 @@ std::vector<std::string> GrainVocabulary::names() const {
     for (const GrainColumn& column : grain_columns()) names.push_back(column.name);
     for (const Species& species : snapshot_.scene.species) names.push_back(species.name);
     return names;
+}
+
+std::optional<Vocabulary::Word> GrainVocabulary::touching(std::string_view who) const {
+    return Word{{ValueType::Kind::truth, {}}, std::nullopt, touches_column(snapshot_, who)};
 }
 
 GrainList grains_where(const Snapshot& snapshot, const Expression& condition) {

@@ -11,7 +11,7 @@
 
 namespace grainreel {
 
-// Of which grains of a frame: their places in it.
+// Places in a frame of the grains that are asked for.
 using GrainList = std::vector<std::size_t>;
 
 struct GrainColumn {
@@ -39,7 +39,7 @@ double gap_of_neighbours(const Scene& scene);
 
 // The number of the column with this name. Throws UserError where there is none, or the snapshot lacks it.
 int column_called(const Snapshot& snapshot, const std::string& name);
-// Of the column with this number: of these grains, or of all grains of the frame.
+// Values of the column with this number, for these grains or for all grains of the frame.
 std::vector<double> values_of(const Snapshot& snapshot, int column, const GrainList& grains);
 std::vector<double> values_of(const Snapshot& snapshot, int column);
 
@@ -53,6 +53,7 @@ class GrainVocabulary final : public Vocabulary {
     // Throws UserError for a column that needs what the snapshot lacks.
     std::optional<Word> find(std::string_view name) const override;
     std::vector<std::string> names() const override;
+    std::optional<Word> touching(std::string_view who) const override;
 
   private:
     const Snapshot& snapshot_;

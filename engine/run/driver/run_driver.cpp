@@ -12,6 +12,7 @@
 #include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/driver/key_moments.hpp"
+#include "engine/run/packings/packing_cache.hpp"
 #include "engine/scene/file/scene_file.hpp"
 #include "engine/scene/text/comments.hpp"
 
@@ -80,14 +81,37 @@ void RunDriver::use_folder(const FolderLock& folder, const std::string& program_
 
 bool RunDriver::pack(const PackingWatcher& watcher) {
     const auto timer = times_.during("packing");
-    packing_ = simulation_.pack([&](const PackingProgress& now) {
-        folder_->check_there();
-        return watcher(now);
-    });
-    if (!packing_.finished) return false;
+    const std::string key = shortest_kept_ ? simulation_.packing_key() : "";
+    if (!take_kept_packing(key)) {
+        const Stopwatch packing;
+        packing_ = simulation_.pack([&](const PackingProgress& now) {
+            folder_->check_there();
+            return watcher(now);
+        });
+        if (!packing_.finished) return false;
+        keep_packing_of(key, packing.seconds());
+    }
     first_step_ = simulation_.step();
     packed_ = true;
     return true;
+}
+
+bool RunDriver::take_kept_packing(const std::string& key) {
+    const std::filesystem::path place = place_of_packing(key);
+    if (place.empty()) return false;
+    auto found = Simulation::with_packing(scene_, plan_, place, key, simulation_.threads(), packing_);
+    if (!found) return false;
+    simulation_ = std::move(*found);
+    note_packing_used(place);
+    found_packing_ = true;
+    return true;
+}
+
+void RunDriver::keep_packing_of(const std::string& key, double seconds) {
+    const std::filesystem::path place = place_of_packing(key);
+    if (place.empty() || seconds < *shortest_kept_) return;
+    not_kept_ = keep_packing(
+        place, [&](const std::filesystem::path& file) { simulation_.save_packing(file, key, packing_); });
 }
 
 void RunDriver::start(FrameWishes wishes) {

@@ -54,9 +54,14 @@ class RunDriver {
     bool is_behind_former() const { return former_kept_; }
     // Closes its files, and the folder is as it was. Nothing else may be called afterwards.
     void put_back();
+    // From here on pack() takes a packing that an earlier run has kept in the user's cache folder, and keeps
+    // its own there where that took `shortest` seconds or longer. No bit of the run changes by that.
+    void keep_packings(double shortest) { shortest_kept_ = shortest; }
     // False when the watcher stopped it.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
+    // A line on the packing that pack() found; empty where it packed by itself.
+    std::string found_packing_text() const;
 
     // After packing: opens the files.
     void start(FrameWishes wishes);
@@ -101,6 +106,8 @@ class RunDriver {
     void conclude(RunRecord& record) const;
 
   private:
+    bool take_kept_packing(const std::string& key);
+    void keep_packing_of(const std::string& key, double seconds);
     void let_former_go(bool at_its_end);
     void open_files();
     bool advance_to(std::int64_t target, const GoOn& go_on);
@@ -117,6 +124,9 @@ class RunDriver {
     std::string program_version_;  // as files tell it
     PackingResult packing_;
     bool packed_ = false;
+    std::optional<double> shortest_kept_;  // s, of packings that are kept
+    bool found_packing_ = false;
+    std::string not_kept_;  // why the packing could not be kept
     std::int64_t first_step_ = 0;
     bool goes_on_ = false;
     std::size_t frames_before_ = 0;

@@ -77,7 +77,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", frames);
 }
 
-// Of measures.csv, for plots and for the end's comparison with the beginning.
+// Takes over the rows of measures.csv, for plots and for the end's comparison with the beginning.
 void RunFiles::take_over_rows(const Simulation& simulation) {
     const std::shared_ptr<const MeasureTable> rows = read_measures(folder_ / "measures.csv");
     if (!rows) return;

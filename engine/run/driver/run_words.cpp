@@ -6,14 +6,24 @@
 
 namespace grainreel {
 
+std::string RunDriver::found_packing_text() const {
+    if (!found_packing_) return "";
+    return fmt::format(
+        "took the packing of an earlier run of this start from the cache: {} grains, solid fraction {:.3f}; "
+        "--no-cache packs anew",
+        simulation_.grains(), packing_.solid_fraction);
+}
+
 std::string RunDriver::packing_text() const {
+    const std::string not_kept =
+        not_kept_.empty() ? "" : fmt::format("; for later runs it is not kept: {}", not_kept_);
     if (scene_.start.method == Start::Method::file)
         return fmt::format("took {} grains from {}; {}", simulation_.grains(), scene_.start.file,
                            plan_.start.relaxes && packing_.settled
                                ? fmt::format("relaxed for {:.3g} s", packing_.settle_time)
                                : plan_.start.text);
-    return fmt::format("packed {} grains: {:.3g} s of settling, solid fraction {:.3f}", simulation_.grains(),
-                       packing_.settle_time, packing_.solid_fraction);
+    return fmt::format("packed {} grains: {:.3g} s of settling, solid fraction {:.3f}{}",
+                       simulation_.grains(), packing_.settle_time, packing_.solid_fraction, not_kept);
 }
 
 std::optional<std::string> RunDriver::packing_warning() const {

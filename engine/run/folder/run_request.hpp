@@ -20,9 +20,11 @@ struct RunRequest {
     std::optional<std::filesystem::path> out;  // new or empty; none: base and the scene's name, numbered
     std::filesystem::path base = "output";     // of runs without `out`
     bool force = false;                        // a run in `out` is replaced
-    PageMaker page;                            // none: the run leaves no page
-    std::string command;                       // as typed, for run.json
-    ProgramInfo program;                       // for run.json
+    // s: packings that took so long or longer are kept in the user's cache folder, and found there; none: no
+    std::optional<double> keep_packings;
+    PageMaker page;       // none: the run leaves no page
+    std::string command;  // as typed, for run.json
+    ProgramInfo program;  // for run.json
 };
 
 }  // namespace grainreel

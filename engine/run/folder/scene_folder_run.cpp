@@ -108,7 +108,9 @@ bool SceneFolderRun::pack() {
         desk_.listener.progress(progress);
         return desk_.listener.stop_signal() == 0;
     };
+    if (request_.keep_packings) driver_.keep_packings(*request_.keep_packings);
     if (!driver_.pack(watcher)) return false;
+    if (const std::string found = driver_.found_packing_text(); !found.empty()) desk_.listener.info(found);
     desk_.listener.detail(driver_.packing_text());
     if (const auto warning = driver_.packing_warning()) desk_.listener.warning(*warning);
     return desk_.listener.stop_signal() == 0;

@@ -17,6 +17,7 @@
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/import_measures.hpp"
+#include "engine/run/import/import_ranges.hpp"
 #include "engine/run/import/import_scene.hpp"
 #include "engine/run/import/import_wear.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
@@ -190,6 +191,7 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
         wear.emplace(folder.path() / "fields.nc", scene, archive, request.program_version);
         for (std::string& line : wear->news()) run.news.push_back(std::move(line));
     }
+    ImportRanges ranges(scene, supply);
     std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
     for (std::size_t k = 0; k < archive.moments().size(); ++k) {
         Frame frame = archive.grains(k);
@@ -202,10 +204,12 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
         const std::vector<Touch> touches = archive.touches(k).value_or(std::vector<Touch>());
         if (contacts) contacts->write(run.frames, records_of(touches, frame));
         table.write(measures.row(frame, touches));
+        ranges.add(frame, touches);
         if (wear) wear->write(k);
         ++run.frames;
         tell(frames + static_cast<double>(k));
     }
+    ranges.write(folder.path());
     run.folder = folder.path();
     folder.keep();
     return run;
@@ -213,7 +217,7 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
 
 }  // namespace
 
-// Of long files some frames say which types there are. Where another one has more, all are asked.
+// In long files only some frames are asked which types there are. Where another one has more, all are asked.
 ImportedRun import_run(const ImportRequest& request) {
     try {
         return import_of(request, ForeignArchive(request.from, request.reading));

@@ -28,8 +28,8 @@ class CheckpointRing {
     static constexpr std::size_t kMost = 20;
     static constexpr const char* kFolder = "checkpoints";
 
-    // Of a run from step `first` to `last`, of at most so many bytes. Takes over those up to `first` that lie
-    // there, and removes those beyond it, which are of a future that will be run again.
+    // Checkpoints of a run from step `first` to `last`, of at most so many bytes. Takes over those up to
+    // `first` that lie there, and removes those beyond it, which are of a future that will be run again.
     CheckpointRing(const std::filesystem::path& run, std::int64_t most_bytes, std::int64_t first,
                    std::int64_t last);
 

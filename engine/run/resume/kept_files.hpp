@@ -17,7 +17,7 @@ bool keeps_fields(const Scene& scene);
 
 // Steps of a trajectory's frames, up to the first that is damaged; none where there is no such file.
 std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file);
-// Of the rows of measures.csv; likewise.
+// The steps of the rows of measures.csv, on the same terms.
 std::vector<std::int64_t> steps_in_measures(const std::filesystem::path& file);
 
 // Throws UserError for a file that the run writes and that is missing or cannot be read, before any of them

@@ -70,7 +70,7 @@ std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, 
     return std::nullopt;
 }
 
-// Of a checkpoint that the run goes on from; empty for the last one.
+// Why the run goes on from this checkpoint and not from the last one; empty for the last one.
 std::string why_held_back(const KeptCheckpoint& one, const KeptCheckpoint& last, const Limits& limits,
                           const Plan& plan) {
     if (one.step == last.step) return "";

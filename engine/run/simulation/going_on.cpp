@@ -20,24 +20,30 @@ Simulation Simulation::at_checkpoint(const Scene& scene, const Plan& plan,
     there.start.method = Start::Method::file;
     there.start.file = checkpoint.string();
     there.start.keep_clock = true;
-    return Simulation(std::make_unique<Impl>(there, plan, threads, may_change, replays));
+    const Impl::Takes what = replays      ? Impl::Takes::replay
+                             : may_change ? Impl::Takes::changed_run
+                                          : Impl::Takes::same_run;
+    return Simulation(std::make_unique<Impl>(there, plan, threads, what));
 }
 
 void Simulation::Impl::go_on() {
     make_loop();
     std::string gathered;
     std::vector<std::int64_t> given;
-    const CheckpointHeader header =
-        continue_from_checkpoint(scene, plan, grains, *loop, gathered, given, may_change);
+    const CheckpointHeader header = continue_from_checkpoint(
+        scene, plan, grains, *loop, gathered, given, takes == Takes::changed_run || takes == Takes::packing);
     feeder.set_given(std::move(given));
-    if (replays) orientations = !grains.orientation.empty();
+    if (takes == Takes::replay) orientations = !grains.orientation.empty();
     set_orientations();
     step = header.step;
     start_energy = header.start_energy;
     continued = true;
     opened = plan.opens && step >= *plan.opens;
     if (opened) open_outlet(scene, around);
-    take_gathered(gathered);
+    if (takes == Takes::packing)
+        begin_packed(gathered);
+    else
+        take_gathered(gathered);
     observers.start(moment(), contacts());
 }
 
@@ -51,6 +57,12 @@ void Simulation::Impl::check_not_over() const {
 // What was gathered of walls stands before what the observers have gathered. Without it, it begins here.
 void Simulation::Impl::take_gathered(const std::string& bytes) {
     Bytes in(bytes);
+    take_wall_sums(in);
+    observers.load(moment(), in);
+    if (in.failed()) throw damaged_checkpoint(scene);
+}
+
+void Simulation::Impl::take_wall_sums(Bytes& in) {
     WallSums sums;
     read_vector(in, sums.faces);
     read_vector(in, sums.slices);
@@ -61,15 +73,17 @@ void Simulation::Impl::take_gathered(const std::string& bytes) {
         if (in.failed()) throw damaged_checkpoint(scene);
         there ? loop->go_on_tallying(sums, scale) : loop->tally_walls(scale, step);
     }
-    observers.load(moment(), in);
-    if (in.failed()) throw damaged_checkpoint(scene);
+}
+
+void Simulation::Impl::save_wall_sums(std::ostream& out) const {
+    const WallSums sums = observers.need_wall_sums() ? loop->wall_sums() : WallSums();
+    write_vector(out, sums.faces);
+    write_vector(out, sums.slices);
 }
 
 std::string Simulation::Impl::gathered() const {
     std::ostringstream out;
-    const WallSums sums = observers.need_wall_sums() ? loop->wall_sums() : WallSums();
-    write_vector(out, sums.faces);
-    write_vector(out, sums.slices);
+    save_wall_sums(out);
     observers.save(out);
     return out.str();
 }
@@ -81,16 +95,20 @@ std::uint64_t Simulation::state_hash() const {
     return XXH64(bytes.data(), bytes.size(), 0);
 }
 
+CheckpointHeader Simulation::Impl::header() const {
+    CheckpointHeader header;
+    header.step = step;
+    header.start_energy = start_energy;
+    if (scene.drive.moves == Drive::Moves::container) {
+        header.wall_offset = around.motion.at(step).offset;
+        header.wall_velocity = around.motion.at(step).velocity;
+    }
+    return header;
+}
+
 void Simulation::save_checkpoint(const std::filesystem::path& path) const {
     const Impl& m = *impl_;
-    CheckpointHeader header;
-    header.step = m.step;
-    header.start_energy = m.start_energy;
-    if (m.scene.drive.moves == Drive::Moves::container) {
-        header.wall_offset = m.around.motion.at(m.step).offset;
-        header.wall_velocity = m.around.motion.at(m.step).velocity;
-    }
-    grainreel::save_checkpoint(path, m.scene, m.plan, header, m.grains, *m.loop, m.gathered(),
+    grainreel::save_checkpoint(path, m.scene, m.plan, m.header(), m.grains, *m.loop, m.gathered(),
                                m.feeder.given());
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,12 @@ class Simulation {
     static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
                                     const std::filesystem::path& checkpoint, int threads,
                                     bool may_change = false, bool replays = false);
+    // The run of the scene from a packing that save_packing() has kept under the same key, and what its
+    // pack() gave. Takes the place of pack(); from here on the run is the one that packs by itself, bit by
+    // bit. None where the file is none, is damaged or has another key; nothing in it is believed.
+    static std::optional<Simulation> with_packing(const Scene& scene, const Plan& plan,
+                                                  const std::filesystem::path& file, const std::string& key,
+                                                  int threads, PackingResult& result);
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
@@ -61,6 +68,14 @@ class Simulation {
     // Afterwards step() is 0, or the file's step when the scene keeps its clock.
     PackingResult pack(const PackingWatcher& watcher);
     PackingResult pack();
+    // All that decides how pack() leaves the grains, as text: two scenes with the same key have the same
+    // packing to the bit, in this program on this processor. Empty where nothing is packed, or where a
+    // caller's law acts. The keys of film, output and duration are not in it. The drive's are where radii
+    // grow, because the walls already move then; else only whether and what it moves.
+    std::string packing_key() const;
+    // After pack(), before any step: what with_packing() takes. Throws RunError when it cannot be written.
+    void save_packing(const std::filesystem::path& file, const std::string& key,
+                      const PackingResult& result) const;
 
     // Runs up to step `target`. Throws RunError when the run stopped being healthy.
     void advance(std::int64_t target);

@@ -1,14 +1,16 @@
 // The parts of a simulation, for the files that make it up: simulation.cpp (steps and health), packing.cpp,
-// going_on.cpp (checkpoints) and views.cpp (what leaves it).
+// kept_packing.cpp, going_on.cpp (checkpoints) and views.cpp (what leaves it).
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
+#include "engine/base/binary.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/measure/observers.hpp"
@@ -16,13 +18,18 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/start/surroundings.hpp"
+#include "engine/state/checkpoint_file.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
 struct Simulation::Impl {
-    Impl(const Scene& s, const Plan& p, int threads, bool changes = false, bool replay = false)
+    // What a checkpoint is taken for: to go on as the run that it is of, as another one from then on, as a
+    // run of before for its moments, or as a packing, from which a run begins.
+    enum class Takes { same_run, changed_run, replay, packing };
+
+    Impl(const Scene& s, const Plan& p, int threads, Takes what = Takes::same_run)
         : scene(s),
           plan(p),
           team(threads > 0 ? threads : usable_processors()),
@@ -30,8 +37,7 @@ struct Simulation::Impl {
           bodies(bodies_of(s)),
           limits(health_limits(s, p)),
           observers(all_observers(), scene, plan),
-          may_change(changes),
-          replays(replay) {
+          takes(what) {
         if (!scene.start.packs()) take_grains();
     }
 
@@ -53,8 +59,8 @@ struct Simulation::Impl {
     bool opened = false;     // the container's outlet
 
     Observers observers;
-    bool may_change = false;  // whether a run that goes on may be another one from now on
-    bool replays = false;     // a run of before, for its moments
+    Takes takes = Takes::same_run;
+    PackingResult packed;  // of a packing that was taken
     bool orientations = scene.keeps_orientations();
     std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
 
@@ -73,7 +79,12 @@ struct Simulation::Impl {
     void look_at_health();
     Moment moment();
     void take_gathered(const std::string& bytes);
+    void take_wall_sums(Bytes& in);
+    void save_wall_sums(std::ostream& out) const;
     std::string gathered() const;
+    void begin_packed(const std::string& gathered);
+    std::string gathered_of_packing(const PackingResult& result) const;
+    CheckpointHeader header() const;
     ShowContacts contacts() const;
 };
 

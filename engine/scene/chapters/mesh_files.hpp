@@ -26,7 +26,7 @@ void load_surface(const Document& document, const std::string& table, SceneMesh&
 // Likewise the path, and the key `path`.
 void load_path(const Document& document, const std::string& table, SceneMesh& mesh);
 
-// Of a surface; the last one stays in memory too.
+// The room that a surface encloses. The last one stays in memory.
 std::shared_ptr<const EnclosedRoom> room_of(const std::shared_ptr<const Surface>& surface);
 
 }  // namespace grainreel

@@ -9,8 +9,8 @@ namespace grainreel {
 // Empty where the scene itself says the value.
 struct Reasons {
     std::string step;
-    // Of stiffness, or of the modulus with Hertz. By kind of contact as in Contact; `glued`: of its contacts
-    // with grains glued to walls. Without an entry where nothing was filled in.
+    // Why a stiffness was filled in, or the modulus with Hertz. By kind of contact as in Contact; `glued`:
+    // for contacts with grains glued to walls. Without an entry where nothing was filled in.
     std::vector<std::string> grain, wall, mesh, glued;
 };
 

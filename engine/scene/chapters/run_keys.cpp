@@ -128,8 +128,16 @@ const char* without_record(const Output& output) {
     return output.trajectory ? nullptr : "no trajectory is kept, and other formats are made of it";
 }
 
+std::string about_also() {
+    return fmt::format(
+        "Formats of other programs that the run's frames are written in when it ends, in the folder also, "
+        "as `export --to` does it: \"{}\".",
+        fmt::join(kAlsoFormats, "\", \""));
+}
+
 const KeyTable<Output>& output_table() {
     using O = Output;
+    static const std::string about = about_also();
     static const KeyTable<O> table{
         flag("trajectory", &O::trajectory, initial(), "Keep trajectory.nc."),
         quantity("trajectory_interval", &O::trajectory_interval, Dimension::time, positive,
@@ -162,11 +170,7 @@ const KeyTable<Output>& output_table() {
             },
             [](const O&, const Scene& scene) { return names_text(scene.instruments()); })
             .written_at(1),
-        bound_by<O>(
-            entry("also", KeyKind::name_list, note("none"),
-                  "Formats of other programs that the run's frames are written in when it ends, in the "
-                  "folder also: \"vtk\", \"gsd\" and the others of `export --to`."),
-            read_also, also_text)
+        bound_by<O>(entry("also", KeyKind::name_list, note("none"), about.c_str()), read_also, also_text)
             .useless_for(without_record)
             .unwritten_if([](const O& output) { return !output.also.any(); })
             .written_at(1),

@@ -25,7 +25,7 @@ const char* beside_ends(const SizeSpread& spread) {
     return spread.kind == Spread::uniform ? "'min' and 'max' say the spread" : nullptr;
 }
 
-// Of a diameter that is a table.
+// Keys of a diameter that is a table.
 const KeyTable<SizeSpread>& spread_table() {
     using S = SizeSpread;
     const auto length = [](const char* name, double S::*member, const char* about) {

@@ -22,7 +22,7 @@ double amplitude_of(double acceleration, double frequency) {
     return acceleration > 0 ? acceleration / (omega * omega) : 0;  // at rest there is no frequency either
 }
 
-// Of a vibration, or of a tap.
+// A stretch of vibration, or of taps.
 DriveSchedule::Piece piece_of(std::size_t stage, Kind kind, double frequency, double amplitude,
                               double interval) {
     const double acceleration = acceleration_of(amplitude, frequency);

@@ -18,7 +18,7 @@ class DriveSchedule {
     // The drive oscillates, and its stages have passed check_stages().
     explicit DriveSchedule(const Drive& drive);
 
-    // Of each stretch of times(), beside it.
+    // What the drive does in each stretch of times().
     struct Piece {
         std::size_t stage = 0;  // the one that is on, or that it changes to; 0: before the first, k: the k-th
         DriveStage::Kind kind = DriveStage::Kind::vibrate;  // of what it does; a change vibrates

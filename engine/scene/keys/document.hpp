@@ -63,7 +63,7 @@ class Document {
     // [low, high], each a quantity of this dimension.
     std::optional<std::array<double, 2>> interval(const std::string& path, Dimension dimension);
     std::vector<std::string> name_list(const std::string& path);      // empty when absent
-    std::vector<std::int64_t> integer_list(const std::string& path);  // likewise
+    std::vector<std::int64_t> integer_list(const std::string& path);  // as above
     // Values of any kind as TOML writes them in one line, of which an assignment can be made. Empty when
     // absent. Throw UserError when the key is not a list, or is one.
     std::vector<std::string> value_list(const std::string& path);

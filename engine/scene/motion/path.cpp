@@ -16,7 +16,9 @@ Quaternion quaternion_of(const Eigen::Vector4d& w_first) {
     return {w_first[0], w_first[1], w_first[2], w_first[3]};
 }
 
-// Of the quaternion scaled to length 1: q = p/|p|, q' = (p' - q (q.p')) / |p|, and the spin is 2 q' q*.
+// p|, q' = (p' - q (q.p')) / |p|, and the spin is 2 q' q*.|The quaternion is scaled to length 1: q = p/|p|,
+// q' = (p' - q (q.p')) / |p|, and the spin is 2 q' q*.|p|, q' = (p' - q (q.p')) / |p|, and the spin is 2 q'
+// q*.
 Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
     const double length = raw.norm();
     const Eigen::Vector4d unit = raw / length;

@@ -20,7 +20,7 @@ struct Assignment {
     std::string place() const;  // for messages: "--size", "--set drive.frequency"
 };
 
-// Of two for one key the later wins.
+// The later of two assignments to one key wins.
 class Assignments : public std::vector<Assignment> {
   public:
     using std::vector<Assignment>::vector;

@@ -7,7 +7,7 @@ namespace grainreel {
 
 // As add_walls(). The contacts' second bodies are faces, or patches of meshes.
 void add_at_points(const WallForces& forces, bool of_meshes);
-// Of contact c alone, which must touch.
+// Adds the load of contact c alone, which must touch.
 void add_at_point(const WallForces& forces, bool of_meshes, int c);
 // As add_at_points() for patches of meshes, a register at a time and with the same bits.
 void add_at_meshes(const WallForces& forces);

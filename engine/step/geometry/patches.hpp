@@ -61,7 +61,7 @@ class Patches {
     double squared_reach_ = 0;        // m2
     std::vector<Touching> touching_;  // by rising triangle, once they are found
     std::vector<int> best_;           // of each group, by its first member
-    std::vector<double> least_;       // m2, likewise
+    std::vector<double> least_;       // m2, as above
     std::vector<Patch> patches_;
 };
 

@@ -19,7 +19,7 @@ struct WallPoint {
     Vec3 normal_before{0, 0, 0};  // a step ago; zero where they did not touch then
     double distance = 0;          // m, of the centre
     Vec3 velocity{0, 0, 0};       // m/s, of the wall's point, mean over the step
-    Vec3 spin{0, 0, 0};           // rad/s, of the wall, likewise
+    Vec3 spin{0, 0, 0};           // rad/s, of the wall, as above
 };
 
 // Fills the rows of contact c that `in` asks for, and sets its bit where it touches. Before the first contact
@@ -40,7 +40,7 @@ struct alignas(64) MeshTouch {
     double triangle = 0;          // its number
     Vec3 velocity{0, 0, 0};       // m/s, of the surface there, mean over the step
     double unused_one = 0;
-    Vec3 spin{0, 0, 0};  // rad/s, of the surface, likewise
+    Vec3 spin{0, 0, 0};  // rad/s, of the surface, as above
     double unused_two = 0;
 };
 

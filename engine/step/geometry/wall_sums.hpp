@@ -49,7 +49,7 @@ bool is_sound(const WallSums& sums, std::size_t faces, const WallScale& scale);
 bool are_sound(const std::vector<FaceSums>& faces);
 bool are_sound(const std::vector<WideInt>& slices);
 
-// Of one thread.
+// The sums of one thread.
 class WallTally {
   public:
     // bases: m, the height of each wall's point at rest; of the faces, then of the meshes.

@@ -113,7 +113,7 @@ class Grid {
 
     std::array<int, 3> axes_{0, 1, 2};
     Vec3 origin_{0, 0, 0}, inverse_width_{0, 0, 0};  // along these
-    std::array<int, 3> count_{1, 1, 1};              // likewise
+    std::array<int, 3> count_{1, 1, 1};              // as above
     int tile_bits_ = kTileBits;                      // a tile's side has 2^tile_bits_ rows
     bool periodic_ = false;
     std::vector<std::int32_t> start_;  // first member of each box, and one past the last

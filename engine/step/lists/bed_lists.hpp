@@ -88,7 +88,7 @@ class BedLists {
     };
 
     std::int32_t grains() const { return static_cast<std::int32_t>(grains_.size()); }
-    // Of grains and walls as they are now.
+    // What is near, for grains and walls as they are now.
     Nearby nearby(const Pose& now, double skin) const;
     void search(int thread, const Pose& pose);
     void join_parts(const TeamMember& me);

@@ -98,7 +98,7 @@ void BedLists::take_histories(const HistoryOf& history_of) {
     }
 }
 
-// Of what load() read: whether the loop could have made it, with these grains and faces.
+// Whether the loop could have made what load() read, with these grains and faces.
 bool BedLists::is_sound(const std::vector<KeptContacts>& kept, std::int32_t steps, const Reach& reach) const {
     const WallParts walls = parts_of(around_);
     bool sound = steps >= 0 && steps <= kMostStepsOfLists && are_sound(lists_, grains(), walls) &&

@@ -58,7 +58,7 @@ void list_near_glued(const ContactRules& rules, const Nearby& nearby, ThreadCont
     }
 }
 
-// Of meshes no candidates are listed, but the triangles that grains may touch.
+// Lists the triangles that grains may touch; meshes have no other candidates.
 void list_near_meshes(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {
     if (nearby.meshes.empty()) return;
     for (MeshLists& lists : contacts.meshes) lists.clear();

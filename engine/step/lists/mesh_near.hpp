@@ -23,7 +23,7 @@ struct MeshNear {
     std::int32_t grain, mesh;
     Vec3 centre;                // m, of the grain at the refresh, in the body's frame
     std::int32_t first, count;  // its triangles; the nearest comes first
-    // Of these, so many from the first on are of one plane: the first and some that share an edge with it.
+    // So many of these, from the first on, lie in one plane: the first and some that share an edge with it.
     // While the grain has moved by less than `stays` (m), it touches this plane at one place, on the first
     // triangle's face, if at all.
     std::int32_t flat;
@@ -51,7 +51,7 @@ struct MeshFault {
     std::int64_t step = -1;
 };
 
-// Of one group of contacts under one thread.
+// The lists of one group of contacts, under one thread.
 struct MeshLists {
     std::vector<MeshNear> near;  // by rising grain, then mesh
     std::vector<NearTriangle> triangles;

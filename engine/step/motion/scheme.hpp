@@ -22,7 +22,7 @@ struct Scheme {
     // Whether positions still change after the last forces of a step.
     bool moves_after_forces() const { return corrects || closing_drift > 0; }
 
-    // Of the forces of a stage: how long they act, for the work that walls do.
+    // How long the forces of a stage act, as a share of the step, for the work that walls do.
     double acts(std::size_t stage) const {
         return stages[stage].kick + (stage + 1 == stages.size() ? opening_kick : 0);
     }

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/team.hpp"
+#include "engine/handover/peer_rates.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/app/check/check_parts.hpp"
 #include "render/app/estimate/cost_estimate.hpp"
@@ -16,7 +18,7 @@
 namespace grainreel {
 namespace {
 
-// Of records: how often they come.
+// How often records come.
 std::string interval_text(double periods, double steps, const Plan& plan) {
     if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
     return span_text(steps * plan.clock.step);
@@ -28,6 +30,33 @@ constexpr double bytes_of_program = 138e6;  // with its libraries, the software 
 
 std::string film_format_text(const Film& film) {
     return film.format == FilmFormat::png ? std::string("PNG pictures") : codec_of(film.format).words;
+}
+
+constexpr std::int64_t fewest_to_hand_over = 20000;  // grains; four ranks' worth
+constexpr double long_run = 24 * 3600;               // s
+constexpr double much_faster = 3;
+
+// Where the run is better off: here, or on the ranks that its grains feed. For beds that one may think of.
+void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& here, Listing& list) {
+    const std::int64_t grains = scene.grains(), ranks = useful_ranks(grains);
+    if (grains < fewest_to_hand_over) return;
+    const RunFrame frame = scene.drive.moves == Drive::Moves::floor ? RunFrame::lab : RunFrame::container;
+    const int count = static_cast<int>(std::min<std::int64_t>(ranks, 1'000'000));
+    double fastest = INFINITY;
+    std::string name = "elsewhere";
+    for (const PeerEngine engine : {PeerEngine::lammps, PeerEngine::liggghts}) {
+        const double seconds = peer_seconds(engine, frame, grains, plan.steps, count);
+        fastest = std::min(fastest, seconds);
+        list.line(name,
+                  fmt::format("{}: about {} on {} ranks, with {} in all", name_of(engine), span_text(seconds),
+                              grouped(count), data_size_text(peer_bytes(engine, grains))));
+        name.clear();
+    }
+    const double mine = here.packing_seconds + here.engine_seconds;
+    list.line(
+        "", mine > long_run && mine > much_faster * fastest
+                ? "hand it over where you have as many processors: ./movie handover (docs/guide/clusters.md)"
+                : fmt::format("stay here: one of our threads does the work of {:.0f} ranks", kRanksAThread));
 }
 
 std::string threads_text(int threads) {
@@ -97,6 +126,7 @@ void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<Se
     list.line("", fmt::format(
                       "together about {} on {}, {}", span_text(cost.total_seconds), threads_text(processors),
                       threads.take_turns ? "engine and film in turn" : "engine and film beside each other"));
+    print_elsewhere(scene, plan, cost, list);
 }
 
 }  // namespace grainreel

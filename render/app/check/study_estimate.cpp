@@ -12,7 +12,7 @@ namespace grainreel {
 namespace {
 
 constexpr double usual_lattice = 1e7;  // grain-steps a second
-// Of the first seed of each setting.
+// What the poster of a setting's first seed costs.
 constexpr double poster_seconds = 0.5, poster_bytes = 0.5e6;
 
 }  // namespace

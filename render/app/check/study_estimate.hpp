@@ -11,7 +11,7 @@
 
 namespace grainreel {
 
-// Of one member, on one thread.
+// What one member costs on one thread.
 struct MemberEstimate {
     double seconds = 0, bytes = 0;
 };

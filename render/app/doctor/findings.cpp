@@ -15,6 +15,7 @@
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/lattice_speed.hpp"
 #include "engine/run/import/import_run.hpp"
+#include "engine/run/packings/packing_cache.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/picture/gl/context.hpp"
@@ -133,6 +134,19 @@ std::vector<Finding> find_imports() {
                  "{} of other programs, {:.1f} MB in {} (at most {:.0f} MB are kept); to empty it: rm -r {}",
                  kept.imports, static_cast<double>(kept.bytes) / megabyte, of,
                  static_cast<double>(kept.most_bytes) / megabyte, shell_word(of))}};
+}
+
+std::vector<Finding> find_packings() {
+    constexpr double megabyte = 1e6;
+    const PackingsKept kept = packings_kept();
+    const std::string of = kept.folder.string();
+    if (kept.packings == 0)
+        return {{"packings", of.empty() ? "none: there is no cache folder" : fmt::format("none in {}", of)}};
+    return {{"packings",
+             fmt::format("{} kept for later runs, {:.1f} MB in {} (at most {:.0f} MB are kept); to empty it: "
+                         "rm -r {}",
+                         kept.packings, static_cast<double>(kept.bytes) / megabyte, of,
+                         static_cast<double>(kept.most_bytes) / megabyte, shell_word(of))}};
 }
 
 std::vector<Finding> find_programs() {

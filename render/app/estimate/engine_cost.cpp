@@ -120,7 +120,7 @@ double contacts_while_growing(double at_rest, double level) {
     return sum / parts;
 }
 
-// Of the grains that the scene lists, how many there are in the mean over the run.
+// How many of the grains that the scene lists are there, in the mean over the run.
 double present(const FilmedScene& scene, const Plan& plan) {
     auto grains = static_cast<double>(scene.grains());
     const double end = scene.run.duration;

@@ -98,7 +98,7 @@ struct FilmUse {
     double drawing = 0;  // share of that
 };
 
-// Of a film of so many frames, or fewer where they take long.
+// Time and bytes of a film of so many frames, or of fewer where they take long.
 FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const Frame& bed, int most,
                     const HeldSignals& signals) {
     const ProbeFolder folder;

@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-// Of one look of a film.
+// How fast films of one look are made.
 struct FilmSpeed {
     double seconds = 0;    // of processor time, to draw and encode a frame of one moment
     double drawing = 0.5;  // share of it that is drawing

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of UTF-8: bytes that do not go on with the character before them.
+// Characters of a text in UTF-8: its bytes but those that go on with the character before them.
 std::size_t characters(const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -30,7 +30,7 @@ std::string si_unit(const AnswerColumn& column) {
     return column.unit.empty() ? si_unit(column.dimension) : column.unit;
 }
 
-// Of a cell in a table whose rows are quantities of their own, too.
+// Dimension of a cell, also in a table whose rows are quantities of their own.
 Dimension dimension_of(const AnswerTable& table, std::size_t row, std::size_t column) {
     const Dimension own = table.columns[column].dimension;
     return own == Dimension::number && row < table.row_dimensions.size() ? table.row_dimensions[row] : own;

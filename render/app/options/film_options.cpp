@@ -6,13 +6,14 @@
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/app/options/number_range.hpp"
 #include "render/app/options/option_groups.hpp"
 
 namespace grainreel {
 
 namespace {
 
-// Of the environment; none when it is empty.
+// The value of a variable of the environment; none when it is empty.
 std::optional<std::string> variable(const char* name) {
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0' ? std::optional<std::string>(value) : std::nullopt;
@@ -59,6 +60,24 @@ void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, c
     verb.add_option_function<std::string>("--out", take, about)->type_name("DIR");
 }
 
+void add_print_size(CLI::App& verb, PrintSize& print) {
+    constexpr double most = 1e5;
+    verb.add_option("--dpi", print.dpi,
+                    "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]")
+        ->check(number_within(1, most))
+        ->type_name("N");
+    verb.add_option("--width-mm", print.width_mm,
+                    "With --at: width on paper; the picture gets the pixels that this needs")
+        ->check(number_within(1, most))
+        ->type_name("MM");
+}
+
+void check_print_size(const PrintSize& print, bool one_picture, const char* moment) {
+    if (!one_picture && print.wanted())
+        throw UserError(
+            fmt::format("{}: is for one picture; add {}", print.dpi ? "--dpi" : "--width-mm", moment));
+}
+
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
     film.base = output_base();
     const auto take_out = [&film](const std::string& folder) {
@@ -77,6 +96,20 @@ void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
         "--no-film", [&film] { film.film = false; },
         "Leave out the film; with --frames, keep the pictures alone");
     add_gl(verb, film.gl);
+}
+
+CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest) {
+    constexpr double worth_a_file = 1;  // s
+    shortest = worth_a_file;
+    if (const auto word = variable("GRAINREEL_PACKINGS")) {
+        if (*word != "off" && *word != "all")
+            throw UserError(fmt::format("GRAINREEL_PACKINGS={}: is neither off nor all", excerpt(*word)));
+        shortest = *word == "all" ? std::optional(0.0) : std::nullopt;
+    }
+    return verb.add_flag_callback(
+        "--no-cache", [&shortest] { shortest.reset(); },
+        "Pack anew, and keep no packing: one that took longer than a second is else kept in the user's\n"
+        "cache folder for later runs of the same start, whose bits are the same [$GRAINREEL_PACKINGS]");
 }
 
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about) {

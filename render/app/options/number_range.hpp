@@ -4,6 +4,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
 namespace grainreel {

@@ -33,7 +33,8 @@ void add_sets(CLI::App& verb, Assignments& sets, const char* about);
 void add_picture_keys(CLI::App& verb, Assignments& sets);
 // --set, those of the film, --duration and --seed.
 void add_scene_keys(CLI::App& verb, Assignments& sets);
-// Of a single picture: a PNG file, whatever the scene's film is. Throws UserError for keys of a film's file.
+// The settings for a single picture: it is a PNG file, whatever the scene's film is. Throws UserError for
+// keys of a film's file.
 Assignments sets_for_still(Assignments sets);
 // SCENE, and those of its keys.
 void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);
@@ -47,6 +48,15 @@ void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, c
 void add_gl(CLI::App& verb, gl::Provider& provider);
 // Where what a verb makes goes without --out: $GRAINREEL_OUTPUT, else output/.
 std::filesystem::path output_base();
+
+// --dpi and --width-mm: one picture for print.
+void add_print_size(CLI::App& verb, PrintSize& print);
+// Throws UserError where they are given for more than one. moment: the options that ask for one picture.
+void check_print_size(const PrintSize& print, bool one_picture, const char* moment);
+// --no-cache, of a verb that runs scenes: packings are neither taken from the user's cache folder nor kept
+// there. shortest: s, of packings that are kept; none once that is said, by the option or by
+// GRAINREEL_PACKINGS=off; 0 with GRAINREEL_PACKINGS=all. Throws UserError for another value.
+CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest);
 
 // An option that is a time of a finished run, s.
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about);

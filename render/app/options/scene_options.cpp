@@ -30,7 +30,7 @@ std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// Of the film's file.
+// Adds the keys of the film's file.
 void add_file_keys(CLI::App& verb, Assignments& sets) {
     add_key(verb, sets, "--for", "film.for", "WHAT",
             "Defaults of size, rate, format, quality and cap for " + joined(purpose_names()) +

@@ -9,7 +9,7 @@ namespace grainreel {
 // font without serifs where theirs is missing. Throws RunError where the file is none of gnuplot's.
 void say_size_in_mm(const std::filesystem::path& svg, double width_mm);
 
-// A PNG file tells printers its pixels an inch (pHYs). Throws RunError likewise.
+// A PNG file tells printers its pixels an inch (pHYs). Throws RunError as above.
 void say_dots(const std::filesystem::path& png, double dpi);
 
 }  // namespace grainreel

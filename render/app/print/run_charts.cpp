@@ -86,7 +86,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-// Of all runs: what their pages begin with, or all that they have.
+// Names of the measures to draw for all runs: those that their pages begin with, or all that they have.
 std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::vector<std::string>& wanted) {
     std::vector<std::string> names;
     const bool all = wanted == std::vector<std::string>{"all"};
@@ -127,7 +127,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
     return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
 }
 
-// Of all values, and from 0 where they cannot be negative.
+// The span of all values, from 0 where they cannot be negative.
 std::array<double, 2> span_of(const std::deque<MeasuredRun>& runs, const std::string& measure) {
     std::optional<std::array<double, 2>> span;
     for (const MeasuredRun& run : runs)

@@ -37,6 +37,7 @@ class Compare final : public Verb {
         add_captions(parser);
         CLI::Option* at =
             add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file in the folder");
+        add_print_size(parser, request_.print);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
         add_scene_keys(parser, request_.sets);
@@ -44,6 +45,7 @@ class Compare final : public Verb {
         add_camera_file(parser, camera_, keep);
         add_film(parser, film_,
                  "Folder of the film, with one in it for each run [output/ and the scenes' names]");
+        add_no_cache(parser, film_.keep_packings);
         for (const char* option : {"--part", "--parts"})
             parser
                 .add_option_function<std::string>(
@@ -58,6 +60,7 @@ class Compare final : public Verb {
     }
 
     int run(Reporter& reporter) override {
+        check_print_size(request_.print, request_.at.has_value(), "--at");
         film_.command = command;
         film_.program = program_info();
         bool any_foreign = false;

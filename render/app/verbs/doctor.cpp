@@ -29,8 +29,9 @@ class Doctor final : public Verb {
 
     int run(Reporter&) override {
         std::vector<Finding> all{{"program", where_program_is(), true, true, ""}};
-        for (std::vector<Finding> found : {find_processors(), find_room(output_base()), find_drawing(),
-                                           find_films(), find_letters(), find_programs(), find_imports()})
+        for (std::vector<Finding> found :
+             {find_processors(), find_room(output_base()), find_drawing(), find_films(), find_letters(),
+              find_programs(), find_imports(), find_packings()})
             all.insert(all.end(), found.begin(), found.end());
         std::size_t width = 0;
         for (const Finding& finding : all) width = std::max(width, finding.what.size());

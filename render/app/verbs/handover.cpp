@@ -80,12 +80,12 @@ class Handover final : public Verb {
         request_.accept_law = !accepted_.empty();
         request_.edinburgh = law_ == "edinburgh";
         check_schedule(scene, count_film(scene, plan.clock, plan.steps));
-        request_.dumps = needed_steps(scene, plan.clock, plan.steps);
         CarriedScene carried = carry(scene, plan, request_);
         // Each is a line of its own; the last one ends the verb.
         for (std::size_t i = 0; i + 1 < carried.refusals.size(); ++i)
             reporter.error(refusal_text(carried.refusals[i]));
         if (!carried.refusals.empty()) throw UserError(refusal_text(carried.refusals.back()));
+        want_pictures(carried, scene);
         folder_.name = fmt::format("{}-{}", scene.name, engine_);
         folder_.base = output_base();
         folder_.command = command;
@@ -137,9 +137,9 @@ class Handover final : public Verb {
         const double seconds =
             peer_seconds(carried.engine, carried.frame, carried.grains(),
                          carried.last - carried.first + carried.packing_steps, carried.ranks);
-        reporter.info(fmt::format("{} for {} on {} rank{}, about {:.2g} hours there; {} dumps",
-                                  folder.string(), name_of(carried.engine), carried.ranks,
-                                  carried.ranks == 1 ? "" : "s", seconds / 3600, carried.dumps.size()));
+        reporter.info(fmt::format("{} for {} on {} rank{}, about {} there; {} dumps", folder.string(),
+                                  name_of(carried.engine), carried.ranks, carried.ranks == 1 ? "" : "s",
+                                  duration_text(seconds), carried.dumps.size()));
         reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
                                   folder.string(), folder.string()));
         reporter.info(fmt::format("draw it:     ./movie render {}", folder.string()));

@@ -18,6 +18,7 @@
 #include "engine/questions/histogram.hpp"
 #include "engine/questions/mean_answer.hpp"
 #include "engine/questions/questions.hpp"
+#include "engine/questions/steadiness.hpp"
 #include "engine/run/driver/stage_times.hpp"
 #include "engine/run/folder/replay_progress.hpp"
 #include "render/app/foreign/run_to_read.hpp"
@@ -44,7 +45,10 @@ std::string about_columns() {
         text += fmt::format("  {:<20}{}{}{}\n", column.name, column.needs == Needs::nothing ? "  " : "* ",
                             column.about,
                             column.also.empty() ? "" : fmt::format("; also called {}", column.also));
-    return text;
+    return text +
+           "Conditions are joined by and, or, not. touches(WHO) holds where a grain has a contact that "
+           "carries "
+           "force\nwith any wall (touches(wall)), a wall, a species or the grain of an id.\n";
 }
 
 class Inspect final : public Verb {
@@ -126,8 +130,9 @@ class Inspect final : public Verb {
         const Record* const record = asked_->record;
         tell_news(*record, reporter);
         MomentFinder finder(*record);
-        Answer answer = over_time_
-                            ? named("--where", [&] { return counts_over_time(finder, *record, *where_); })
+        Answer answer = steady_ ? named("--steady", [&] { return steady(*record); })
+                        : series()
+                            ? named("--where", [&] { return series_answer(finder, *record, reporter); })
                         : average_ ? mean_answer(finder, *record, reporter)
                                    : single_answer(finder, *record, reporter);
         answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
@@ -139,6 +144,7 @@ class Inspect final : public Verb {
     bool ends_in_good_order() const override { return false; }
 
   private:
+    bool series() const { return over_time_ || every_.has_value(); }
     bool draws() const { return !picture_.empty() || !pixel_.empty(); }
 
     // What would be accepted and do nothing.
@@ -150,6 +156,12 @@ class Inspect final : public Verb {
             throw UserError("--over-time: --png is of one moment; leave one out");
         if (over_time_ && (moment_.at || moment_.frame || moment_.cycle))
             throw UserError("--over-time: is of all kept moments; leave the moment out");
+        if (every_ && (!picture_.empty() || moment_.at || moment_.frame || moment_.cycle))
+            throw UserError("--every: is of the whole run; leave moment and picture out");
+        if (every_ && !(*every_ > 0)) throw UserError("--every: must be longer than 0 s");
+        if (!mean_.empty() && !series()) throw UserError("--mean: is over time; add --every or --over-time");
+        if (steady_ && (!picture_.empty() || average_ || moment_.at || moment_.frame || moment_.cycle))
+            throw UserError("--steady: is of the whole run; leave moment, mean and picture out");
         if (average_ && !pixel_.empty())
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
         if (film_time_ && !draws())
@@ -191,6 +203,11 @@ class Inspect final : public Verb {
             parser.add_flag("--pair-distribution", pairs_, "Radial distribution function of the centres"),
             add_time(parser, "--compare", compare_, "Who moved most between then and the moment"),
             parser
+                .add_option("--steady", steady_,
+                            "Whether this column of measures.csv is steady: where its transient ends, and "
+                            "whether it drifts behind that")
+                ->type_name("COLUMN"),
+            parser
                 .add_option("--pixel", pixel_, "Which grain or wall is at this pixel of the film's picture")
                 ->type_name("X,Y")
                 ->delimiter(',')
@@ -202,12 +219,39 @@ class Inspect final : public Verb {
                       "With --where: how many of each species at every moment that was kept")
             ->needs(parser.get_option("--where"))
             ->excludes(parser.get_option("--average"));
+        add_time(parser, "--every", every_,
+                 "With --where: the same at each multiple of this time, brought back")
+            ->needs(parser.get_option("--where"))
+            ->excludes(parser.get_option("--average"))
+            ->excludes(parser.get_option("--over-time"));
+        parser
+            .add_option("--mean", mean_,
+                        "With --every or --over-time: the mean of this quantity over these grains, too")
+            ->type_name("QUANTITY")
+            ->needs(parser.get_option("--where"));
         parser.add_flag("--through", through_, "With --pixel: what lies behind it, too")
             ->needs(questions.back());
         parser.add_option("--bins", bins_, "With --histogram: how many [20]")
             ->type_name("N")
             ->check(CLI::Range(1, 10000))
             ->needs(parser.get_option("--histogram"));
+    }
+
+    Answer steady(const Record& record) const {
+        const fs::path& place = record.frames().path();
+        return steady_answer(place, record.scene(), *steady_);
+    }
+
+    Answer series_answer(MomentFinder& finder, const Record& record, Reporter& reporter) const {
+        if (every_ && takes_in_series(Needs::period))
+            throw UserError("ways over a period are known of single moments; leave --every out");
+        SeriesRequest request{*where_, mean_, every_, !no_replay_ && !foreign_};
+        return series_of(finder, record, request, watcher_of(reporter));
+    }
+
+    bool takes_in_series(Needs what) const {
+        const std::vector<Needs> all = needs_of(*where_ + " " + mean_);
+        return std::find(all.begin(), all.end(), what) != all.end();
     }
 
     Answer single_answer(MomentFinder& finder, const Record& record, Reporter& reporter) {
@@ -467,7 +511,9 @@ class Inspect final : public Verb {
     bool through_ = false;
     std::optional<double> film_time_;
     MomentRequest moment_;
-    std::optional<double> compare_, average_;
+    std::optional<double> compare_, average_, every_;
+    std::optional<std::string> steady_;
+    std::string mean_;
     double phase_ = 0;
     std::optional<std::int64_t> grain_;
     std::optional<std::string> wall_, where_, profile_, slice_, histogram_;

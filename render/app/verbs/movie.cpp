@@ -38,6 +38,7 @@ class Movie final : public Verb {
         add_film(parser, film_,
                  "Folder of the run [output/ and the scene's name, numbered when that is taken]");
         parser.add_flag("--no-report", no_page_, "Leave out report.html, the run as a page for a browser");
+        add_no_cache(parser, film_.keep_packings);
         add_watch(parser, watched_, place_);
         CLI::Option* engine =
             parser

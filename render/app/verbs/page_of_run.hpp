@@ -14,9 +14,10 @@ namespace grainreel {
 
 inline constexpr const char* kPageName = "report.html";
 
-// Of the runs in folders, side by side where there are several. out: its file; empty: report.html in the
-// first run's folder. checked: this program has just written them, so that their frames need not be looked at
-// for damage first. Nothing when `progress` stopped it. Throws UserError for what is no run, RunError.
+// Makes the page of the runs in these folders, side by side where there are several. out: its file; empty:
+// report.html in the first run's folder. checked: this program has just written them, so that their frames
+// need not be looked at for damage first. Nothing when `progress` stopped it. Throws UserError for what is no
+// run, RunError.
 std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>& runs,
                                        const std::filesystem::path& out, bool checked,
                                        const PageProgress& progress);

@@ -1,5 +1,7 @@
 // The verb `render`: a finished run is drawn again, as a film or as one picture. What it did not keep is
 // brought back from its checkpoints; the run itself stays as it is.
+#include <chrono>
+#include <thread>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -7,6 +9,10 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/handover/back/dump_tail.hpp"
+#include "engine/handover/handover_folder.hpp"
+#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/folder/progress.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/camera_file.hpp"
 #include "render/app/options/number_range.hpp"
@@ -75,13 +81,7 @@ class Render final : public Verb {
                             "from 0, to a PNG file")
                 ->type_name("N")
                 ->excludes(at);
-        for (const auto& [flag, into, about, type] :
-             {std::tuple("--dpi", &request_.dpi,
-                         "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]",
-                         "N"),
-              {"--width-mm", &request_.width_mm,
-               "With --at: width on paper; the picture gets the pixels that this needs", "MM"}})
-            parser.add_option(flag, *into, about)->check(number_within(1, 1e5))->type_name(type);
+        add_print_size(parser, request_.print);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
@@ -109,12 +109,11 @@ class Render final : public Verb {
 
     int run(Reporter& reporter) override {
         film_.command = command;
-        if (!is_still() && (request_.dpi || request_.width_mm))
-            throw UserError(fmt::format("{}: is for one picture; add --at or --frame",
-                                        request_.dpi ? "--dpi" : "--width-mm"));
+        check_print_size(request_.print, is_still(), "--at or --frame");
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
-        if (follow_) return follow(reporter);
+        if (follow_ && !is_handover(request_.run)) return follow(reporter);
+        if (follow_) wait_for_job(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
         if (read.imported) request_.beside = read.beside;
@@ -132,6 +131,27 @@ class Render final : public Verb {
 
   private:
     bool is_still() const { return request_.at || request_.frame; }
+
+    // Waits while a job that a scene was handed over to still writes. It has ended once its last moment is
+    // there, or nothing new has come for a while.
+    void wait_for_job(Reporter& reporter) const {
+        const HandoverFacts facts = read_handover(request_.run);
+        DumpTail dump(facts.dump);
+        Stopwatch idle;
+        std::int64_t step = 0;
+        while (step < facts.last + facts.shift && idle.seconds() < idle_ && reporter.stop_signal() == 0) {
+            if (const std::optional<DumpRows> rows = dump.next()) {
+                step = rows->step;
+                idle = Stopwatch();
+                Progress progress;
+                progress.stage = Progress::Stage::vibrating;
+                progress.done = static_cast<double>(step) / static_cast<double>(facts.last + facts.shift);
+                reporter.progress(progress);
+            } else {
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            }
+        }
+    }
 
     int follow(Reporter& reporter) const {
         std::error_code ignored;

@@ -14,6 +14,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/handover/handover_folder.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/driver/key_moments.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
@@ -29,6 +30,7 @@
 #include "render/app/verbs/page_of_run.hpp"
 #include "render/app/verbs/verb.hpp"
 #include "render/film/request/thread_plan.hpp"
+#include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"
 #include "render/film/run/resumed_film.hpp"
 #include "render/film/sources/recorded_scene.hpp"
@@ -76,9 +78,13 @@ class Resume final : public Verb {
         film_.program = program_info();
         if (!no_page_) film_.page = page_of_ended_run();
         const fs::path folder = folder_of_run(run_);
+        if (is_handover(folder))
+            throw UserError(fmt::format("{}: was handed over; go on with: sh {}/run.sh --continue",
+                                        folder.string(), folder.string()));
         scene_file(folder);
         check_all_plain(folder);
         std::shared_ptr<FolderLock> lock = locked(folder);
+        if (is_handover(folder / ReturnedRun::kFolder)) return go_on_elsewhere(folder, lock, reporter);
         put_back_former(folder, reporter);
         if (is_only_page_missing(folder)) return make_missing_page(folder, reporter);
         FilmedScene scene = scene_to_go_on(folder, {});
@@ -118,6 +124,25 @@ class Resume final : public Verb {
             "go on");
     }
 
+    // A run of `--engine`: its engine goes on from its own restart file.
+    int go_on_elsewhere(const fs::path& folder, std::shared_ptr<FolderLock> lock, Reporter& reporter) {
+        if (until_ || more_ || !accept_.empty())
+            throw UserError(fmt::format(
+                "{}: another engine ran this, and its deck cannot be changed; leave out {}", folder.string(),
+                until_  ? "--until"
+                : more_ ? "--for"
+                        : "--accept"));
+        FilmedScene scene = read_filmed_scene(scene_file(folder), {}, measurable_in);
+        const Plan plan = plan_with_film(scene);
+        film_.out = folder;
+        film_.film = !no_film_ && has_film(scene, folder);
+        std::error_code ignored;
+        film_.frames = film_.film && fs::exists(folder / "frames", ignored);
+        name_as_before(scene, folder);
+        EngineRun run(film_, reporter, scene, plan, std::move(lock));
+        return tell_folder(run.run(), film_);
+    }
+
     // From here on nobody else changes the run.
     std::shared_ptr<FolderLock> locked(const fs::path& folder) const {
         if (std::optional<FolderLock> lock = FolderLock::take(folder, command))
@@ -134,7 +159,8 @@ class Resume final : public Verb {
             folder.string()));
     }
 
-    // Of a run that has come to its end, and is not to be longer. Versions before did not note it.
+    // Whether a run has come to its end, is not to be longer, and lacks its page alone. Older versions did
+    // not note it.
     bool is_only_page_missing(const fs::path& folder) const {
         if (until_ || more_ || !accept_.empty()) return false;
         const fs::path record = folder / "run.json";

@@ -19,6 +19,7 @@
 #include "render/app/study/file/read_study.hpp"
 #include "render/app/study/members/child.hpp"
 #include "render/app/study/members/runner.hpp"
+#include "render/app/study/packing_sharing.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/table.hpp"
@@ -62,6 +63,7 @@ class StudyVerb final : public Verb {
         parser.add_flag_callback(
             "--no-posters", [this] { request_.posters = false; },
             "Leave out the pictures of the members' last frames");
+        no_cache_ = add_no_cache(parser, shortest_packing_);
         parser.add_flag("--yes", yes_, "More than 10,000 members are meant");
         add_ways(parser);
         CLI::Option* charts = add_paper(
@@ -77,13 +79,16 @@ class StudyVerb final : public Verb {
         check_paper(paper_);
         const Study study = read_study(file_);
         count_members(study, yes_);
+        request_.cache = no_cache_->count() == 0;
         std::vector<std::vector<ReferencePoint>> references;
         for (const StudyChart& chart : study.charts)
             references.push_back(chart.reference ? read_reference(*chart.reference)
                                                  : std::vector<ReferencePoint>());
         StudyEstimate estimate(request_.jobs, request_.films, dry_);
-        members_ = make_members(
-            study, [&](const FilmedScene& scene, const Plan& plan) { estimate.add_setting(scene, plan); });
+        members_ = make_members(study, [&](const FilmedScene& scene, const Plan& plan) {
+            estimate.add_setting(scene, plan);
+            if (shortest_packing_) sharing_.add_setting(scene, plan);
+        });
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
         check_folder();
@@ -139,6 +144,8 @@ class StudyVerb final : public Verb {
                             variation.values.front().words, variation.values.back().words);
         text += fmt::format("members      {} = {} settings x {} seeds, {} of them to be run\n",
                             members_.size(), settings, study.seed_count(), left.size());
+        if (const std::string packings = sharing_.text(); !packings.empty())
+            text += fmt::format("packings     {}\n", packings);
         double bytes = 0, work = 0;
         for (const Member* member : left) {
             bytes += estimate.of(*member).bytes;
@@ -161,7 +168,7 @@ class StudyVerb final : public Verb {
         make_study_folder(study, members_, folder_);
         for (const Member* member : pending()) {
             std::vector<std::string> words{own_program()};
-            for (std::string& word : run_command(study, *member, folder_, request_.films))
+            for (std::string& word : run_command(study, *member, folder_, request_.films, request_.cache))
                 words.push_back(word);
             words.push_back("--quiet");
             print_exact(shell_words(words) + "\n");
@@ -173,6 +180,8 @@ class StudyVerb final : public Verb {
              Reporter& reporter) {
         make_study_folder(study, members_, folder_);
         const FolderLock lock = locked_folder();
+        if (const std::string packings = sharing_.text(); !packings.empty())
+            reporter.info("packings: " + packings);
         Stopwatch since_table;
         run_members(study, members_, folder_, request_, results_, reporter, [&] {
             if (since_table.seconds() < table_interval) return;
@@ -243,6 +252,9 @@ class StudyVerb final : public Verb {
     std::filesystem::path file_;
     std::optional<std::filesystem::path> out_;
     StudyRunRequest request_;
+    CLI::Option* no_cache_ = nullptr;
+    std::optional<double> shortest_packing_;  // s, that the cache keeps
+    PackingSharing sharing_;
     bool yes_ = false, dry_ = false, print_commands_ = false;
     PaperOptions paper_;
     StudyFolder folder_;

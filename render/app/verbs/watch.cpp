@@ -31,7 +31,7 @@ class WatchVerb final : public Verb {
             ->type_name("DIR");
         add_watch_port(parser, place_);
         add_watch_host(parser, place_);
-        // Of a run that shows itself: a socket that listens, and a pipe that closes when the run ends.
+        // A run that shows itself passes a socket that listens, and a pipe that closes when the run ends.
         parser.add_option("--socket", socket_)->group("");
         parser.add_option("--until", until_)->group("");
         add_reporting(parser, report);

@@ -32,7 +32,7 @@ bool cut_hides(const Snapshot& snapshot, const FilmCut& cut, const std::vector<s
     });
 }
 
-// Of one moment, which nothing came before.
+// The scene of one moment, before which there was nothing.
 FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const AnswerMarks& marks) {
     FilmShows& shows = scene.film.shows;
     shows.plots.clear();

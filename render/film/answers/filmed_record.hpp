@@ -22,7 +22,7 @@ struct FilmedRecord {
     std::optional<FilmedScene> film;         // of a single state
 };
 
-// A run's folder. sets: as for a RecordedRun. Throws UserError likewise.
+// A run's folder. sets: as for a RecordedRun. Throws UserError as above.
 std::unique_ptr<const FilmedRecord> open_filmed_run(const std::filesystem::path& folder,
                                                     const Assignments& sets);
 

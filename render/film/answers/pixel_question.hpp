@@ -19,7 +19,7 @@ class PixelPicker {
     // The ray that a pixel looks along; x, y: of the picture, from its top left corner, a pixel's middle at
     // + 0.5. Throws UserError outside the part of the picture that shows the bed.
     Ray ray(double x, double y) const;
-    // What is there, the nearest first; through: what lies behind, too. Throws likewise.
+    // What is there, the nearest first; through: what lies behind, too. Throws as above.
     Answer at(double x, double y, bool through) const;
 
   private:

@@ -52,11 +52,11 @@ struct Codec {
     std::vector<EncoderSetup> encoders;  // best first
     AVPixelFormat pixels;
     AVPixelFormat pixels_with_alpha;  // AV_PIX_FMT_NONE: keeps no alpha
-    // Of two passes the first is a film by itself; else it yields nothing but its findings.
+    // Whether the first of two passes is a film by itself; else it yields nothing but its findings.
     bool film_is_first_pass = false;
 };
 
-// Of every format but png, which has no file of its own.
+// The codec of any format but png, which has no file of its own.
 const Codec& codec_of(FilmFormat format);
 // The exact copies of a film that is encoded when it is complete: as H.264 and VP9 would be given it, and of
 // the pictures themselves.

@@ -49,7 +49,7 @@ class Encoder final : public FilmWriter {
     void add(AVFrame& frame);
     void begin_group() override;
 
-    // Writes what is left and replaces the file by one for streaming. Throws RunError likewise.
+    // Writes what is left and replaces the file by one for streaming. Throws RunError as above.
     void finish() override;
 
     std::int64_t frames() const { return frames_; }

@@ -35,8 +35,8 @@ std::size_t preset_number(const std::string& preset) {
     return static_cast<std::size_t>(found - presets.begin());
 }
 
-// Of a codec whose crf runs from 0 to 63: `at_23` looks like x264's crf 23, and 1.5 times the steps make up
-// for the longer scale.
+// The crf of a codec whose scale runs from 0 to 63: `at_23` looks like x264's crf 23, and 1.5 times the steps
+// make up for the longer scale.
 int crf_alike(int quality, double at_23) {
     return std::clamp(static_cast<int>(std::lround(at_23 + 1.5 * (quality - 23))), 1, 63);
 }

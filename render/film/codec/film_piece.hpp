@@ -21,7 +21,7 @@ class PieceReader {
     // The next packet, in the order of coding; false after the last one, when all frames have come, each
     // once.
     bool next(AVPacket& packet);
-    // Of the packet that came last: the frame that it shows, from 0, and how many came before it.
+    // The frame that the last packet shows, from 0, and how many packets came before it.
     std::int64_t frame() const { return frame_; }
     std::int64_t place() const { return place_; }
     // Frames by which the first packet is decoded before it is shown; known from the first packet on.

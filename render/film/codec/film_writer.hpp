@@ -19,9 +19,9 @@ class FilmWriter {
     // Throws RunError, naming the file and the reason, when writing fails.
     virtual void add(const Picture& picture) = 0;
     // Pictures from here on are coded as if a film began with them: films that end and begin here can be
-    // joined to this one. Throws RunError likewise, and where the format has no such groups.
+    // joined to this one. Throws RunError as above, and where the format has no such groups.
     virtual void begin_group();
-    // Completes the film under its final name. Throws RunError likewise.
+    // Completes the film under its final name. Throws RunError as above.
     virtual void finish() = 0;
 
     // "H.264 in MP4: libx264 (Lavc59.37.100), crf 20, veryfast, 2 threads"

@@ -44,7 +44,7 @@ void encode(const std::filesystem::path& spool, const AVFrame& palette, const ch
     while (const AvFramePtr picture = graph.pull()) gif.add(*picture);
 }
 
-// Of falling size. The grains' shades go first: with 32 colours the species still have their own.
+// Palettes of falling size. The grains' shades go first: with 32 colours the species still have their own.
 constexpr std::array<GifColours, 4> palettes{{
     {256, "bayer:bayer_scale=3", "Bayer dither"},
     {128, "bayer:bayer_scale=4", "fine Bayer dither"},

@@ -32,7 +32,7 @@ double mean_interval(const std::vector<Frame>& moments) {
                : (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
 }
 
-// Of the finished runs the number of that with the fewest frames a second, whose moments the others can
+// Number of the finished run with the fewest frames a second, whose moments the others can
 // follow; none when there is no finished run.
 std::optional<std::size_t> coarsest(const Comparison& all) {
     std::optional<std::size_t> found;

@@ -34,7 +34,7 @@ void CompareRun::begin() {
                                           instants.front().time, instants.back().time});
     }
     begin_record(all_.warnings);
-    for (const auto& member : all_.members) member->begin(folder(), request_.command, request_.program);
+    for (const auto& member : all_.members) member->begin(folder(), request_);
 }
 
 std::function<bool()> CompareRun::go_on() const {
@@ -47,6 +47,9 @@ bool CompareRun::work() {
     const auto pack = [this](ComparedMember& member, FramePtr&) { return member.pack(go_on()); };
     if (!for_all(Stage::packing, frames, pack)) return false;
     mark_begun();
+    for (const auto& member : all_.members)
+        if (const std::string found = member->found_packing_text(); !found.empty())
+            desk_.listener.info(fmt::format("{}: {}", member->place(), found));
     for (const auto& member : all_.members) member->start(all_.pictures);
     for (Panel& panel : all_.panels)
         settle_orbit(panel.scene.film.camera, static_cast<double>(all_.film_pictures) / all_.film.film.rate);
@@ -81,7 +84,7 @@ bool CompareRun::draw_still(Frames& frames) {
     still_ = fmt::format("still-{}s.png", seconds_in_names(moment.time));
     write_png(folder() / still_, picture,
               texts_of(all_.film.name, all_.film.title, *frames[all_.reference], ""),
-              all_.film.film.transparent);
+              all_.film.film.transparent, all_.dots_an_inch);
     return true;
 }
 

@@ -119,6 +119,8 @@ Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) 
     Comparison all;
     read_members(what, all);
     all.film = whole(scenes_of(all));
+    fit_to_paper(all.film.film, what.print);
+    all.dots_an_inch = dots_an_inch(what.print);
     choose_moments(what, all);
     make_panels(what, all);
     return all;

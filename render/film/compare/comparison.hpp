@@ -26,6 +26,7 @@ struct Comparison {
     std::vector<std::string> labels;  // one a panel, of what is varied; none where nothing is
     // A picture of one moment in place of a film: where the film has it, s of film.
     std::optional<double> still;
+    double dots_an_inch = 0;         // of that picture, for print; 0: of no size on paper
     std::int64_t film_pictures = 0;  // that the film has, or would have
     ThreadPlan threads;
     std::vector<std::string> warnings;

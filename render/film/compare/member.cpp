@@ -21,18 +21,18 @@ std::string ComparedMember::place() const {
     return driver_ ? scene().name : std::filesystem::absolute(archive()->path()).string();
 }
 
-void ComparedMember::begin(const std::filesystem::path& folder, const std::string& command,
-                           const ProgramInfo& program) {
+void ComparedMember::begin(const std::filesystem::path& folder, const RunRequest& request) {
     if (!driver_) return;
     const std::filesystem::path own = folder / place();
     std::error_code error;
     std::filesystem::create_directory(own, error);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", own.string(), error.message()));
-    std::optional<FolderLock> lock = FolderLock::take(own, command);
+    std::optional<FolderLock> lock = FolderLock::take(own, request.command);
     if (!lock) throw RunError(fmt::format("{}: another process has it", own.string()));
-    driver_->use_folder(folder_.emplace(std::move(*lock)), program.version);
-    static_cast<ProgramInfo&>(report_) = program;
-    report_.command = command;
+    driver_->use_folder(folder_.emplace(std::move(*lock)), request.program.version);
+    if (request.keep_packings) driver_->keep_packings(*request.keep_packings);
+    static_cast<ProgramInfo&>(report_) = request.program;
+    report_.command = request.command;
     report_.started = utc_now();
     driver_->describe(report_);
     report_.warnings = driver_->plan().warnings;

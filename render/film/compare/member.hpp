@@ -12,6 +12,7 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/driver/first_failure.hpp"
+#include "engine/run/folder/run_request.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/revisited_run.hpp"
 #include "render/film/sources/scene_run.hpp"
@@ -38,8 +39,9 @@ class ComparedMember {
 
     // In this order. What is run says so by `go_on`, now and then, and stops when that is false: then pack()
     // is false, and next() nothing.
-    void begin(const std::filesystem::path& folder, const std::string& command, const ProgramInfo& program);
+    void begin(const std::filesystem::path& folder, const RunRequest& request);
     bool pack(const GoOn& go_on);
+    std::string found_packing_text() const { return driver_ ? driver_->found_packing_text() : ""; }
     void start(const Pictures& pictures);
     FramePtr next(const GoOn& go_on);  // null after the last too, when what remains of the run is done
 
@@ -51,7 +53,7 @@ class ComparedMember {
     void close(RunStatus status, int exit_status, FirstFailure& failure);
     void note_failure(const std::string& what) { failed_.note(what); }
 
-    // Of another thread's work; for the progress line.
+    // How far another thread's work is, for the progress line.
     double done() const { return done_; }
     double speed() const { return speed_; }  // particle-steps/s
 
@@ -60,7 +62,7 @@ class ComparedMember {
     const RevisitedRun* record_ = nullptr;  // likewise, when it lies on disk
     std::unique_ptr<FrameSource> source_;
     std::optional<FolderLock> folder_;  // of what is run, once it is made
-    RunRecord report_;                  // likewise
+    RunRecord report_;                  // as above
     std::atomic<double> done_ = 0, speed_ = 0;
     FirstFailure failed_;  // of this member's own work
 };

@@ -23,7 +23,7 @@ bool plays_in_browsers(FilmFormat format);
 // takes.
 bool may_need_copy(const Film& film, std::int64_t pictures);
 
-// Of a film of that height.
+// Settings for a copy of the film with that height.
 EncoderSettings settings_of_copy(const FilmedScene& scene, const std::filesystem::path& path, int width,
                                  int height, int threads);
 

@@ -15,7 +15,7 @@ class FilmTimesTable {
   public:
     // The next picture, which the film shows in so many frames.
     void add(const Frame& picture, std::int64_t frames);
-    // Of the film's first `frames`. Throws RunError.
+    // Writes the times of the film's first `frames`. Throws RunError.
     void write(const std::filesystem::path& path, std::int64_t frames) const;
 
   private:

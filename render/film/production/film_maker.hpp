@@ -52,7 +52,7 @@ struct FilmReport {
     std::string file;                             // "movie.mp4"; empty without one
     bool pictures = false;                        // frames/ is there
     bool poster = false, sheet = false;           // poster.png, sheet.png are there
-    std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty likewise
+    std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty as above
     std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
 };
 
@@ -65,7 +65,7 @@ class Drawer {
     virtual ~Drawer() = default;
     // Into an empty picture, or one that it has drawn before.
     virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
-    // Of the film before all that is drawn, for what leaves marks on later pictures.
+    // Takes frames from before all that is drawn, for what leaves marks on later pictures.
     virtual void remember(const Frames&) {}
     virtual std::string description() const = 0;
     virtual std::string note() const { return {}; }       // what its user should know about it
@@ -90,10 +90,10 @@ class FilmMaker {
     void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
 
     // Takes a picture's frames that come before the first one of this part of a film: trails show them, and
-    // nothing is drawn. Throws RunError likewise.
+    // nothing is drawn. Throws RunError as above.
     void remember(FramePtr frame);
 
-    // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError likewise.
+    // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError as above.
     // Neither take() nor finish() may follow. in_a_hurry: asked now and then; once it is true what is queued
     // is thrown away and the film left as it grew, which plays.
     FilmReport finish(const std::function<bool()>& in_a_hurry = {});

@@ -8,6 +8,7 @@
 
 #include "engine/run/folder/run_request.hpp"
 #include "engine/scene/text/assignment.hpp"
+#include "render/film/request/print_size.hpp"
 #include "render/picture/gl/provider.hpp"
 
 namespace grainreel {
@@ -30,9 +31,9 @@ struct RenderRequest {
     std::filesystem::path beside;  // where what is drawn goes without --out; empty: beside the run
     Assignments sets;              // other values for keys of its film
     std::optional<double> from, to, at;
-    std::optional<std::int64_t> frame;    // in place of `at`: of the film, from 0
-    bool frame_of_file = false;           // frame counts the frames of another program's files
-    std::optional<double> dpi, width_mm;  // of one picture, for print: pixels an inch, its width on paper
+    std::optional<std::int64_t> frame;  // in place of `at`: of the film, from 0
+    bool frame_of_file = false;         // frame counts the frames of another program's files
+    PrintSize print;                    // of one picture
     std::optional<int> every;  // kept frames of the trajectory, one of so many; none: the film's pictures
     bool replay = true;        // what was not kept is brought back
     std::optional<PartsWanted> parts;
@@ -45,6 +46,7 @@ struct CompareRequest {
     std::optional<std::string> captions;        // one a panel, bars between them
     std::optional<std::string> vary;  // "drive.g_level=2,4": a panel for each value of one scene's key
     std::optional<double> at;         // s: one picture in place of a film
+    PrintSize print;                  // of that picture
     bool replay = true;               // of finished runs what was not kept is brought back
 };
 

@@ -16,7 +16,7 @@ struct ThreadPlan {
 // encoding. A thread with too few grains waits longer than it works.
 ThreadPlan plan_threads(int processors, bool film, std::int64_t grains);
 
-// Of a film that has the machine for itself. wanted: 0 for as many threads as the machine gives.
+// The threads of a film that has the machine for itself. wanted: 0 for as many as the machine gives.
 ThreadPlan drawing_threads(int wanted);
 
 }  // namespace grainreel

@@ -11,6 +11,7 @@
 #include "engine/base/text_file.hpp"
 #include "engine/files/mesh_copies.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/handover/back/trim_dump.hpp"
 #include "engine/handover/deck_parts.hpp"
 #include "engine/handover/dump_pace.hpp"
 #include "engine/handover/start_state.hpp"
@@ -37,6 +38,41 @@ std::vector<std::int64_t> ordered(std::vector<std::int64_t> steps) {
 FilmedScene as_carried(FilmedScene scene, const CarriedScene& carried) {
     static_cast<Scene&>(scene) = carried.scene;
     return scene;
+}
+
+// The newest restart file of a run that has not come to its end.
+std::int64_t restart_to_go_on(const fs::path& run) {
+    const fs::path place = run / ReturnedRun::kFolder;
+    const HandoverFacts facts = read_handover(place);
+    const std::optional<std::int64_t> step = newest_restart(place, facts.engine);
+    if (!step)
+        throw UserError(
+            fmt::format("{}: {} has left no restart file, so that nothing is there to go on from; run its "
+                        "scene.toml again",
+                        run.string(), name_of(facts.engine)));
+    std::error_code missing;
+    if (fs::exists(place / end_name, missing) || *step >= facts.last + facts.shift)
+        throw UserError(
+            fmt::format("{}: {} has come to its end already, and a longer run is another deck; "
+                        "run the scene again with a longer run.duration",
+                        run.string(), name_of(facts.engine)));
+    return *step;
+}
+
+// What is known of a run that was handed over before.
+CarriedScene as_handed_over(const fs::path& run, const FilmedScene& scene, const Plan& plan) {
+    const HandoverFacts facts = read_handover(run / ReturnedRun::kFolder);
+    CarriedScene carried;
+    carried.engine = facts.engine;
+    carried.ranks = facts.ranks;
+    carried.scene = scene;
+    carried.plan = plan;
+    carried.frame = facts.frame;
+    carried.step = facts.step;
+    carried.first = facts.first;
+    carried.last = facts.last;
+    for (const std::string& change : facts.changes) carried.changes.push_back({{}, change, {}});
+    return carried;
 }
 
 }  // namespace
@@ -80,6 +116,20 @@ EngineRun::EngineRun(const FilmRequest& request, RunListener& listener, const Fi
     make_folder({scene_.name, request_.base, request_.out, request_.force});
 }
 
+EngineRun::EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
+                     const Plan& plan, std::shared_ptr<FolderLock> lock)
+    : FilmRun(request, listener),
+      restart_(restart_to_go_on(lock->folder())),
+      carried_(as_handed_over(lock->folder(), scene, plan)),
+      scene_(scene),
+      job_(carried_.engine, carried_.ranks, deck_name(carried_.engine),
+           fmt::format("{}.{}", restart_name(carried_.engine), *restart_)) {
+    film_.check(scene_, pictures());
+    film_.use_threads(drawing_threads(scene_.run.threads));
+    make_folder({.name = scene_.name, .out = request_.out, .goes_on = std::move(lock)});
+    mark_begun();
+}
+
 std::int64_t EngineRun::pictures() const {
     return std::ssize(film_schedule(scene_, carried_.plan.clock, carried_.plan.steps));
 }
@@ -105,10 +155,14 @@ bool EngineRun::work() {
     record.engine_threads = carried_.ranks;
     record.libraries.emplace_back(name_of(carried_.engine), job_.program().version);
     begin_record(warnings());
-    keep_mesh_files(scene_, folder(), desk_.folder->previous());
-    replace_file(folder() / "scene.toml", resolved_scene(scene_, carried_.plan));
-    if (!hand_over()) return false;
-    mark_begun();
+    if (restart_) {
+        take_up();
+    } else {
+        keep_mesh_files(scene_, folder(), desk_.folder->previous());
+        replace_file(folder() / "scene.toml", resolved_scene(scene_, carried_.plan));
+        if (!hand_over()) return false;
+        mark_begun();
+    }
     follow();
     const bool stopped = desk_.listener.stop_signal() != 0;
     const std::string failure = stopped ? "" : job_.failure();
@@ -145,12 +199,21 @@ bool EngineRun::hand_over() {
     const StartState start = start_state(carried_, usable_processors(), watcher);
     if (start.stopped) return false;
     if (carried_.engine == PeerEngine::liggghts) make_room_for_walls(carried_);
-    const fs::path place = folder() / ReturnedRun::kFolder;
-    fs::create_directories(place);
-    write_handover(place, carried_, start, desk_.record.version);
-    back_ = std::make_unique<ReturnedRun>(folder(), scene_, carried_.plan, read_handover(place),
+    fs::create_directories(place());
+    write_handover(place(), carried_, start, desk_.record.version);
+    back_ = std::make_unique<ReturnedRun>(folder(), scene_, carried_.plan, read_handover(place()),
                                           desk_.record.version);
     return true;
+}
+
+// What the dump has of later steps comes again.
+void EngineRun::take_up() {
+    const HandoverFacts facts = read_handover(place());
+    trim_dump(facts.dump, *restart_);
+    // What it said before is another run's; an error there is none of this one.
+    std::error_code ignored;
+    fs::rename(place() / EngineJob::kOutput, place() / "engine.before.txt", ignored);
+    back_ = std::make_unique<ReturnedRun>(folder(), scene_, carried_.plan, facts, desk_.record.version);
 }
 
 // Until the engine has ended, and all that it wrote is read.
@@ -158,7 +221,7 @@ void EngineRun::follow() {
     const auto timer = desk_.times.during("engine");
     desk_.listener.detail(job_.command());
     running_ = Stopwatch();
-    job_.start(folder() / ReturnedRun::kFolder);
+    job_.start(place());
     bool told = false;
     while (job_.is_running()) {
         if (desk_.listener.stop_signal() != 0 && !std::exchange(told, true)) job_.stop();

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,11 @@ class EngineRun final : public FilmRun {
     // scene: as it was read; it is run with the laws of `carried`. Throws UserError; nothing is on disk then.
     EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
               CarriedScene carried);
+    // Goes on in the folder of such a run from the engine's last restart file: the dump is read again from
+    // its begin. scene, plan: of the folder's scene.toml. Throws UserError where there is nothing to go on
+    // from.
+    EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
+              std::shared_ptr<FolderLock> lock);
 
   private:
     bool work() override;
@@ -40,11 +47,14 @@ class EngineRun final : public FilmRun {
     std::int64_t pictures() const;
     std::vector<std::string> warnings() const;
     bool hand_over();
+    void take_up();
+    std::filesystem::path place() const { return folder() / ReturnedRun::kFolder; }
     void follow();
     bool read_dump();
     void show_progress();
     bool draw();
 
+    std::optional<std::int64_t> restart_;  // the engine's step of the file that it goes on from
     CarriedScene carried_;
     FilmedScene scene_;
     EngineJob job_;

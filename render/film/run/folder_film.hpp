@@ -29,7 +29,7 @@ class FolderFilm final : public SideWork {
     void use_threads(const ThreadPlan& threads) { threads_ = threads; }
     const ThreadPlan& threads() const { return threads_; }
 
-    // Of a film in parts, before open(): frames: those that are made here.
+    // For a film in parts, before open(). frames: how many are made here.
     void use_extent(FilmExtent extent, std::int64_t frames) {
         extent_ = std::move(extent);
         frames_here_ = frames;

@@ -110,7 +110,7 @@ bool FollowRun::draw_new(bool at_end) {
     return true;
 }
 
-// Of those that are known so far.
+// Shows how many of the pictures that are known so far are drawn.
 void FollowRun::show_progress() {
     Progress progress;
     progress.stage = Progress::Stage::drawing;

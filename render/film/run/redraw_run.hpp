@@ -32,7 +32,7 @@ class RedrawRun final : public FilmRun {
     void side_work_closed() override;
     void identify_part();
     void choose_parts(const PartsWanted& wanted);
-    // Of the shots, those that are drawn.
+    // Those of the shots that are drawn.
     std::vector<Shot> drawn() const;
     void choose_pictures(const RenderRequest& what);
     void choose_kept(const RenderRequest& what);

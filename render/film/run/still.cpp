@@ -91,27 +91,6 @@ ReplayWatcher watcher_of(RunListener& listener) {
     return replay_progress([&listener](const Progress& progress) { listener.progress(progress); });
 }
 
-constexpr double usual_dpi = 300;  // what journals ask for
-
-// Pixels an inch; 0 where the picture is not for print.
-double dots_an_inch(const RenderRequest& what) {
-    return what.dpi.value_or(what.width_mm ? usual_dpi : 0);
-}
-
-// So many pixels as the width on paper needs, with the film's own ratio of the sides.
-void fit_to_paper(Film& film, const RenderRequest& what) {
-    if (!what.width_mm) return;
-    constexpr double inch = 25.4;  // mm
-    constexpr double most = 16384;
-    const double width = std::round(*what.width_mm / inch * dots_an_inch(what));
-    const double height = std::round(width * film.height / film.width);
-    if (width < 16 || height < 16 || width > most || height > most)
-        throw UserError(fmt::format("--width-mm: {} mm at {} dpi are {} x {} pixels; a side has 16 to {}",
-                                    *what.width_mm, dots_an_inch(what), width, height, most));
-    film.width = static_cast<int>(width);
-    film.height = static_cast<int>(height);
-}
-
 // The film's pictures that reach no further back than its trails do, less those that cannot be had.
 std::vector<std::int64_t> before(std::int64_t step, double duration, const RevisitedRun& source) {
     constexpr double room = 1.001;
@@ -167,7 +146,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, const RenderReque
     // A camera that moves is where it would be in the film.
     const FilmOfRun::Place place = source.film().place_of(chosen.step);
     FilmedScene scene = source.scene();
-    fit_to_paper(scene.film, what);
+    fit_to_paper(scene.film, what.print);
     settle_orbit(scene.film.camera, static_cast<double>(source.film().shots().size()) / scene.film.rate);
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
     if (const std::string note = renderer.gl_note(); !note.empty()) listener.info("note: " + note);
@@ -180,7 +159,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, const RenderReque
     const fs::path path = request.out ? *request.out : free_name(scene, beside, picture->frame->time);
     write_png(path, renderer.draw(*picture->frame, "", place.time),
               texts_of(scene.name, scene.film.title, *picture->frame, ""), scene.film.transparent,
-              dots_an_inch(what));
+              dots_an_inch(what.print));
     if (const std::string note = renderer.last_note(); !note.empty()) listener.info(note);
     listener.info(
         fmt::format("wrote {}: the run at {:.6g} s, {}", path.string(), picture->frame->time, chosen.from));

@@ -35,7 +35,7 @@ double half_a_step(const std::vector<Frame>& moments) {
     return steps > 0 ? 0.5 * (moments.back().time - moments.front().time) / steps : 0;
 }
 
-// Of a drive that changes a phase may lie between two steps, and frames lie on steps.
+// A phase of a drive that changes may lie between two steps, and frames lie on steps.
 bool same_phase(const std::vector<Frame>& moments, const Drive& drive) {
     const double between_steps =
         drive.changes() ? 2.01 * half_a_step(moments) * drive.highest_frequency() : 0;

@@ -15,7 +15,7 @@ namespace grainreel {
 // bed looks alike. Throws UserError when there is none.
 std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run);
 
-// Of moments at one phase of the drive, those that lie whole multiples of `periods` behind the first: a bed
+// Moments at one phase of the drive that lie whole multiples of `periods` behind the first: a bed
 // that repeats itself after so many looks alike there. Others are left as they are.
 std::vector<Frame> alike(const std::vector<Frame>& moments, int periods);
 

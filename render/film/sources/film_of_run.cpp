@@ -79,7 +79,7 @@ std::vector<Shot> FilmOfRun::shots() const {
     return shots;
 }
 
-// Of a film that was cut off before its run, the later part is as the bed was then.
+// Where a film was cut off before its run, its later part is as the bed was then.
 std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
     FilmedScene scene = run_.scene();
     if (!same_) scene.film.periods = run_.frames().periods();

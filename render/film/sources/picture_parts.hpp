@@ -27,7 +27,7 @@ class PartSupply {
     virtual ~PartSupply() = default;
     // How grains and bodies were at a step; null when that is not to be had.
     virtual FramePtr at(std::int64_t step) const = 0;
-    // Of the same moment as the frame.
+    // What is known of the moment of the frame.
     virtual std::vector<Touch> touches(const Frame& frame) const = 0;
     virtual Measured measured(const Frame& frame) const = 0;
     // What the grains do to meshes, a mesh each; null when that is not known.
@@ -38,7 +38,7 @@ class PartSupply {
 
 class PictureParts {
   public:
-    // Of the scene the film counts. first: the first step that is to be had.
+    // What counts in the scene is its film. first: the first step that is to be had.
     PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first);
 
     // The other moments that the picture at `step` is made of, in no order; some may come twice. rule: the

@@ -80,7 +80,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     void leave_out_measures(const std::string& why);
     void check_columns() const;
     void read_outflow_of_run();
-    // Of files of another program.
+    // Whether the frames are from files of another program.
     bool is_import() const;
     void read_wear_of_run();
     void fit_range_of_import();

@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/run/import/import_ranges.hpp"
 #include "render/scene/purposes.hpp"
 #include "render/scene/read_scene.hpp"
 
@@ -47,6 +48,21 @@ Assignments with_purpose(const Assignments& sets) {
     return all;
 }
 
+// Of files of other programs no scene says how fast grains are. The frames do, where a colour needs it and
+// the user gives no range.
+Assignments with_range_of_frames(const fs::path& folder, Assignments sets) {
+    const Assignment* by = nullptr;
+    for (const Assignment& set : sets) {
+        if (set.key() == "film.colour.range") return sets;
+        if (set.key() == "film.colour.by") by = &set;
+    }
+    if (by == nullptr) return sets;
+    if (const auto range = imported_range(folder, by->value()))
+        sets.push_back(
+            {fmt::format("film.colour.range=[{:.6g}, {:.6g}]", (*range)[0], (*range)[1]), by->place()});
+    return sets;
+}
+
 }  // namespace
 
 Assignments sets_for_drawing(const Assignments& sets) {
@@ -57,7 +73,7 @@ Assignments sets_for_drawing(const Assignments& sets) {
 FilmedScene scene_of_run(const fs::path& folder, const Assignments& sets) {
     FilmedScene scene =
         read_filmed_scene(file_of_run(folder, "scene.toml", "give the folder of a run of `movie`"),
-                          sets_for_drawing(sets), measurable_in);
+                          with_range_of_frames(folder, sets_for_drawing(sets)), measurable_in);
     scene.name = folder.filename().string();
     return scene;
 }

@@ -12,12 +12,12 @@ namespace grainreel {
 // what the purpose of a film implies. Throws UserError for other keys.
 Assignments sets_for_drawing(const Assignments& sets);
 
-// Its scene.toml with such changes; named after the folder. Throws UserError likewise, and for a scene that
+// Its scene.toml with such changes; named after the folder. Throws UserError as above, and for a scene that
 // cannot be read.
 FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
 
 // The scene of a checkpoint as it was used, with such changes; named after the file. Throws UserError
-// likewise.
+// as above.
 FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
 
 }  // namespace grainreel

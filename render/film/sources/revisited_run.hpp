@@ -24,7 +24,7 @@ namespace grainreel {
 class RevisitedRun final : public FrameSource, private PartSupply {
   public:
     // sets: as for a RecordedRun. replay: false: nothing is brought back. sharers: how many runs have the
-    // machine at once. Throws UserError likewise.
+    // machine at once. Throws UserError as above.
     RevisitedRun(const std::filesystem::path& folder, const Assignments& sets, bool replay, int sharers = 1);
 
     // Frames that are damaged are left out of what was kept, with a line of news (RecordedRun).

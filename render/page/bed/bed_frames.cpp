@@ -182,7 +182,7 @@ class BedWriter {
         before = number;
     }
 
-    // Of grains that push something.
+    // Counts the contacts of grains that push something.
     void count_contacts(const std::vector<Touch>& touches, std::uint8_t* counts) const {
         const auto count = [&](std::int32_t id) {
             const auto found = slot_.find(id);

@@ -41,7 +41,7 @@ struct BedFrames {
 
 // What a page has beside places and speeds.
 struct BedContacts {
-    // Of a moment, by its index; nothing where they are not known.
+    // Contacts of a moment, by its index; nothing where they are not known.
     std::function<std::optional<std::vector<Touch>>(std::size_t)> touches;
     std::vector<std::size_t> keys;  // moments whose pairs the page is to have; by rising index
     FilmColours* film = nullptr;    // null where the film shows the species
@@ -54,13 +54,13 @@ constexpr std::size_t kMostGrainsOnPage = 100000;
 // nearest to the plane x = 0 when they are first seen. Throws DamagedFrame.
 BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes,
                      const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
-// Of these moments, by rising index into the run's.
+// The page's frames of these moments, by rising index into the run's.
 BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
 
 constexpr double kByteSpan = 1e5;  // highest over lowest speed, or force, that a byte tells
 
-// Of the speed's byte: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
+// The byte that stands for a speed: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
 std::uint8_t speed_byte(double speed, double lowest, double highest);
 
 }  // namespace grainreel

@@ -20,9 +20,9 @@ class FilmColours {
     // whose grains are coloured by a quantity (film_has_scale).
     FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start);
 
-    // Of the grains of a moment of the run, in the frame's order: 0 where the quantity is not known, else 1
-    // to 255 from the low end of the film's range to its high end, of bands their middle. touches: of that
-    // moment, where they are known.
+    // Colours of the grains of a moment of the run, in the frame's order: 0 where the quantity is not known,
+    // else 1 to 255 from the low end of the film's range to its high end, of bands their middle. touches: of
+    // that moment, where they are known.
     std::vector<std::uint8_t> of(std::size_t index, Frame& frame,
                                  const std::optional<std::vector<Touch>>& touches);
 

@@ -21,7 +21,7 @@ struct Slab {
     std::optional<double> from, until;  // s, when it is there, where that changes
 };
 
-// Of container, floor and planes, as thick as the film draws them.
+// Slabs of container, floor and planes, as thick as the film draws them.
 std::vector<Slab> slabs_of(const FilmedScene& scene);
 
 // What the slabs at rest take up; of a scene without any the box of what is looked at.

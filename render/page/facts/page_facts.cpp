@@ -198,7 +198,7 @@ Json column_json(const PageColumn& column) {
     return {{"name", column.name}, {"label", column.label}, {"unit", column.unit}};
 }
 
-// Of these columns, and the time before them.
+// The columns that are wanted, and the time before them.
 Json measures_json(const MeasureTable& table, const PageMeasures& measures,
                    const std::vector<std::size_t>& wanted) {
     std::vector<std::size_t> shown = {measures.time};

@@ -24,7 +24,7 @@ const Json* member(const Json& record, std::initializer_list<const char*> path) 
     return at;
 }
 
-// Of a text, a number or a truth; empty for anything else.
+// The words for a text, a number or a truth; empty for anything else.
 std::string text_of(const Json* value) {
     if (value == nullptr || value->is_structured() || value->is_null()) return "";
     return value->is_string() ? value->get<std::string>() : value->dump();

@@ -62,7 +62,7 @@ std::string value_text(const std::string& key, const std::string& value) {
                        has_unit ? fmt::format(" {}", text_of(known->dimension).unit) : "");
 }
 
-// Of each differing key its name and values; those of one name with the same values once.
+// Name and values of each key that differs; keys of one name with the same values come once.
 std::vector<std::pair<std::string, Values>> differences(const std::vector<RunToName>& runs) {
     std::map<std::string, Values> all;
     for (std::size_t k = 0; k < runs.size(); ++k)

@@ -14,7 +14,7 @@
 namespace grainreel {
 namespace {
 
-// Of the film as planned, frame by frame, with those that hold a caption.
+// The frames of the film as planned, with those that hold a caption.
 std::vector<double> planned_times(const FilmedScene& scene, double first) {
     const Plan plan = plan_with_film(scene);
     std::vector<double> times;

@@ -49,7 +49,7 @@ class PairForces {
         return sums;
     }
 
-    // Of the sums, in N, between which nearly all are.
+    // The two sums, in N, between which nearly all lie.
     setRange() {
         const all = this.moments.flatMap((moment) => [...this.sums(moment)].filter((sum) => sum > 0)).sort((a, b) => a - b);
         const at = (share) => all[Math.floor(share * (all.length - 1))] ?? 1;

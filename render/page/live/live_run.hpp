@@ -24,7 +24,7 @@ struct LiveSnapshot {
     Bytes state;     // JSON: how far the run is, and which versions of the other parts there are
     Bytes picture;   // JPEG: the film's newest; empty without one
     Bytes bed;       // uint32 length of JSON, little-endian; JSON; packed places. Empty before there are any
-    Bytes measures;  // JSON; empty likewise
+    Bytes measures;  // JSON; empty as above
     Bytes meshes;    // as page_meshes.hpp has them, packed; they belong to every bed. Empty without any
 };
 

@@ -18,7 +18,7 @@ constexpr double degrees = std::numbers::pi / 180;
 constexpr double sample_angle = 0.5;
 constexpr int key_samples = 720;
 
-// Of the camera's distance: the container does not come nearer to the eye.
+// Share of the camera's distance that the container keeps from the eye.
 constexpr double close_by = 0.1;
 
 }  // namespace
@@ -44,7 +44,7 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
     if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
 }
 
-// Of a container that is cut off as much is left out as can be: what stands high would come close to a camera
+// Leaves out as much as can be of a container that is cut off: what stands high would come close to a camera
 // that looks down.
 void CameraPath::frame_by_itself(const FilmedScene& scene) {
     FramedPart part = framed_part(scene);

@@ -56,7 +56,7 @@ std::optional<double> wanted_top(const FilmedScene& scene) {
     return top;
 }
 
-// Of a container that turns: all round its axis.
+// Corners of a container that turns, all round its axis.
 std::vector<Vec3> turned(const std::vector<Vec3>& corners, const BodyTurn& turn) {
     constexpr int kTurns = 24;
     std::vector<Vec3> all;

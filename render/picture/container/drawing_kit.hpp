@@ -94,7 +94,7 @@ class Sketch {
     const bool turned_;
 };
 
-// Of the moving parts: the walls (with the lid), and the floor.
+// Drawings of the moving parts: the walls (with the lid), and the floor.
 struct Sketches {
     Sketch walls, floor, lab;
 };

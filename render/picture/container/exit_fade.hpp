@@ -15,7 +15,7 @@ namespace grainreel {
 // boxes.
 std::optional<double> exit_level(const FilmedScene& scene);
 
-// Of each row of a port so high, counted from the top: how strong grains are there, 0 to 255. Empty where all
+// How strong grains are in each row of a port so high, counted from the top, 0 to 255. Empty where all
 // are as they are: without an outlet or a box that they leave into or out of below a vessel, with a tray, and
 // where the eye looks down so steeply that rows with grains of the bed would fade too. meshes: m, their
 // outermost points.

@@ -20,7 +20,7 @@ double floor_reach(const Container& container) {
     return std::hypot(outer_floor_half_width(container), half_depth) + drawn_thickness(container);
 }
 
-// Of kSide numbers each, added one after the other.
+// Means of five rows of kSide numbers, added one after the other.
 void mean_of_five(const std::array<const float*, 5>& of, float* out) {
     const auto [a, b, c, d, e] = of;
     for (int i = 0; i < ShadowMap::kSide; ++i) out[i] = (a[i] + b[i] + c[i] + d[i] + e[i]) / 5;

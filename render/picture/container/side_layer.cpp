@@ -10,7 +10,7 @@ namespace {
 
 constexpr gl::TextureFormat bytes{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 
-// Of what lies between the two corners, the pixels that a layer has.
+// The pixels of a layer between the two corners.
 Rectangle on_layer(float x0, float y0, float x1, float y1, int width, int height) {
     const auto pixel = [](float at, int size) {
         return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(size)));

@@ -14,7 +14,8 @@ namespace grainreel {
 using Albedo = std::array<float, 3>;  // linear light
 Albedo to_albedo(const Colour& colour);
 
-// Of grains whose quantity is unknown, and of the legend's when colours say something else than the species.
+// The colour of grains whose quantity is unknown, and of the legend's when colours say something else than
+// the species.
 inline constexpr Colour neutral_grain{0.62, 0.62, 0.62};  // sRGB
 
 class GrainColours {
@@ -26,7 +27,7 @@ class GrainColours {
 
     // One a grain, in the frame's order.
     const std::vector<Albedo>& of(const Frame& frame);
-    // Of all grains that it has coloured by a quantity.
+    // How many of the grains that it has coloured by a quantity lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }
 
   private:

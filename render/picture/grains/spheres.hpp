@@ -18,7 +18,7 @@ class SpherePainter {
     // nothing else stands before them; otherwise paint all grains that are taken.
     SpherePainter(const FilmedScene& scene, int width, int height, Team& team, bool ghosts);
 
-    // Of ghosts: paint all grains but these, whatever their species. ids rise.
+    // Paints all grains but these as ghosts, whatever their species. ids rise.
     void paint_all_but(const std::vector<std::int32_t>& ids) { not_painted_ = ids; }
 
     // See Renderer.
@@ -29,7 +29,7 @@ class SpherePainter {
     // One after the other.
     void take(const View& view, const Frame& frame);
     void find_visible(const SolidDepth& solid = {});
-    // Of the frame that is taken.
+    // Sight and cut of the frame that is taken.
     const Sight& sight() const { return sight_; }
     const Cut& cut() const { return cut_; }
     const Visibility& visibility() const { return layer_.visibility(); }

@@ -11,7 +11,8 @@ namespace {
 
 constexpr float kKeyShare = 0.62f;  // of the light on walls; the sky gives the rest
 
-// Of a colour that says something, turned away from the light: it must still be found on the colour bar.
+// Share of its strength that a colour keeps, turned away from the light, where it must still be found on the
+// colour bar.
 constexpr float kDarkColour = 0.7f;
 
 // Lines: what share of a main line's width, and how strong.
@@ -32,7 +33,7 @@ float smooth(float share) {
     return s * s * (3 - 2 * s);
 }
 
-// Of the points of a plane, from the pixel (0, 0) on.
+// How near the points of a plane are, from the pixel (0, 0) on.
 ScreenPlane nearness_of(const Sight& sight, const Eigen::Vector3f& normal, float distance) {
     const float per_pixel = 1 / sight.focal;
     const float x = normal.x() * per_pixel, y = -normal.y() * per_pixel;

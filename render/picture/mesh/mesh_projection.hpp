@@ -48,7 +48,8 @@ class MeshProjection {
     void take(const View& view, const Sight& sight, const Cut& cut, const std::vector<DrawnMesh>& meshes,
               const MeshPaints& paints, Team& team);
 
-    // Of numbers 1 on: the plane that a solid triangle lies in, its normal towards the eye. View coordinates.
+    // The plane that a solid triangle lies in, numbered from 1, with its normal towards the eye. View
+    // coordinates.
     struct Plane {
         Eigen::Vector3f normal;
         float distance;
@@ -96,7 +97,7 @@ class MeshProjection {
     Seen look_at(const MeshShape& shape, std::size_t t) const;
     float lit(const Eigen::Vector3f& normal) const;
 
-    // Of the moment that is taken.
+    // The moment that is taken.
     Sight sight_;
     DrawnSpace space_;
     PortSize port_{1, 1};

@@ -19,7 +19,7 @@ constexpr std::size_t kPlacesOfPatch = 8;
 
 // A side looks into a room when so much of what it sees is surface; of what is not said to be a vessel.
 constexpr double kEnclosed = 0.5, kSurelyEnclosed = 0.6;
-// Of an open sheet: how much more one side must see than the other.
+// How much more one side of an open sheet must see than the other.
 constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
 constexpr double kHoldsRoom = 0.5,
                  kInRoom = 0.9;       // of a closed part: the room is within it, or all around it
@@ -164,7 +164,7 @@ class SideFinder {
         seen.room_back += room_->holds(middle(t) - small_ * normal) ? weight : 0;
     }
 
-    // Of what is closed, the side that can be seen is the one from which a ray crosses an even number of
+    // The side of a closed part that can be seen is the one from which a ray crosses an even number of
     // times.
     void look_for_material(std::size_t part, std::int32_t t) {
         const Vec3 normal = surface_.normal(t);
@@ -185,8 +185,8 @@ class SideFinder {
         return visible_share(patch_seen_[patch], part_of_patch_[patch]) >= kEnclosed;
     }
 
-    // Of a vessel, a closed part with the room on one of its sides: a sheet around it, whatever its bars and
-    // dents see of each other from outside, or a body in it. Returns whether it is one.
+    // Settles a closed part of a vessel that has the room on one of its sides: a sheet around it, whatever
+    // its bars and dents see of each other from outside, or a body in it. Returns whether it is one.
     bool settle_beside_room(std::size_t part) {
         const Seen& seen = part_seen_[part];
         const bool in_front = seen.room_front > seen.room_back;
@@ -211,7 +211,7 @@ class SideFinder {
             sides_[static_cast<std::size_t>(t)] = {front, back};
         });
     }
-    // Of a part that is closed: the look of the side that its normals point to, or of the other one.
+    // Settles a closed part: it gets the look of the side that its normals point to, or of the other one.
     void settle_closed(std::size_t part, Face out, Face in) {
         settle(part, visible_front_[part] ? out : in, visible_front_[part] ? in : out);
     }

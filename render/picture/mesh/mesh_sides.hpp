@@ -7,8 +7,8 @@
 
 namespace grainreel {
 
-// Of each triangle. How much of what is around a side of a surface is surface again decides: a few rays from
-// each patch say so.
+// The sides of each triangle. A side is told by how much of what is around it is surface again: a few rays
+// from each patch say so.
 std::vector<MeshShape::Sides> find_sides(const Surface& surface, double edge_angle, MeshLook look);
 
 }  // namespace grainreel

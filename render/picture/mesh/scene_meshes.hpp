@@ -24,7 +24,7 @@ class SceneMeshes {
     bool any() const { return !drawn_.empty(); }
     // By what the grains do to them in this frame, where the film wants it; until the next one.
     void colour_by(const Frame& frame);
-    // Of all triangles that it has coloured.
+    // How many of the triangles that it has coloured lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }
     // Where they are in a frame.
     const std::vector<DrawnMesh>& at(const Frame& frame);

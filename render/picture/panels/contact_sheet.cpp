@@ -45,7 +45,7 @@ Canvas surface_of(const Picture& picture) {
     return surface;
 }
 
-// Of an opaque surface.
+// The picture on an opaque surface.
 Picture picture_of(cairo_surface_t* surface) {
     cairo_surface_flush(surface);
     const unsigned char* pixels = cairo_image_surface_get_data(surface);

@@ -17,7 +17,7 @@ class PanelPlots {
     PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layout, const TypeScale& type,
                const Palette& palette);
 
-    // Of one frame a panel. False when nothing changed.
+    // Takes one frame a panel. False when nothing changed.
     bool take(const std::vector<FramePtr>& frames);
     struct Placed {
         std::unique_ptr<SidePlot> plot;

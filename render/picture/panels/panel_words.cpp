@@ -11,7 +11,7 @@
 namespace grainreel {
 namespace {
 
-// Of the picture's width.
+// Shares of the picture's width.
 constexpr double longest_bar = 0.14, common_colour_bar = 0.2, common_marks = 0.17;
 constexpr int pace_lines = 4;
 
@@ -225,7 +225,7 @@ TextSize caption_block(const Writer& writer, const std::string& caption, double 
 
 namespace {
 
-// Of a panel's width, for a scale bar and for a colour bar.
+// Shares of a panel's width, for a scale bar and for a colour bar.
 constexpr double longest_own_bar = 0.3, own_colour_bar = 0.7;
 
 double own_bar_height(const Writer& measure, const Panel& panel, const Common& common) {

@@ -14,7 +14,7 @@
 
 namespace grainreel {
 
-// Of these panels in a picture of the film's size; without places when it is too small.
+// Lays out these panels in a picture of the film's size; without places when it is too small.
 PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film);
 
 class SideBySide {

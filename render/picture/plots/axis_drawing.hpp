@@ -25,7 +25,7 @@ inline double line_height(double letters) {
     return measure_text("0", {letters, false}).height;
 }
 
-// Of the words above the box: two lines where enough of the plot's height is left to it.
+// Lines of the words above the box: two where enough of the plot's height is left to it.
 inline int title_lines(int plot_height, const TypeScale& type) {
     return plot_height > 9 * type.main ? 2 : 1;
 }

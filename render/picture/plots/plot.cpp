@@ -113,7 +113,7 @@ bool Plot::take(const Frame& frame) {
     return true;
 }
 
-// Of this row and those since a period ago, without the one of then. None before a period has passed.
+// Mean of this row and those since a period ago, without the one of then. None before a period has passed.
 double Plot::mean_of_period(double cycles, double value) {
     constexpr double hair = 1e-3;  // of a period: rows are whole steps
     period_.push_back({cycles, value});

@@ -32,7 +32,7 @@ struct PlotFrame {
     double expected = 0;        // SI, of which size the values' unit is at least
     int width = 0, height = 0;  // pixels
 };
-// Of a plot that the scene's film shows, without its size.
+// The frame of a plot that the scene's film shows, without its size.
 PlotFrame plot_frame(const FilmedScene& scene, const FilmPlot& plot);
 
 class Plot final : public SidePlot {

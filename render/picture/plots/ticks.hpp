@@ -20,8 +20,8 @@ struct AxisTicks {
 // first and the last of up to `finest` round ticks.
 AxisTicks axis_ticks(double low, double high, int most, int finest);
 
-// Of an axis that goes by ratios, low > 0: powers of ten, so many apart that there are at most `most` (>= 2);
-// where less than two lie inside, 2 and 5 times them too.
+// Ticks of an axis that goes by ratios, low > 0: powers of ten, so many apart that there are at most `most`
+// (>= 2); where less than two lie inside, 2 and 5 times them too.
 std::vector<double> power_ticks(double low, double high, int most);
 
 // The narrowest interval around [low, high] whose ends are such multiples, `most` of them at most. Equal ends

@@ -7,7 +7,7 @@
 namespace grainreel {
 
 struct Layer {
-    // Of a row: from the first pixel that is not clear to after the last.
+    // Part of a row from the first pixel that is not clear to after the last.
     struct Span {
         int begin = 0, end = 0;
     };

@@ -114,7 +114,7 @@ HWY_INLINE F seen_at(const Meeting& m, const Kept& k) {
     return select((end < away), F(kNowhere), select(m.rest < F(0), F(kNowhere), away));
 }
 
-// Of the whole sphere, or of what the cut leaves of it.
+// What a ray sees of the whole sphere, or of what the cut leaves of it.
 template <bool cut_open, bool orthographic>
 HWY_INLINE F seen_of(const Ray<orthographic>& ray, const Cut& cut, const Meeting& m) {
     if constexpr (cut_open)

@@ -28,7 +28,7 @@ struct Cut {
     int planes = 0;
     Plane plane[2];
 
-    // Of a sphere, along its diameter: 1 kept, 0 cut away.
+    // Share of a sphere that is kept, along its diameter: 1 kept, 0 cut away.
     float share(const ViewSphere& s) const {
         float kept = 1;
         for (int i = 0; i < planes; ++i)

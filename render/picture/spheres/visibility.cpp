@@ -101,7 +101,7 @@ bool Visibility::hidden(Worker& worker, int band, const PixelBox& box, float nea
     return true;
 }
 
-// Of the band's first pixel. Without anything solid depths are forgotten with the band.
+// Depth of the band's first pixel. Without anything solid, depths are forgotten with the band.
 float* Visibility::depth_of_band(int band, Worker& worker, const SolidDepth& solid) {
     if (!solid.away) {
         worker.depth.assign(kBand * stride_, kNothing);

@@ -32,8 +32,8 @@ class Visibility {
     void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team,
                 const SolidDepth& solid = {});
 
-    // Of a row from the top: number of the grain seen, or 0. One pixel before the first and 16 after the last
-    // may be read; those next to the row repeat its ends.
+    // Number of the grain seen in each pixel of a row, or 0. Rows count from the top. One pixel before the
+    // first and 16 after the last may be read; those next to the row repeat its ends.
     const std::uint32_t* row(int y) const {
         return seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
     }

@@ -21,7 +21,7 @@ bool WallOrder::Plate::disorders(const Vec3& centre, double radius) const {
     return true;
 }
 
-// Of a cap less than half of the grain, around its circle in the plane.
+// A sphere around a cap's circle in the plane, for a cap of less than half of the grain.
 ViewSphere WallOrder::Plate::wrong_part(const Vec3& centre, double radius) const {
     const double height = plane.height(centre), inside = before ? -height : height;
     const auto sphere = [](const Vec3& c, double r) {

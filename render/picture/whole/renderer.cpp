@@ -112,7 +112,7 @@ struct Renderer::Impl {
     std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
     std::optional<Ground> ground;
     Team team;
-    // Of all: those that are not hidden; of these: those that are not ghosts, and those that marks go by.
+    // Grains that are not hidden; those of them that are no ghosts; and those that marks go by.
     ShownGrains shown, solid, beside_cut;
     SceneMeshes meshes;
     MeshProjection mesh_projection;
@@ -286,7 +286,7 @@ void Renderer::Impl::draw_other_meshes(Stopwatch& watch) {
     watch.lap(&DrawTimes::walls);
 }
 
-// Of those that have been taken.
+// Draws the grains that have been taken.
 const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, Stopwatch& watch) {
     painter.find_visible(mesh_painter ? mesh_painter->depth() : SolidDepth());
     painter.find_order(eye, shapes);

@@ -49,7 +49,7 @@ class Renderer {
     const View& view() const;  // of the last picture
     // The film's first frame, from which start heights are counted; without a call, the first one drawn.
     void start_from(const Frame& frame);
-    // Of all pictures from now on.
+    // Points this out in all pictures from now on.
     void point_out(PointedOut what);
     // A frame before the next one drawn, which leaves trails but no picture.
     void remember(const Frame& frame);

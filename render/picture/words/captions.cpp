@@ -36,7 +36,7 @@ std::vector<std::string> vibration_lines(double frequency, double amplitude, dou
     return lines;
 }
 
-// Of the drive while it grows: with as many decimals as what it grows to.
+// A value of a drive that grows, with as many decimals as what it grows to.
 double rounded_as(double value, double full) {
     if (full <= 0) return value;
     const double digit = std::pow(10, std::floor(std::log10(full)) - 2);
@@ -156,7 +156,8 @@ std::string mass_text(double kilograms) {
                                   : fmt::format("{:.3g} mg", 1e6 * kilograms);
 }
 
-// Of how many only where all are there from the start: of grains that are fed, some are yet to come.
+// Says "of how many" only where all are there from the start: some of the grains that are fed are yet to
+// come.
 std::string outflow_text(const FilmedScene& scene, const FlowedOut& out) {
     const std::int64_t all = scene.grains();
     const std::string grains = scene.grains_at_start() == all ? fmt::format("{} of {} out", out.grains, all)

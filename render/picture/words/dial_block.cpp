@@ -35,7 +35,7 @@ struct Dial {
           sign(view && drive.direction.dot(view->right) < 0 ? -1 : 1) {}
 
     Eigen::Vector2d middle() const { return {radius + pen, radius + pen}; }
-    // Of the hand's tip, at a phase in turns.
+    // Place of the hand's tip, at a phase in turns.
     Eigen::Vector2d tip(double phase) const {
         const double along = radius * std::sin(2 * std::numbers::pi * phase),
                      across = radius * std::cos(2 * std::numbers::pi * phase);

@@ -13,9 +13,9 @@
 
 namespace grainreel {
 
-// Of a frame as it is drawn. A label whose grain is not there, or lies outside the view, is left out; one
-// that would lie over another moves down below it. found: of each label, whether its grain has been there;
-// grows to 1 where it is in this frame.
+// Draws the labels of a frame as it is drawn. A label whose grain is not there, or lies outside the view, is
+// left out; one that would lie over another moves down below it. found: of each label, whether its grain has
+// been there; grows to 1 where it is in this frame.
 void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
                        const PictureLayout& layout, const Palette& palette, Picture& picture,
                        std::vector<char>& found);

@@ -13,7 +13,7 @@ struct Halo {
     Colour colour;
     double reach = 0;  // pixels beyond the words
 };
-// Of the colour that the words are made for.
+// The halo, in the colour that the words are made for.
 Halo halo_of(const TypeScale& type, const Palette& palette);
 
 // As copy_part(), with a halo under it: around each pixel as strong as that is, and gone beyond its reach.

@@ -63,7 +63,7 @@ TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scal
 TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest);
 // Directions of gravity and of the drive as the camera sees them. view: null while measuring.
 TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
-// x, y and z as the camera sees them, where the film wants them; likewise.
+// x, y and z as the camera sees them, where the film wants them; as above.
 TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
 // f, Gamma and amplitude, and by how much the motion is exaggerated. frame: null to measure the longest.
 TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame* frame, double x, double y);

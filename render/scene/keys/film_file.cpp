@@ -15,7 +15,7 @@ namespace {
 constexpr double gif_ticks = 100;         // a second: a GIF counts whole hundredths
 constexpr double shortest_gif_ticks = 2;  // browsers slow down what asks for less
 
-// Of the rates that a GIF can have, 100/n frames a second, the nearest.
+// The nearest of the rates that a GIF can have, 100/n frames a second.
 double gif_rate(double wanted) {
     const double below = std::max(shortest_gif_ticks, std::ceil(gif_ticks / wanted));
     const double above = std::max(shortest_gif_ticks, below - 1);

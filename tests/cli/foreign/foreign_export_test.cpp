@@ -76,8 +76,8 @@ struct Returned {
 };
 
 constexpr Returned returned_formats[] = {
-    {"lammps-dump", "", 0, false},   {"xyz", "", 0, true},    {"csv", "", 0, false},
-    {"vtk", "grains.pvd", 0, false}, {"gsd", "", 4e-9, true}, {"netcdf", "", 0, true},
+    {"lammps-dump", "", 0, false},  {"xyz", "", 0, true},    {"csv", "", 0, false},
+    {"vtk", "grains.pvd", 0, true}, {"gsd", "", 4e-9, true}, {"netcdf", "", 0, true},
 };
 
 // Ours, theirs made of ours, and both in one picture.

@@ -1,5 +1,6 @@
 // Films and pictures of files of other programs.
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <thread>
 
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/run/import/import_ranges.hpp"
 #include "engine/state/body.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
@@ -55,6 +57,46 @@ TEST_F(ForeignFilm, AStillForPrintTellsItsPixelsAnInch) {
     ASSERT_EQ(
         timed({"render", "bed.dump", "--at", "0.02", "--size", "160x120", "--out", "screen.png"}).status, 0);
     EXPECT_EQ(chunk_of(text_of(here / "screen.png"), "pHYs"), "");
+}
+
+// Two panels in the width of a journal's column: 85 mm at 300 pixels an inch.
+TEST_F(ForeignFilm, AComparisonAtAMomentIsForPrintToo) {
+    const Ended ended = timed({"compare", "bed.dump", "bed.dump", "--at", "0.02", "--size", "320x180",
+                               "--captions", "one|other", "--width-mm", "85", "--out", "both"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::string png = text_of(here / "both/still-0.020s.png");
+    EXPECT_EQ(chunk_of(png, "pHYs"), std::string("\0\0\x2e\x23\0\0\x2e\x23\x01", 9));  // 11811 a metre
+    const auto width = static_cast<std::uint32_t>(static_cast<unsigned char>(png.at(18)) << 8 |
+                                                  static_cast<unsigned char>(png.at(19)));
+    EXPECT_EQ(width, static_cast<std::uint32_t>(std::lround(85 / 25.4 * 300)));
+    const Ended film = timed({"compare", "bed.dump", "bed.dump", "--dpi", "300", "--out", "film"});
+    EXPECT_EQ(film.status, 2);
+    EXPECT_THAT(film.err, HasSubstr("--dpi: is for one picture; add --at"));
+}
+
+// All grains rise at 0.1 m/s.
+TEST_F(ForeignFilm, ColoursHaveTheirRangeFromTheFrames) {
+    ASSERT_EQ(imported().status, 0);
+    const auto range = [&](const char* quantity) {
+        return imported_range(import(), quantity).value_or(std::array<double, 2>{0, 0});
+    };
+    EXPECT_EQ(range("start-height")[0], 0.005);
+    EXPECT_EQ(range("start-height")[1], 0.015);
+    for (const double most :
+         {range("speed")[1], range("vertical-velocity")[1], -range("vertical-velocity")[0]}) {
+        EXPECT_GE(most, 0.1);
+        EXPECT_LE(most, 0.1 * 1.1);  // a class of sizes, and two digits
+    }
+    EXPECT_EQ(range("spin")[1], 0);
+    EXPECT_EQ(range("contact-force")[1], 0);
+    for (const char* by : {"speed", "vertical-velocity", "start-height", "kinetic-energy"}) {
+        const Ended ended =
+            imported({"--set", std::string("film.colour.by=") + by, "--out", std::string(by) + ".png"});
+        EXPECT_EQ(ended.status, 0) << by << ' ' << ended.err;
+    }
+    const Ended none = imported({"--set", "film.colour.by=spin", "--out", "spin.png"});
+    EXPECT_EQ(none.status, 2);
+    EXPECT_THAT(none.err, HasSubstr("write a 'range' for it"));
 }
 
 TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {

@@ -243,5 +243,34 @@ TEST_F(StudyVerb, MistakesWriteNothing) {
     EXPECT_THAT(taken.err, HasSubstr("holds something that is no study"));
 }
 
+// One drive after the other: with rain, and stiffness and step given, the second begins with the packing of
+// the first; else the study says why not.
+TEST_F(StudyVerb, SharesPackings) {
+    std::string text = replaced(four_members, "seeds = 2\n", "");
+    const Program::Setting setting{
+        ".", {"XDG_CACHE_HOME=" + (folder_ / "cache").string(), "GRAINREEL_PACKINGS=all"}};
+    const auto dry = [&](const std::string& sets) {
+        const std::string study =
+            write(replaced(text, "\"run.duration=0.1 s\"", "\"run.duration=0.1 s\", " + sets));
+        return run_program(words(study, {"--dry-run"}), setting).out;
+    };
+    EXPECT_THAT(dry("\"title=same\""),
+                HasSubstr("packings     settings that differ in the drive share no packing, since "
+                          "radii grow while it moves"));
+    EXPECT_THAT(dry("\"start.method=rain\""), HasSubstr("since stiffness and step follow the drive"));
+    const std::string shared = "\"start.method=rain\", \"contact.stiffness=700 N/m\", \"run.step=10 us\"";
+    EXPECT_THAT(dry(shared), HasSubstr("2 settings begin with 1 different packings"));
+    const Ended ended = run_program(
+        words(write(replaced(text, "\"run.duration=0.1 s\"", "\"run.duration=0.1 s\", " + shared)),
+              {"--jobs", "1"}),
+        setting);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("packings: 2 settings begin with 1"));
+    int found = 0;
+    for (const fs::path& member : members())
+        found += text_of(member / "log.txt").find("took the packing of an earlier run") != std::string::npos;
+    EXPECT_EQ(found, 1);
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -13,7 +13,7 @@ using std::numbers::pi;
 struct Outcome {
     double gained;   // of kinetic energy, over what the contact point brought in
     double linear;   // change of momentum, over what there was
-    double angular;  // of angular momentum, likewise
+    double angular;  // of angular momentum, as above
     bool met;
 };
 

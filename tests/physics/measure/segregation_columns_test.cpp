@@ -1,6 +1,8 @@
 // Columns of segregation of three species, on a container that is not where it is at rest.
 #include <gtest/gtest.h>
 
+#include "engine/mesh/room.hpp"
+#include "tests/mesh/shapes.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
 
 namespace grainreel {
@@ -34,6 +36,23 @@ TEST(SegregationColumns, QuartersAreThoseOfTheBedsHeight) {
     EXPECT_NEAR(bed.look(0, "big_in_bottom_quarter"), 1.0 / 4, 1e-12);
     const double mean_small = (0.3 * 14 * 15 / 2 + 12) / 15;
     EXPECT_NEAR(bed.look(0, "height_difference"), (6 - mean_small) / 12, 1e-12);
+}
+
+// The same bed in a vessel whose file has its floor at z = -20: heights count from there, and their
+// difference keeps its sign.
+TEST(SegregationColumns, CountHeightsFromTheBaseOfAMeshVessel) {
+    Bed bed;
+    bed.scene.container.shape = Container::Shape::mesh;
+    bed.scene.container.room.of =
+        std::make_shared<EnclosedRoom>(shapes::mended(shapes::box({-2, -10, -20}, {2, 10, 10})));
+    for (int i = 0; i <= 20; ++i) bed.add(i % 2 == 0 ? small : big, {0, 0, 1 - 20 + 0.5 * (i + 1)}, 0.5);
+    EXPECT_NEAR(bed.look(0, "bed_top_m"), 10, 1e-12);  // 95 % of the ranks 0 to 20 is 19
+    EXPECT_NEAR(bed.look(0, "small_height_m"), 5.5, 1e-12);
+    EXPECT_NEAR(bed.look(0, "big_height_m"), 5.5, 1e-12);
+    EXPECT_NEAR(bed.look(0, "height_difference"), 0, 1e-12);
+    bed.add(big, {0, 0, 1 - 20 + 27.5}, 0.5);  // the mean of eleven is 2 higher
+    EXPECT_NEAR(bed.look(0, "big_height_m"), 7.5, 1e-12);
+    EXPECT_GT(bed.look(0, "height_difference"), 0);
 }
 
 // Walls are at y = -8 and 12. A big grain is beside one that is nearer to its centre than 1.5 + 1.

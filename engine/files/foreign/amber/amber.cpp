@@ -84,6 +84,7 @@ class AmberFile : public RawFile {
     RawFrame frame_at(std::size_t index) const;
 
   private:
+    [[noreturn]] void refuse_without_frames() const;
     std::size_t grains_of(std::size_t frame) const;
     std::optional<double> time_of(std::size_t frame) const;
     std::optional<std::array<double, 3>> triple(const char* name, std::size_t frame) const;
@@ -107,10 +108,7 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), variables
         if (!version.empty()) facts_.program += " " + version;
     }
     if (variables_.places().components == 2) facts_.dimensions = 2;
-    if (variables_.frames() == 0)
-        throw UserError(
-            fmt::format("{}: has no frame{}", file.string(),
-                        variables_.declared() > 0 ? " that is whole; was it copied to the end?" : ""));
+    if (variables_.frames() == 0) refuse_without_frames();
     if (variables_.frames() < variables_.declared())
         news_.push_back(
             fmt::format("{}: is cut off after {} of {} frames; the last frame that is not whole is left "
@@ -123,6 +121,24 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), variables
         moments_.push_back(moment);
     }
     find_units();
+}
+
+// Who writes such a file counts a frame behind the others when it is whole, and a program that is stopped may
+// leave none counted.
+void AmberFile::refuse_without_frames() const {
+    const std::string name = file_.string();
+    if (variables_.declared() > 0)
+        throw UserError(fmt::format("{}: has no frame that is whole; was it copied to the end?", name));
+    const std::optional<std::size_t> behind = variables_.records_behind_header();
+    if (behind.value_or(0) == 0) throw UserError(fmt::format("{}: has no frame", name));
+    std::string count;
+    for (int k = variables_.count_bytes() - 1; k >= 0; --k)
+        count += fmt::format("\\{:03o}", *behind >> 8 * k & 0xffU);
+    throw UserError(
+        fmt::format("{}: its header counts no frame, and behind it there is room for {}; if the program that "
+                    "wrote it was "
+                    "stopped, put this count there: printf '{}' | dd of={} bs=1 seek=4 conv=notrunc",
+                    name, *behind, count, name));
 }
 
 // Fewer than there is room for: the rest has the fill value.

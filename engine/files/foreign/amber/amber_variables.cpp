@@ -173,6 +173,16 @@ std::size_t AmberVariables::whole_records() const {
     return static_cast<std::size_t>(size > header.begin ? (size - header.begin) / header.record : 0);
 }
 
+std::optional<std::size_t> AmberVariables::records_behind_header() const {
+    const std::size_t records = whole_records();
+    if (records == std::numeric_limits<std::size_t>::max()) return std::nullopt;
+    return records;
+}
+
+int AmberVariables::count_bytes() const {
+    return first_bytes(file_)[3] == 5 ? 8 : 4;
+}
+
 void AmberVariables::find_dimensions() {
     if (nc_inq_dimid(id_, "atom", &atom_dimension_) != NC_NOERR)
         throw UserError(fmt::format("{}: is NetCDF, but has no dimension atom, as the AMBER convention says",

@@ -32,7 +32,10 @@ class AmberVariables {
 
     std::size_t frames() const { return frames_; }      // that lie whole in the file
     std::size_t declared() const { return declared_; }  // that it says it has
-    std::size_t grains() const { return grains_; }      // for which there is room in a frame
+    // How many there is room for behind a header that counts none; none where the file has no records.
+    std::optional<std::size_t> records_behind_header() const;
+    int count_bytes() const;                        // of the number of records in the header, from byte 4 on
+    std::size_t grains() const { return grains_; }  // for which there is room in a frame
     const std::vector<AmberVariable>& variables() const { return variables_; }
     const AmberVariable* find(const std::string& name) const;
     const AmberVariable& places() const { return variables_[places_]; }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 
+#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/files/foreign/bytes/file_bytes.hpp"
@@ -188,7 +189,8 @@ bool LammpsText::grow() {
 // The first words of a dump, or those of one whose first line is missing. A dump in YAML is refused by name
 // when it is opened.
 bool takes_text_dump(const FileHead& head) {
-    const std::string_view text = head.bytes;
+    std::string_view text = head.bytes;
+    drop_byte_order_mark(text);
     constexpr std::size_t first_items = 2000;  // bytes
     if (text.starts_with("---") &&
         text.substr(0, first_items).find("creator: LAMMPS") != std::string_view::npos)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/base/byte_order_mark.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {
@@ -62,6 +63,7 @@ bool LineReader::next(TextLine& line) {
     if (line.ended) ++number_;
     if (end > begin && end[-1] == '\r') --end;
     line.text = {begin, static_cast<std::size_t>(end - begin)};
+    if (line.place == 0) drop_byte_order_mark(line.text);
     return true;
 }
 

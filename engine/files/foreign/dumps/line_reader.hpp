@@ -35,7 +35,7 @@ class LineReader {
     std::string_view lines();
     // Whether what lines() gave last is a line that ends with the content, without a line feed.
     bool unended() const { return unended_; }
-    // Of what lines() gave the first so many bytes and lines were read.
+    // Says that so many bytes and lines of what lines() gave were read.
     void take(std::size_t bytes, std::int64_t lines);
 
     // Where the next line begins.

@@ -34,7 +34,7 @@ struct Header {
     WorldCell box;
 };
 
-// Of its three lines; none where they are no header.
+// The header that these three lines are, or none.
 std::optional<Header> header_of(const std::array<std::optional<Numbers>, 3>& lines) {
     if (!lines[0] || !lines[1] || !lines[2]) return std::nullopt;
     if (lines[0]->size() != 2 || lines[1]->size() != 6 || lines[2]->size() < 6) return std::nullopt;

@@ -24,7 +24,7 @@ struct Field {
     const char* key;
     std::vector<const char*> columns;
 };
-// Of a grain with keys.
+// The keys of a grain, and what they mean.
 const std::vector<Field>& fields_of_keys() {
     static const std::vector<Field> fields{
         {"id", {"id"}},
@@ -38,7 +38,7 @@ const std::vector<Field>& fields_of_keys() {
     };
     return fields;
 }
-// Of a grain of plain numbers, in their order; the empty one is the inverse moment of inertia.
+// The numbers of a grain without keys, in their order. The empty one is the inverse moment of inertia.
 constexpr std::array<const char*, 16> plain_columns{"x",      "y",       "z",    "vx",     "vy", "vz",
                                                     "radius", "alpha",   "beta", "gamma",  "wx", "wy",
                                                     "wz",     "invMass", "",     "species"};

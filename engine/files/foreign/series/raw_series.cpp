@@ -99,7 +99,9 @@ void RawSeries::list_moments() {
 
 void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
     std::size_t twice = 0;
-    for (auto& [moment, part] : all) {
+    for (auto& each : all) {
+        auto& moment = each.first;  // no structured binding: clang 14 lets no lambda take one
+        auto& part = each.second;
         const auto same_time = [&] {
             const RawMoment& before = moments_.back();
             return !moment.step && !before.step && moment.time && before.time == moment.time;

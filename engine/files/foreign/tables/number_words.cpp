@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-// Of a number that no double holds: too small ones are 0, too large ones infinite.
+// What a number is that no double holds: 0 if it is too small, infinite if it is too large.
 double beyond_range(std::string_view word) {
     const bool negative = word.front() == '-';
     const std::size_t exponent = word.find_first_of("eE");

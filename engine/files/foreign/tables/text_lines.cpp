@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
 
 namespace grainreel {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::size_t piece = std::size_t{1} << 18;         // bytes read at once
 constexpr std::size_t longest_line = std::size_t{1} << 26;  // bytes
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 std::string_view without_end(std::string_view line) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
@@ -62,7 +62,7 @@ bool TextLines::next() {
         begin_ = place_ + at_;
         at_ += length + (ended_ ? 1 : 0);
         text_ = without_end({from, length});
-        if (begin_ == 0 && text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
+        if (begin_ == 0) drop_byte_order_mark(text_);
         ++number_;
         return true;
     }
@@ -93,7 +93,7 @@ void TextLines::fault(const std::string& what) const {
 
 std::vector<std::string_view> lines_of(const FileHead& head, std::size_t most) {
     std::string_view rest = head.bytes;
-    if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
+    drop_byte_order_mark(rest);
     std::vector<std::string_view> lines;
     while (!rest.empty() && lines.size() < most) {
         const std::size_t length = rest.find('\n');

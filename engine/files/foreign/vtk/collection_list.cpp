@@ -11,6 +11,7 @@
 
 #include "engine/base/utf8.hpp"
 #include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/vtk/named_file.hpp"
 #include "engine/files/foreign/vtk/vtk_fault.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/mesh/file/words.hpp"
@@ -109,7 +110,7 @@ void find_entries(const fs::path& file, const XmlElement& element, std::vector<E
         Entry entry;
         entry.part = child.attribute("part");
         entry.group = child.attribute("group");
-        entry.file = child.attribute("file");
+        entry.file = named_file(file.parent_path(), child.attribute("file"));
         entry.name = child.has("name") ? child.attribute("name") : child.attribute("group");
         if (entry.file.empty()) refuse_vtk_line(file, child.line, "a DataSet without a file");
         const std::string_view time = child.attribute("timestep");
@@ -158,7 +159,7 @@ CollectionList list_of_series(const fs::path& file, const std::string& bytes) {
             refuse_vtk_file(
                 file, fmt::format("entry {} of its list \"files\" has no \"name\"", entries.size() + 1));
         Entry entry;
-        entry.file = name->get<std::string>();
+        entry.file = named_file(file.parent_path(), name->get<std::string>());
         const auto time = each.find("time");
         if (time != each.end() && time->is_number()) entry.time = time->get<double>();
         entries.push_back(std::move(entry));

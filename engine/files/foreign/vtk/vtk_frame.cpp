@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -96,17 +97,40 @@ void add_contacts(const VtkPiece& piece, RawTable& table) {
     add_rows(table, std::move(columns), lines.count, piece.where);
 }
 
+// Types become words where the file names all of them.
+void name_types(RawTable& table, const std::vector<std::string>& names) {
+    for (RawColumn& column : table.columns) {
+        if (column.name != "type") continue;
+        const auto has_name = [&](double type) {
+            return type >= 1 && type <= static_cast<double>(names.size()) && type == std::floor(type);
+        };
+        if (names.empty() || !std::all_of(column.values.begin(), column.values.end(), has_name)) return;
+        for (double& type : column.values) --type;
+        column.words = names;
+    }
+}
+
+// Back to numbers, where other rows of the same moment have other names.
+void unname_types(RawColumn& column) {
+    if (column.words.empty()) return;
+    for (double& type : column.values) ++type;
+    column.words.clear();
+}
+
 void merge_tables(RawTable& table, RawTable&& more) {
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
     if (table.rows == 0 || more.rows == 0) {
         if (table.rows == 0 && (more.rows > 0 || table.columns.empty())) table = std::move(more);
         return;
     }
-    for (const RawColumn& column : more.columns)
-        if (table.find(column.name) == nullptr)
-            table.columns.push_back({column.name, std::vector<double>(table.rows, missing)});
+    for (RawColumn& column : more.columns) {
+        const RawColumn* mine = table.find(column.name);
+        if (mine == nullptr || mine->words != column.words) unname_types(column);
+        if (mine == nullptr) table.columns.push_back({column.name, std::vector<double>(table.rows, missing)});
+    }
     for (RawColumn& column : table.columns) {
         const RawColumn* other = more.find(column.name);
+        if (other == nullptr || other->words != column.words) unname_types(column);
         if (other == nullptr)
             column.values.resize(table.rows + more.rows, missing);
         else
@@ -191,6 +215,7 @@ RawFrame frame_of(VtkContents&& contents) {
         add_grains(piece, frame.grains);
         piece = {};
     }
+    name_types(frame.grains, contents.species);
     return frame;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/vtk/named_file.hpp"
 #include "engine/files/foreign/vtk/vtk_fault.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_legacy.hpp"
@@ -119,7 +120,7 @@ void find_files(const fs::path& folder, const XmlElement& element, const std::st
         const std::string own(child.attribute("name"));
         const std::string& name = own.empty() ? block : own;
         if (child.name == "DataSet" && child.has("file"))
-            files.push_back({folder / std::string(child.attribute("file")), name});
+            files.push_back({folder / named_file(folder, child.attribute("file")), name});
         else
             find_files(folder, child, name, files);
     }

@@ -70,7 +70,8 @@ struct VtkContents {
     std::optional<double> time{};
     std::optional<std::int64_t> step{};
     std::vector<VtkPiece> pieces{};
-    std::vector<std::string> news{};  // for the user, without the file's name
+    std::vector<std::string> species{};  // names of the types 1, 2, ..., as our export writes them
+    std::vector<std::string> news{};     // for the user, without the file's name
 };
 
 // Whether the numbers are wanted, or only what says how many grains, walls and contacts there are.

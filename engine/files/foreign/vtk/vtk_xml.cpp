@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 #include "engine/base/plain_file.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/vtk/named_file.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/xml_piece.hpp"
 #include "engine/mesh/file/words.hpp"
@@ -37,10 +39,40 @@ bool is_list(std::string_view type) {
                     excerpt(type)));
 }
 
-// Of FieldData, wherever it stands.
+// Words are the bytes of their letters and a 0, each as a number. Empty for what is none.
+std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> all(1);
+    VtkWords numbers(text.data(), text.data() + text.size());
+    for (double value = 0; numbers.number(value);) {
+        if (!(value >= 0 && value < 256)) return {};
+        if (value == 0)
+            all.emplace_back();
+        else
+            all.back() += static_cast<char>(static_cast<unsigned char>(value));
+    }
+    if (!numbers.at_end() || !all.back().empty()) return {};
+    all.pop_back();
+    return all;
+}
+
+// The names of species, where they are different, are names, and can be typed.
+std::vector<std::string> species_of(const XmlArrays& arrays, const XmlElement& array) {
+    const std::string_view format = array.attribute("format");
+    if (!format.empty() && format != "ascii") return {};
+    std::vector<std::string> names = words_of(arrays.text_of_array(array));
+    const std::set<std::string> different(names.begin(), names.end());
+    const bool fine = std::all_of(names.begin(), names.end(), [](const std::string& name) {
+        return !name.empty() && complaint_of_utf8(name).empty();
+    });
+    return fine && different.size() == names.size() ? names : std::vector<std::string>();
+}
+
+// Reads the element FieldData, wherever it stands.
 void read_field(const XmlArrays& arrays, const XmlElement& field, VtkContents& contents) {
     for (const XmlElement& array : field.children) {
         const std::string_view name = array.attribute("Name");
+        if (array.name == "Array" && array.attribute("type") == "String" && name == "species")
+            contents.species = species_of(arrays, array);
         const bool time = name == "TimeValue" || name == "TIME";
         if (array.name != "DataArray" || (!time && name != "CYCLE") || !vtk_xml_type(array.attribute("type")))
             continue;
@@ -62,7 +94,7 @@ void read_words(const XmlTree& tree, VtkContents& contents) {
 
 // The file of a piece. Throws UserError where it is not there.
 fs::path file_of_piece(const fs::path& file, const XmlElement& piece) {
-    const std::string source(piece.attribute("Source"));
+    const std::string source = named_file(file.parent_path(), piece.attribute("Source"));
     if (source.empty()) refuse_vtk_line(file, piece.line, "a piece without a file: its Source is missing");
     const fs::path path = file.parent_path() / source;
     if (!is_plain(path))
@@ -84,6 +116,7 @@ void add_pieces_of(const fs::path& file, const XmlElement& piece, VtkPart part, 
     VtkContents more = read_vtk_xml(path, part);
     if (!contents.time) contents.time = more.time;
     if (!contents.step) contents.step = more.step;
+    if (contents.species.empty()) contents.species = more.species;
     if (contents.program.empty()) contents.program = more.program;
     std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(contents.pieces));
 }

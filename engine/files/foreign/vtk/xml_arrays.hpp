@@ -26,8 +26,10 @@ class XmlArrays {
     // By the lengths alone that so many numbers can be there.
     void check(const XmlElement& array, std::uint64_t count) const;
 
+    // As it stands in the file.
+    std::string_view text_of_array(const XmlElement& array) const;
     VtkPlace place_of(const XmlElement& array) const;
-    // Of an attribute, 0 where it is missing. Throws UserError for what is no count.
+    // The count that an attribute has, or 0 without the attribute. Throws UserError for what is no count.
     std::uint64_t count_in(const XmlElement& element, std::string_view attribute) const;
     const std::filesystem::path& file() const { return file_; }
 
@@ -39,7 +41,6 @@ class XmlArrays {
     VtkType type_of(const XmlElement& array) const;
     bool is_text(const XmlElement& array) const;
     Stored stored(const XmlElement& array) const;
-    std::string_view text_of_array(const XmlElement& array) const;
     template <class T>
     void read(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
               std::vector<T>& values) const;

@@ -13,9 +13,9 @@ class DrivenContact {
     // Where the contact is led in one step.
     struct Move {
         Vec3 normal{0, 0, 1};  // unit, from i to j, at the end of the step
-        double overlap = 0;    // m, likewise
+        double overlap = 0;    // m, as above
         Vec3 slip{0, 0, 0};    // m, of i over j during the step
-        double twist = 0;      // rad, about the normal, likewise
+        double twist = 0;      // rad, about the normal, as above
     };
     void move(const Move& move);
 

@@ -24,8 +24,8 @@ GasInCube cube_of(std::uint64_t seed) {
     return cube;
 }
 
-// Of Hertz' contact: k a^(3/2) stores 2/5 k a^(5/2), k = 4/3 E* sqrt(R/2), which at the overlap of 1 % that
-// the plan allows is the linear spring's energy.
+// E* of Hertz' contact: k a^(3/2) stores 2/5 k a^(5/2), k = 4/3 E* sqrt(R/2), which at the overlap of 1 %
+// that the plan allows is the linear spring's energy.
 double modulus() {
     const double overlap = 0.01 * 2 * bench_radius, k = 1.25 * stiffness / std::sqrt(overlap);
     return 0.75 * k / std::sqrt(bench_radius / 2);

@@ -113,7 +113,7 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
     Method reference = method;
     reference.integrator = Integrator::velocity_verlet;
     if (reference.normal == NormalForce::walton_braun_corrected) reference.normal = NormalForce::walton_braun;
-    // Of second order then, and so the better reference.
+    // The corrected law is of second order, and so the better reference.
     if (reference.normal == NormalForce::walton_braun && method.tangential == TangentialLaw::linear_spring)
         reference.normal = NormalForce::walton_braun_corrected;
     ObliqueErrors errors;

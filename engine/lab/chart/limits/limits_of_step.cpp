@@ -32,7 +32,8 @@ struct Disturbance {
     int steps;   // within which it grows ten-thousandfold, or does not
 };
 
-// Of the amplitude a step, 1 for none: while the energy grows from ten-thousandfold on, or over all steps.
+// Factor by which the amplitude grows in a step, 1 for no growth. It is taken while the energy is more than
+// ten thousand times that of the start, or over all steps where it stays below.
 double growth_of(Bench& bench, const Disturbance& disturbance) {
     Random random(1, Stream::centres);
     const double speed = 1e-9 * overlap / unit();

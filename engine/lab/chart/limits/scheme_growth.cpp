@@ -23,7 +23,7 @@ double spectral_radius(Matrix power) {
     return std::exp(logarithm);
 }
 
-// Of (x, v), with x'' = -x.
+// What one step does with (x, v), where x'' = -x.
 Eigen::Matrix2d kicks_and_drifts(const Scheme& scheme, double h) {
     const auto kick = [h](double share) { return Eigen::Matrix2d{{1, 0}, {-share * h, 1}}; };
     const auto drift = [h](double share) { return Eigen::Matrix2d{{1, share * h}, {0, 1}}; };
@@ -32,8 +32,8 @@ Eigen::Matrix2d kicks_and_drifts(const Scheme& scheme, double h) {
     return drift(scheme.closing_drift) * step;
 }
 
-// Of (x, h x', h^2 x''/2, h^3 x'''/6): Pascal's triangle predicts, 1/6, 5/6, 1, 1/3 correct (Allen &
-// Tildesley, Computer Simulation of Liquids, app. E).
+// What one step of Gear's scheme does with (x, h x', h^2 x''/2, h^3 x'''/6): Pascal's triangle predicts, 1/6,
+// 5/6, 1, 1/3 correct (Allen & Tildesley, Computer Simulation of Liquids, app. E).
 Eigen::Matrix4d gear(double h) {
     const Eigen::Matrix4d predicted{{1, 1, 1, 1}, {0, 1, 2, 3}, {0, 0, 1, 3}, {0, 0, 0, 1}};
     const Eigen::Vector4d weights(1.0 / 6, 5.0 / 6, 1, 1.0 / 3);

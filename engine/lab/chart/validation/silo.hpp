@@ -23,7 +23,7 @@ struct SiloColumn {
 
 struct SiloLoad {
     double filling = 0;   // mass of the grains over rho_b pi D^3 / 4, that of a column one bore high
-    double apparent = 0;  // mass that the floor carries, likewise
+    double apparent = 0;  // mass that the floor carries, as above
     double solid_fraction = 0;
     double stress_ratio =
         0;                 // K: pressure on the wall over the vertical stress, both averaged over its height

@@ -29,8 +29,8 @@ struct Member {
     std::optional<std::uint64_t> seed;
     Assignments sets;  // the study's, the values, where it starts from, the seed
     std::vector<MemberFile> files;
-    // Of its folder: what it is in short, and a hash of its scene with every value as resolved, so that a
-    // study that has changed finds the members that have not. The film is left out.
+    // Name of its folder: what it is in short, and a hash of its scene with every value as resolved, so that
+    // a study that has changed finds the members that have not. The film is left out.
     std::string name;
 };
 

@@ -45,7 +45,8 @@ Keys of_measure() {
     return {
         entry("measure[].column", KeyKind::text, required(),
               "A column of measures.csv, with or without its unit: `height_difference`, `kinetic`."),
-        choice("measure[].reduce", {"end", "mean", "slope", "crossing", "first-passage"}, required(),
+        choice("measure[].reduce",
+               {"end", "mean", "slope", "crossing", "first-passage", "max", "min", "deviation"}, required(),
                "How the column becomes one number."),
         entry("measure[].name", KeyKind::text, note("`COLUMN_REDUCE`"),
               "Its column in study.csv, and what charts name it by."),

@@ -17,7 +17,7 @@ struct WrittenNumber {
     double number = 0;
     std::string unit;  // empty for none
 };
-// Of a value as TOML writes it; none where it is no number, nor text that begins with one.
+// The number in a value as TOML writes it; none where it is no number, nor text that begins with one.
 std::optional<WrittenNumber> written_number(const std::string& toml);
 
 // As TOML: whole numbers without a point, so that they suit counts too.

@@ -49,12 +49,13 @@ void make_study_folder(const Study& study, const std::vector<Member>& members, c
 }
 
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
-                                     bool film) {
+                                     bool film, bool cache) {
     std::vector<std::string> words{"movie",   folder.scene(study).string(),
                                    "--out",   folder.member(member).string(),
                                    "--force", "--threads",
                                    "1",       "--no-report"};
     if (!film) words.push_back("--no-film");
+    if (!cache) words.push_back("--no-cache");
     // Members are run again rather than looked into; a value of the study's own comes later and counts.
     for (const char* word : {"--set", "output.checkpoints=none"}) words.emplace_back(word);
     for (const Assignment& assignment : member.sets) {

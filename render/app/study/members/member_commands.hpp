@@ -34,7 +34,7 @@ void make_study_folder(const Study& study, const std::vector<Member>& members, c
 
 // Runs it on one thread: what was there of it before is replaced.
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
-                                     bool film);
+                                     bool film, bool cache);
 
 // Draws the last frame of a complete member as its poster.
 std::vector<std::string> poster_command(const Member& member, const MemberResult& result,

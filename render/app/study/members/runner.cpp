@@ -94,8 +94,9 @@ class Runner {
         const Job job = jobs_.front();
         jobs_.pop_front();
         const Member& member = members_[job.member];
-        std::vector<std::string> words = job.is_poster ? poster_command(member, results_[job.member], folder_)
-                                                       : run_command(study_, member, folder_, request_.films);
+        std::vector<std::string> words =
+            job.is_poster ? poster_command(member, results_[job.member], folder_)
+                          : run_command(study_, member, folder_, request_.films, request_.cache);
         words.insert(words.end(), {"--progress", "json"});
         running_.push_back({job, Child(words), 0, ""});
     }

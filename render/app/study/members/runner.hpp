@@ -19,6 +19,7 @@ namespace grainreel {
 struct StudyRunRequest {
     int jobs = 1;  // members at a time
     bool films = false;
+    bool cache = true;          // members take packings from the user's cache folder, and keep theirs
     bool retry = false;         // run failed members again
     bool posters = true;        // of the first seed of each setting
     bool collect_only = false;  // run none; posters alone

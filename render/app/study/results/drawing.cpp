@@ -32,7 +32,7 @@ Look look_on(const Paper& paper) {
     return {lines_on(paper), 1, true};
 }
 
-// Of the longest name in the key. gnuplot lets the names overlap unless they are set so far apart.
+// Lines of the longest name in the key. gnuplot lets names overlap unless they are set so far apart.
 std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference,
                             std::size_t letters) {
     const auto lines = [&](const std::string& name) { return std::ssize(wrapped(name, letters)); };

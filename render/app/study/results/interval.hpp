@@ -19,7 +19,7 @@ struct MeanInterval {
     double half = 0;        // half the width of the interval, t s / sqrt(n); NaN for fewer than two values
 };
 
-// Of the values that are finite.
+// Mean and interval of the values that are finite.
 MeanInterval mean_interval(const std::vector<double>& values, double probability = 0.95);
 
 }  // namespace grainreel

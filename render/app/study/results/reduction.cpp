@@ -1,5 +1,6 @@
 #include "render/app/study/results/reduction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -49,6 +50,14 @@ double mean_of_values(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+double deviation_of_values(const std::vector<double>& values) {
+    if (values.size() < 2) return nan;
+    const double mean = mean_of_values(values);
+    double squares = 0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
 double slope_of(const std::vector<double>& times, const std::vector<double>& values) {
     const double mean_time = mean_of_values(times), mean_value = mean_of_values(values);
     double products = 0, squares = 0;
@@ -89,6 +98,12 @@ double reduce(const Reduction& how, const std::vector<double>& times, const std:
             return last_crossing(how.threshold, rows.times, rows.values);
         case Reduction::Kind::first_passage:
             return first_passage(how.threshold, rows.times, rows.values);
+        case Reduction::Kind::max:
+            return rows.values.empty() ? nan : *std::max_element(rows.values.begin(), rows.values.end());
+        case Reduction::Kind::min:
+            return rows.values.empty() ? nan : *std::min_element(rows.values.begin(), rows.values.end());
+        case Reduction::Kind::deviation:
+            return deviation_of_values(rows.values);
         case Reduction::Kind::end:
             break;
     }

@@ -7,7 +7,7 @@
 namespace grainreel {
 
 struct Reduction {
-    enum class Kind { end, mean, slope, crossing, first_passage };
+    enum class Kind { end, mean, slope, crossing, first_passage, max, min, deviation };
     Kind kind = Kind::end;
     double from = 0, to = std::numeric_limits<double>::infinity();  // s: rows within, ends included
     double threshold = 0;                                           // SI
@@ -18,8 +18,10 @@ struct Reduction {
 // NaN or not.
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values);
 
-// Of rows that are all finite.
+// The mean of rows that are all finite.
 double mean_of_values(const std::vector<double>& values);
+// The standard deviation of the sample, with n - 1. NaN for fewer than two values.
+double deviation_of_values(const std::vector<double>& values);
 // 1/s times the value's unit: sum (t - mean t) (v - mean v) / sum (t - mean t)^2, the line of least squares.
 // NaN for fewer than two different times.
 double slope_of(const std::vector<double>& times, const std::vector<double>& values);

@@ -194,7 +194,7 @@ void BandPainter::light(const PaintJob& job, std::uint32_t grain, const LitPoint
     }
 }
 
-// Of the many neighbours of a large grain, those that its few points feel.
+// Those of the many neighbours of a large grain that its few points feel.
 NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, const NeighbourSpan& all,
                                    const LitPoints& points) {
     const auto slope = [&](float px, float py) {

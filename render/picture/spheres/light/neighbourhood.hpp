@@ -18,7 +18,7 @@ class Neighbourhood {
     void update(const std::vector<ViewSphere>& spheres, const Cut& cut, const Lamp& lamp,
                 const std::vector<std::uint32_t>& shown, Team& team);
 
-    // Of shown[slot].
+    // What takes light from shown[slot]: occluders around it, and casters towards the lamp.
     NeighbourSpan occluders(std::size_t slot) const { return span(occluders_[slot]); }
     NeighbourSpan casters(std::size_t slot) const { return span(casters_[slot]); }
 
@@ -45,7 +45,7 @@ class Neighbourhood {
     void find_casters(std::size_t slot, std::uint32_t pool);
     float weight(const ViewSphere& own, const ViewSphere& other) const;
 
-    // Of the update that is under way.
+    // What the update that is under way works on.
     const std::vector<ViewSphere>* spheres_ = nullptr;
     const std::vector<std::uint32_t>* shown_ = nullptr;
     Cut cut_;

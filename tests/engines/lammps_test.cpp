@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/handover/peer_run.hpp"
+#include "tests/engines/peer_run.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,0 +1,221 @@
+#include "engine/questions/steadiness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/nearest_name.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/questions/statistics.hpp"
+
+namespace grainreel {
+
+namespace {
+
+struct Batch {
+    double from = 0, time = 0, value = 0;  // s: its first row, the mean of its rows; mean
+};
+
+// The part [begin, end) as one.
+Batch joined(const std::vector<Batch>& parts, std::size_t begin, std::size_t end) {
+    Batch all;
+    all.from = parts[begin].from;
+    for (std::size_t i = begin; i < end; ++i) all.time += parts[i].time, all.value += parts[i].value;
+    const auto count = static_cast<double>(end - begin);
+    return {all.from, all.time / count, all.value / count};
+}
+
+std::vector<Batch> finite_rows(const std::vector<double>& times, const std::vector<double>& values) {
+    std::vector<Batch> rows;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (std::isfinite(values[i])) rows.push_back({times[i], times[i], values[i]});
+    return rows;
+}
+
+// The rows of each whole period, or so many rows; what is left over at the end belongs to none.
+std::vector<Batch> batches_of(const std::vector<Batch>& rows, double period) {
+    constexpr double rounding = 1e-6;  // of a period: times are rounded
+    std::vector<Batch> batches;
+    for (std::size_t begin = 0; begin < rows.size();) {
+        std::size_t end = begin + kRowsWithoutDrive;
+        if (period > 0) {
+            const double number = std::floor(rows[begin].time / period + rounding);
+            for (end = begin; end < rows.size() && rows[end].time < (number + 1 - rounding) * period;) ++end;
+            if (end == rows.size()) break;  // it may go on
+        }
+        if (end > rows.size()) break;
+        batches.push_back(joined(rows, begin, end));
+        begin = end;
+    }
+    return batches;
+}
+
+// Up to kMostBatches of equal length; what is left over goes at the front, nearest to the transient.
+std::vector<Batch> long_batches(const std::vector<Batch>& rest) {
+    const std::size_t count = std::min(kMostBatches, rest.size());
+    std::vector<Batch> all;
+    if (count == 0) return all;
+    const std::size_t each = rest.size() / count;
+    for (std::size_t begin = rest.size() - count * each; begin < rest.size(); begin += each)
+        all.push_back(joined(rest, begin, begin + each));
+    return all;
+}
+
+double sen_slope(const std::vector<Batch>& all) {
+    std::vector<double> slopes;
+    for (std::size_t j = 1; j < all.size(); ++j)
+        for (std::size_t i = 0; i < j; ++i)
+            slopes.push_back((all[j].value - all[i].value) / (all[j].time - all[i].time));
+    std::sort(slopes.begin(), slopes.end());
+    const std::size_t middle = slopes.size() / 2;
+    return slopes.size() % 2 == 1 ? slopes[middle] : 0.5 * (slopes[middle - 1] + slopes[middle]);
+}
+
+// Of 95 % on both sides, for 9 to 19 degrees of freedom.
+double student(std::size_t freedom) {
+    constexpr std::array at = {2.2622, 2.2281, 2.2010, 2.1788, 2.1604, 2.1448,
+                               2.1314, 2.1199, 2.1098, 2.1009, 2.0930};
+    static_assert(at.size() == kMostBatches - kLeastBatches + 1);
+    return at.at(freedom + 1 - kLeastBatches);
+}
+
+const char* word_of(const Steadiness& of) {
+    switch (of.verdict) {
+        case Steadiness::Verdict::steady:
+            return "steady";
+        case Steadiness::Verdict::drifts:
+            return "drifts";
+        case Steadiness::Verdict::too_short:
+            break;
+    }
+    return "too short to tell";
+}
+
+std::string why(const Steadiness& of, bool driven) {
+    const std::string unit = driven ? "periods" : fmt::format("batches of {} rows", kRowsWithoutDrive);
+    if (of.verdict != Steadiness::Verdict::too_short)
+        return fmt::format("the first {} of {} {} are left out as transient", of.dropped, of.batches, unit);
+    if (of.batches < kLeastBatches)
+        return fmt::format("there are {} {}, and {} are the least that tell anything; run longer", of.batches,
+                           unit, kLeastBatches);
+    return of.dropped >= of.batches
+               ? "the mean is still on its way in the second half, so the transient is not over; run longer"
+               : fmt::format("behind the transient there are {} {}, and {} are the least; run longer",
+                             of.batches - of.dropped, unit, kLeastBatches);
+}
+
+}  // namespace
+
+std::size_t mser_truncation(const std::vector<double>& means) {
+    const std::size_t n = means.size();
+    double sum = 0, squares = 0, least = std::numeric_limits<double>::infinity();
+    std::size_t best = 0;
+    const double offset = n > 0 ? means.back() : 0;  // so that squares do not cancel
+    constexpr std::size_t least_rest = 5;            // of one or two the error is 0 by chance
+    for (std::size_t d = n; d-- > 0;) {
+        const double value = means[d] - offset;
+        sum += value, squares += value * value;
+        const auto count = static_cast<double>(n - d);
+        const double error = std::max(0.0, squares - sum * sum / count) / (count * count);
+        if (n - d >= least_rest && error <= least) least = error, best = d;
+    }
+    return 2 * best > n ? n : best;
+}
+
+MannKendall mann_kendall(const std::vector<double>& values) {
+    MannKendall test;
+    const auto n = static_cast<double>(values.size());
+    if (values.size() < 2) return test;
+    std::map<double, double> ties;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        ++ties[values[j]];
+        for (std::size_t i = 0; i < j; ++i) test.s += (values[j] > values[i]) - (values[j] < values[i]);
+    }
+    double variance = n * (n - 1) * (2 * n + 5);
+    for (const auto& [value, t] : ties) variance -= t * (t - 1) * (2 * t + 5);
+    variance /= 18;
+    test.tau = test.s / (0.5 * n * (n - 1));
+    if (variance <= 0 || test.s == 0) return test;
+    test.z = (test.s > 0 ? test.s - 1 : test.s + 1) / std::sqrt(variance);
+    test.p = std::erfc(std::abs(test.z) / std::sqrt(2.0));
+    return test;
+}
+
+Steadiness steadiness_of(const std::vector<double>& times, const std::vector<double>& values, double period) {
+    const std::vector<Batch> all = batches_of(finite_rows(times, values), period);
+    Steadiness of;
+    of.batches = all.size();
+    if (of.batches < kLeastBatches) return of;
+    std::vector<double> means;
+    for (const Batch& one : all) means.push_back(one.value);
+    of.dropped = mser_truncation(means);
+    if (of.batches - of.dropped < kLeastBatches) return of;
+    const std::vector<Batch> rest(all.begin() + static_cast<std::ptrdiff_t>(of.dropped), all.end());
+    const std::vector<Batch> tested = long_batches(rest);
+    means.clear();
+    for (const Batch& one : tested) means.push_back(one.value);
+    const MannKendall test = mann_kendall(means);
+    const Statistics statistics = statistics_of(means);
+    of.from = rest.front().from;
+    of.tested = tested.size();
+    of.mean = joined(rest, 0, rest.size()).value;
+    of.half_width = student(of.tested - 1) * statistics.deviation / std::sqrt(static_cast<double>(of.tested));
+    of.slope = sen_slope(tested);
+    of.tau = test.tau, of.p = test.p;
+    of.verdict = test.p < kSignificance ? Steadiness::Verdict::drifts : Steadiness::Verdict::steady;
+    return of;
+}
+
+Answer steady_answer(const std::filesystem::path& run, const Scene& scene, const std::string& column) {
+    const auto table = read_measures(run / "measures.csv");
+    if (table == nullptr)
+        throw UserError(fmt::format("{}: has no measures.csv with rows; ask a run's folder", run.string()));
+    const std::vector<std::string>& columns = table->columns();
+    const auto number = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
+    };
+    if (number(column) == columns.size()) {
+        const auto meant = nearest_name(column, columns);
+        throw UserError(fmt::format("'{}' is no column of measures.csv; {}", column,
+                                    meant ? fmt::format("did you mean '{}'?", *meant)
+                                          : fmt::format("there are {}", fmt::join(columns, ", "))));
+    }
+    if (number("time_s") == columns.size())
+        throw UserError(fmt::format("{}: has no column time_s", (run / "measures.csv").string()));
+    const bool driven = scene.drive.present && !scene.drive.changes();
+    const Steadiness of = steadiness_of(table->values(number("time_s"), 0, table->rows()),
+                                        table->values(number(column), 0, table->rows()),
+                                        driven ? 1 / scene.drive.frequency : 0);
+    Dimension dimension = Dimension::number;
+    for (const MeasureColumn& one : measure_columns(scene))
+        if (one.name == column) dimension = one.dimension;
+    const std::string unit = text_of(dimension).unit;
+    const auto known = [](double value) { return std::isfinite(value) ? AnswerCell(value) : AnswerCell(); };
+    AnswerTable answer{"steady",
+                       fmt::format("Is {} steady?", column),
+                       {{"verdict", Dimension::number, ""},
+                        {"from", Dimension::time, "where the transient ends"},
+                        {"mean", dimension, "from there on"},
+                        {"half_width", dimension, "of the mean's interval of 95 %"},
+                        {"drift", Dimension::number, "slope of Sen", "", (unit == "1" ? "" : unit) + "/s"},
+                        {"tau", Dimension::number, "of Kendall: 1 rises always, -1 falls always"},
+                        {"p", Dimension::number, "of a tau as large where nothing drifts"},
+                        {"means", Dimension::number, "that were tested"}},
+                       {{word_of(of), known(of.from), known(of.mean), known(of.half_width), known(of.slope),
+                         known(of.tau), known(of.p), static_cast<std::int64_t>(of.tested)}}};
+    if (answer.columns[4].unit == "/s") answer.columns[4].unit = "1/s";
+    return {{std::move(answer)},
+            {why(of, driven),
+             fmt::format("transient: MSER over means of {} (White 1997; White, Cobb, Spratt 2000); drift: "
+                         "Mann-Kendall test at {:g} (Mann 1945, Kendall 1975), slope of Sen (1968)",
+                         driven ? "a period of the drive" : fmt::format("{} rows", kRowsWithoutDrive),
+                         kSignificance)}};
+}
+
+}  // namespace grainreel

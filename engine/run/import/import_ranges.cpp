@@ -1,0 +1,125 @@
+#include "engine/run/import/import_ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* ranges_name = "ranges.csv";
+constexpr double classes_a_power = 100;  // of ten
+constexpr int no_size = -1'000'000;      // the class of 0
+
+// J: of translation, and of rotation with 2/5 m r2 of a solid sphere.
+double energy_of(const Frame& frame, std::size_t i, const Scene& scene) {
+    const double r = frame.radius[i];
+    const double mass = scene.species[static_cast<std::size_t>(frame.species[i])].density * 4.0 / 3.0 *
+                        std::numbers::pi * r * r * r;
+    return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
+}
+
+// To two digits, so that a colour bar has round ends.
+double rounded_up(double value) {
+    if (!(value > 0)) return 0;
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return std::ceil(value / unit - 1e-9) * unit;
+}
+
+std::string row(const char* quantity, double low, double high) {
+    return low < high && std::isfinite(low) && std::isfinite(high)
+               ? fmt::format("{},{:.6g},{:.6g}\n", quantity, low, high)
+               : "";
+}
+
+}  // namespace
+
+void TopOfMost::add(double value) {
+    if (!(value >= 0) || !std::isfinite(value)) return;
+    ++classes_[value > 0 ? static_cast<int>(std::floor(classes_a_power * std::log10(value))) : no_size];
+    ++all_;
+}
+
+double TopOfMost::value() const {
+    std::int64_t below = 0;
+    for (const auto& [size, count] : classes_) {
+        below += count;
+        if (100 * below >= 99 * all_) return size == no_size ? 0 : std::pow(10, (size + 1) / classes_a_power);
+    }
+    return 0;
+}
+
+void ImportRanges::add(const Frame& frame, const std::vector<Touch>& touches) {
+    if (!heights_ && frame.size() > 0) add_heights(frame);
+    if (supply_.contacts) add_forces(frame, touches);
+    if (!supply_.velocities) return;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        speed_.add(frame.velocity[i].norm());
+        rise_.add(std::abs(frame.velocity[i].z()));
+        spin_.add(frame.spin[i].norm());
+        energy_.add(energy_of(frame, i, scene_));
+    }
+}
+
+void ImportRanges::add_heights(const Frame& frame) {
+    heights_ = {frame.position[0].z(), frame.position[0].z()};
+    for (const Vec3& place : frame.position) {
+        (*heights_)[0] = std::min((*heights_)[0], place.z());
+        (*heights_)[1] = std::max((*heights_)[1], place.z());
+    }
+    for (double& height : *heights_) height -= frame.floor().place.z();
+}
+
+void ImportRanges::add_forces(const Frame& frame, const std::vector<Touch>& touches) {
+    std::vector<double> forces(frame.size(), 0.0);
+    const auto add = [&](std::int32_t id, double force) {
+        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+        if (at != frame.id.end() && *at == id)
+            forces[static_cast<std::size_t>(at - frame.id.begin())] += force;
+    };
+    for (const Touch& touch : touches) {
+        add(touch.first, touch.force);
+        if (touch.second >= 0) add(touch.second, touch.force);
+    }
+    for (const double force : forces) force_.add(force);
+}
+
+void ImportRanges::write(const fs::path& folder) const {
+    std::string text = "quantity,low,high\n";
+    text += row("speed", 0, rounded_up(speed_.value()));
+    const double rise = rounded_up(rise_.value());
+    text += row("vertical-velocity", -rise, rise);
+    if (heights_) text += row("start-height", (*heights_)[0], (*heights_)[1]);
+    text += row("spin", 0, rounded_up(spin_.value()));
+    text += row("kinetic-energy", 0, rounded_up(energy_.value()));
+    text += row("contact-force", 0, rounded_up(force_.value()));
+    std::ofstream out(folder / ranges_name, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out)
+        throw RunError(
+            fmt::format("{}: cannot be written; is the disk full?", (folder / ranges_name).string()));
+}
+
+std::optional<std::array<double, 2>> imported_range(const fs::path& run, std::string_view quantity) {
+    std::ifstream in = read_plain(run / ranges_name);
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t first = line.find(','), second = line.find(',', first + 1);
+        if (second == std::string::npos || line.substr(0, first) != quantity) continue;
+        const std::array<double, 2> range{std::strtod(line.c_str() + first + 1, nullptr),
+                                          std::strtod(line.c_str() + second + 1, nullptr)};
+        if (range[0] < range[1]) return range;
+    }
+    return std::nullopt;
+}
+
+}  // namespace grainreel

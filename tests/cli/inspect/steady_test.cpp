@@ -1,0 +1,210 @@
+// Steady or not: the two tests against closed forms, and what the verb says of measures with known drift.
+#include "engine/questions/steadiness.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+using Verdict = Steadiness::Verdict;
+
+// Numbers between -1 and 1 without a trend: the fractions of multiples of the golden ratio.
+double noise(std::size_t i) {
+    const double x = static_cast<double>(i + 1) * std::numbers::phi;
+    return 2 * (x - std::floor(x)) - 1;
+}
+
+template <class Value>
+Steadiness of(std::size_t rows, double interval, double period, const Value& value) {
+    std::vector<double> times, values;
+    for (std::size_t i = 0; i < rows; ++i) {
+        times.push_back(static_cast<double>(i) * interval);
+        values.push_back(value(times.back(), i));
+    }
+    return steadiness_of(times, values, period);
+}
+
+// n values that rise: S = n (n - 1) / 2, its variance n (n - 1) (2 n + 5) / 18. For n = 10: 45, 125, and so z
+// = 44 / sqrt(125).
+TEST(MannKendallTest, OfARisingAndAFallingSeries) {
+    std::vector<double> rising;
+    for (int i = 0; i < 10; ++i) rising.push_back(i * i);
+    const MannKendall up = mann_kendall(rising);
+    EXPECT_EQ(up.s, 45);
+    EXPECT_EQ(up.tau, 1);
+    EXPECT_DOUBLE_EQ(up.z, 44 / std::sqrt(125.0));
+    EXPECT_NEAR(up.p, std::erfc(44 / std::sqrt(250.0)), 1e-15);
+    const MannKendall down = mann_kendall({rising.rbegin(), rising.rend()});
+    EXPECT_EQ(down.s, -45);
+    EXPECT_DOUBLE_EQ(down.p, up.p);
+}
+
+// Two ties of five among ten: the variance is 125 - 2 * 5 * 4 * 15 / 18.
+TEST(MannKendallTest, CountsTies) {
+    const MannKendall test = mann_kendall({0, 0, 0, 0, 0, 1, 1, 1, 1, 1});
+    EXPECT_EQ(test.s, 25);
+    EXPECT_DOUBLE_EQ(test.z, 24 / std::sqrt(125 - 600.0 / 18));
+    EXPECT_EQ(mann_kendall({3, 3, 3, 3}).p, 1);
+}
+
+// A step from 1 to 0 at the k-th of n: what is dropped is the k before it.
+TEST(Mser, DropsTheTransient) {
+    for (const std::size_t k : {0u, 3u, 10u}) {
+        std::vector<double> means(40, 0);
+        for (std::size_t i = 0; i < k; ++i) means[i] = 1;
+        EXPECT_EQ(mser_truncation(means), k);
+    }
+}
+
+// Of a straight line the variance of the rest is (n^2 - 1) / 12 over n: it falls to the end, so nothing of it
+// is steady.
+TEST(Mser, KeepsNothingOfALine) {
+    std::vector<double> line;
+    for (int i = 0; i < 40; ++i) line.push_back(i);
+    EXPECT_EQ(mser_truncation(line), line.size());
+}
+
+// A decay of 1 s, then noise: dropped up to where the decay is below the noise, and the mean is that of what
+// is left.
+TEST(Steady, AfterATransient) {
+    const Steadiness found =
+        of(2000, 0.01, 0, [](double t, std::size_t i) { return 5 + 3 * std::exp(-t) + 0.1 * noise(i); });
+    EXPECT_EQ(found.verdict, Verdict::steady);
+    EXPECT_GT(found.from, 1);
+    EXPECT_LT(found.from, 10);
+    EXPECT_NEAR(found.mean, 5, 0.01);
+    EXPECT_GT(found.p, kSignificance);
+    EXPECT_EQ(found.tested, kMostBatches);
+}
+
+// A drift of 0.02 a second under noise of 0.1: Sen's slope finds it.
+TEST(Steady, NotWhereItDrifts) {
+    const Steadiness found =
+        of(2000, 0.01, 0, [](double t, std::size_t i) { return 0.02 * t + 2 * noise(i); });
+    EXPECT_EQ(found.verdict, Verdict::drifts);
+    EXPECT_NEAR(found.slope, 0.02, 0.005);
+    EXPECT_LT(found.p, kSignificance);
+}
+
+// A sine of the drive's period is no drift, whatever its height: its rows of a period are one mean.
+TEST(Steady, WhateverThePhaseOfTheDrive) {
+    const double period = 0.05;
+    const Steadiness found = of(400, period / 8, period, [&](double t, std::size_t i) {
+        return 1 + 100 * std::sin(2 * std::numbers::pi * t / period) + 0.01 * noise(i / 8);
+    });
+    EXPECT_EQ(found.verdict, Verdict::steady);
+    EXPECT_EQ(found.batches, 49u);
+    EXPECT_NEAR(found.mean, 1, 0.01);
+}
+
+TEST(Steady, OfAConstantAndOfTooFewRows) {
+    const Steadiness constant = of(100, 0.01, 0, [](double, std::size_t) { return 7.0; });
+    EXPECT_EQ(constant.verdict, Verdict::steady);
+    EXPECT_EQ(constant.mean, 7);
+    EXPECT_EQ(constant.half_width, 0);
+    EXPECT_EQ(of(40, 0.01, 0, [](double, std::size_t) { return 7.0; }).verdict, Verdict::too_short);
+    EXPECT_EQ(of(0, 0.01, 0, [](double, std::size_t) { return 7.0; }).batches, 0u);
+    EXPECT_EQ(of(100, 0.01, 0, [](double, std::size_t) { return std::nan(""); }).batches, 0u);
+}
+
+class InspectOverTime : public testing::Test {
+  protected:
+    void SetUp() override {
+        const Ended ended = run_program(
+            {"movie", write_small_scene(here.path()).string(), "--no-film", "--no-report", "--out", "run"},
+            setting);
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+    Ended ask(std::vector<std::string> words) const {
+        words.insert(words.begin(), {"inspect", "run"});
+        return run_program(words, setting);
+    }
+
+    TemporaryFolder here;
+    Program::Setting setting{here.path()};
+};
+
+TEST_F(InspectOverTime, TellsWhetherAColumnIsSteady) {
+    const Ended short_run = ask({"--steady", "kinetic_J"});
+    EXPECT_EQ(short_run.status, 0) << short_run.err;
+    EXPECT_THAT(short_run.out, HasSubstr("too short to tell"));
+    EXPECT_THAT(short_run.out, HasSubstr("10 are the least that tell anything"));
+    std::string table = "step,time_s,height_m\n";
+    for (int i = 0; i < 400; ++i) table += fmt::format("{},{:.6f},{}\n", i, i * 0.05 / 8, i);
+    write_text(here / "run/measures.csv", table);
+    const auto answer =
+        nlohmann::json::parse(ask({"--steady", "height_m", "--json", "--set", "run.threads=1"}).out);
+    EXPECT_THAT(answer.dump(), HasSubstr("too short to tell"));  // of a line the transient never ends
+    const Ended wrong = ask({"--steady", "heigth_m"});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err,
+                HasSubstr("--steady: 'heigth_m' is no column of measures.csv; did you mean 'height_m'?"));
+    EXPECT_THAT(ask({"--steady", "height_m", "--at", "0.1 s"}).err,
+                HasSubstr("--steady: is of the whole run"));
+}
+
+// Twenty moments of 10 ms from 0 to 0.2 s, brought back; all grains lie above the floor.
+TEST_F(InspectOverTime, GivesCountsAndMeansAtEachMultipleOfATime) {
+    const Ended ended =
+        ask({"--where", "height > 0", "--every", "10 ms", "--mean", "height", "--csv", "--limit", "0"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    std::istringstream lines(ended.out);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_THAT(line, HasSubstr("grains_small"));
+    EXPECT_THAT(line, HasSubstr("mean_height"));
+    int rows = 0;
+    while (std::getline(lines, line)) {
+        EXPECT_THAT(line, HasSubstr(",40,10,50,"));
+        EXPECT_NEAR(std::stod(line), 0.01 * rows, 1e-4);
+        ++rows;
+    }
+    EXPECT_EQ(rows, 21);
+    EXPECT_THAT(ask({"--where", "height > 0", "--every", "1 us"}).err,
+                HasSubstr("--every: is shorter than a step of the run, "));
+}
+
+TEST_F(InspectOverTime, RefusesWhatMakesNoSense) {
+    EXPECT_THAT(ask({"--where", "height > 0", "--mean", "height"}).err,
+                HasSubstr("--mean: is over time; add --every or --over-time"));
+    EXPECT_THAT(ask({"--where", "height > 0", "--over-time", "--mean", "hight"}).err,
+                HasSubstr("'hight' is no quantity of a grain"));
+    EXPECT_THAT(ask({"--where", "height > 0", "--every", "0 s"}).err, HasSubstr("longer than 0 s"));
+    EXPECT_THAT(
+        ask({"--where", "touches(nobody)", "--at", "0.1 s"}).err,
+        HasSubstr("touches: 'nobody' is no species, no wall and no id of a grain; there are wall, small"));
+}
+
+// A grain touches a wall or grains, or both, exactly where it has contacts.
+TEST_F(InspectOverTime, KnowsWhatTouches) {
+    const auto count = [&](const std::string& condition) {
+        const Ended ended = ask({"--where", condition, "--at", "0 s", "--json", "--limit", "0"});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return nlohmann::json::parse(ended.out)["tables"]["count"]["rows"].back()[1].get<int>();
+    };
+    const int any = count("contacts > 0");
+    EXPECT_GT(any, 10);
+    EXPECT_EQ(count("touches(wall) or touches(small) or touches(\"big\")"), any);
+    EXPECT_EQ(count("touches(floor) and not touches(wall)"), 0);
+    EXPECT_GT(count("touches(floor)"), 3);
+}
+
+TEST_F(InspectOverTime, SaysWhetherOverlapsKeepToTheLimit) {
+    EXPECT_THAT(ask({"--largest-overlap"}).out, HasSubstr("the limit: "));
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,320 @@
+// Packings that are kept: a run that begins with one is, to the bit, the run that packs by itself. And what
+// is no packing of this start is never taken.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/measure/columns.hpp"
+#include "engine/run/packings/packing_cache.hpp"
+#include "engine/run/simulation/simulation.hpp"
+#include "engine/scene/file/reader.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/small_disk.hpp"
+#include "tests/cli/small_scene.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+// ---- the engine
+
+Scene scene_with(std::vector<std::string> sets, const std::string& more = "") {
+    sets.insert(sets.begin(), "start.settle_limit=0.05 s");
+    Assignments all;
+    for (const std::string& set : sets) all.push_back({set, "--set " + set});
+    return read_scene_text(small_scene_text + more, "fifty.toml", all, measurable_in);
+}
+
+constexpr const char* kFeed =
+    "[[feed]]\nspecies = \"small\"\nrate = 400\ncount = 20\n"
+    "low = [-0.004, -0.006, 0.032]\nhigh = [0.004, 0.006, 0.036]\n";
+
+struct Variant {
+    const char* name;
+    std::vector<std::string> sets;
+    const char* more = "";
+};
+
+const Variant variants[] = {
+    {"layers", {}},
+    {"rain", {"start.method=rain"}},
+    {"phase", {"drive.phase=0.25", "drive.ramp=0"}},
+    {"orientations", {"output.orientation=true", "output.contacts=true"}},
+    {"walls", {"output.instruments=[\"walls\", \"energy_balance\", \"bed\"]"}},
+    {"periodic", {"container.periodic_depth=true"}},
+    {"glued", {"container.wall_grains.faces=[\"floor\"]", "container.wall_grains.species=small"}},
+    {"mixed", {"run.precision=mixed"}},
+    {"gear", {"run.integrator=gear"}},
+    {"fed", {"run.duration=0.1 s"}, kFeed},
+};
+
+struct End {
+    std::uint64_t state;
+    std::vector<std::string> measures;  // by column, every digit, as measures.csv has them
+    bool operator==(const End&) const = default;
+};
+
+End end_of(Simulation& run, std::int64_t steps) {
+    run.advance(steps);
+    End end{run.state_hash(), {}};
+    const std::vector<double> values = run.measures().values();
+    for (std::size_t k = 0; k < values.size(); ++k)
+        end.measures.push_back(
+            fmt::format("{} {}", run.measured()[k], std::isnan(values[k]) ? 0.5 : values[k]));
+    return end;
+}
+
+TEST(KeptPacking, RunsOnBitByBit) {
+    const TemporaryFolder here;
+    for (const Variant& variant : variants) {
+        const Scene scene = scene_with(variant.sets, variant.more);
+        const Plan plan = make_plan(scene);
+        Simulation packs(scene, plan, 1);
+        const std::string key = packs.packing_key();
+        ASSERT_FALSE(key.empty()) << variant.name;
+        const PackingResult result = packs.pack();
+        const fs::path file = here / (std::string(variant.name) + ".grs");
+        packs.save_packing(file, key, result);
+        const std::uint64_t start = packs.state_hash();
+        const End end = end_of(packs, 300);
+        for (const int threads : {1, 2, 3}) {
+            PackingResult found;
+            auto takes = Simulation::with_packing(scene, plan, file, key, threads, found);
+            ASSERT_TRUE(takes) << variant.name;
+            EXPECT_EQ(takes->step(), 0);
+            EXPECT_EQ(takes->state_hash(), start) << variant.name;
+            const End there = end_of(*takes, 300);
+            EXPECT_EQ(there.state, end.state) << variant.name << " at " << threads << " threads";
+            EXPECT_EQ(there.measures, end.measures) << variant.name << " at " << threads << " threads";
+            EXPECT_EQ(found.settle_time, result.settle_time);
+            EXPECT_EQ(found.solid_fraction, result.solid_fraction);
+            EXPECT_EQ(found.settled, result.settled);
+        }
+    }
+}
+
+std::string key_with(std::vector<std::string> sets) {
+    const Scene scene = scene_with(std::move(sets));
+    return Simulation(scene, make_plan(scene), 1).packing_key();
+}
+
+TEST(KeptPacking, IsTheSameWhateverTheRunShowsAndHowLongItIs) {
+    const std::string key = key_with({});
+    for (const char* set : {"run.duration=0.3 s", "film.size=320x240", "output.contacts=true", "title=Other",
+                            "output.measures_interval=1 ms", "run.threads=2", "species.big.colour=red"})
+        EXPECT_EQ(key_with({set}), key) << set;
+}
+
+TEST(KeptPacking, IsAnotherWhereAnythingDecidesIt) {
+    const std::string key = key_with({});
+    for (const char* set :
+         {"run.seed=2", "species.small.count=41", "species.big.density=2600", "contact.friction=0.3",
+          "contact.wall.friction=0.3", "container.width=31 mm", "gravity=9.7", "run.overlap=0.04",
+          "run.precision=mixed", "run.integrator=leapfrog", "start.settle_limit=0.06 s",
+          "start.settle_damping=20 1/s", "start.method=rain", "output.orientation=true",
+          "contact.arms=radius", "drive.g_level=3", "drive.moves=floor", "run.step=1 us",
+          "contact.rolling_friction=0.1"})
+        EXPECT_NE(key_with({set}), key) << set;
+}
+
+// With rain nothing moves before step 0, so settings of a study over the drive share it; radii that grow see
+// the drive's first steps.
+TEST(KeptPacking, IsSharedByDrivesWhereNothingOfThePackingFollowsThem) {
+    const std::vector<std::string> given{"start.method=rain", "contact.stiffness=700 N/m", "run.step=5 us"};
+    const auto key = [&](std::vector<std::string> sets, const std::string& more) {
+        sets.push_back(more);
+        return key_with(sets);
+    };
+    EXPECT_EQ(key(given, "drive.g_level=2"), key(given, "drive.g_level=4"));
+    EXPECT_NE(key({"start.method=rain"}, "drive.g_level=2"), key({"start.method=rain"}, "drive.g_level=4"));
+    EXPECT_NE(key({given[1], given[2]}, "drive.g_level=2"), key({given[1], given[2]}, "drive.g_level=4"));
+    // That packing is the same one, to the bit.
+    const TemporaryFolder here;
+    std::vector<std::string> two = given, four = given;
+    two.emplace_back("drive.g_level=2"), four.emplace_back("drive.g_level=4");
+    const Scene one = scene_with(two), other = scene_with(four);
+    const Plan plan = make_plan(one), other_plan = make_plan(other);
+    Simulation packs(one, plan, 1), packs_too(other, other_plan, 1);
+    const std::string both = packs.packing_key();
+    packs.save_packing(here / "one.grs", both, packs.pack());
+    packs_too.pack();
+    PackingResult found;
+    auto takes = Simulation::with_packing(other, other_plan, here / "one.grs", both, 1, found);
+    ASSERT_TRUE(takes);
+    EXPECT_EQ(end_of(*takes, 300), end_of(packs_too, 300));
+}
+
+TEST(KeptPacking, IsNotOfWhatPacksNothing) {
+    const Scene scene = read_scene_text(fed_scene_text, "fed.toml", {}, measurable_in);
+    EXPECT_EQ(Simulation(scene, make_plan(scene), 1).packing_key(), "");
+}
+
+TEST(KeptPacking, IsBelievedInNothing) {
+    const TemporaryFolder here;
+    const Scene scene = scene_with({});
+    const Plan plan = make_plan(scene);
+    Simulation packs(scene, plan, 1);
+    const std::string key = packs.packing_key();
+    const fs::path file = here / "packing.grs";
+    packs.save_packing(file, key, packs.pack());
+    const std::string good = text_of(file);
+    const auto is_taken = [&](const std::string& bytes, const std::string& under) {
+        write_text(file, bytes);
+        PackingResult found;
+        return Simulation::with_packing(scene, plan, file, under, 1, found).has_value();
+    };
+    EXPECT_TRUE(is_taken(good, key));
+    EXPECT_FALSE(is_taken(good, key + " "));
+    EXPECT_FALSE(is_taken("", key));
+    for (std::size_t k = 0; k < 60; ++k) {
+        std::string bad = good;
+        bad[k * (good.size() - 1) / 59] ^= 0x10;
+        EXPECT_FALSE(is_taken(bad, key)) << "byte " << k * (good.size() - 1) / 59;
+        EXPECT_FALSE(is_taken(good.substr(0, k * good.size() / 60), key)) << k;
+    }
+    // A checkpoint of the same state is none.
+    packs.save_checkpoint(file);
+    EXPECT_FALSE(is_taken(text_of(file), key));
+}
+
+// ---- the program
+
+class PackingProgram : public testing::Test {
+  protected:
+    Program::Setting setting(const std::string& packings = "all") const {
+        return {here.path(),
+                {"XDG_CACHE_HOME=" + (here / "cache").string(), "GRAINREEL_PACKINGS=" + packings}};
+    }
+    Ended movie(const std::string& out, const std::vector<std::string>& more = {},
+                const std::string& packings = "all") const {
+        std::vector<std::string> words{"movie", scene.string(), "--no-film",           "--no-report", "--out",
+                                       out,     "--set",        "output.contacts=true"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_program(words, setting(packings));
+    }
+    std::vector<fs::path> kept() const {
+        std::vector<fs::path> files;
+        std::error_code none;
+        for (const auto& one : fs::directory_iterator(here / "cache/grainreel/packings", none))
+            files.push_back(one.path());
+        return files;
+    }
+    void expect_same(const std::string& one, const std::string& other) const {
+        for (const char* file : {"trajectory.nc", "contacts.nc", "measures.csv", "final.csv"})
+            EXPECT_EQ(text_of(here / one / file), text_of(here / other / file)) << other << "/" << file;
+    }
+
+    TemporaryFolder here;
+    fs::path scene = write_small_scene(here.path());
+};
+
+constexpr const char* kFound = "took the packing of an earlier run";
+
+TEST_F(PackingProgram, FindsThePackingAndTheRunIsTheSame) {
+    const Ended first = movie("first"), second = movie("second"), third = movie("third", {"--no-cache"}),
+                longer = movie("longer", {"--duration", "0.25 s", "--threads", "2"});
+    ASSERT_EQ(first.status, 0) << first.err;
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_THAT(first.err, Not(HasSubstr(kFound)));
+    EXPECT_THAT(second.err, HasSubstr(kFound));
+    EXPECT_THAT(third.err, Not(HasSubstr(kFound)));
+    EXPECT_THAT(longer.err, HasSubstr(kFound));
+    EXPECT_EQ(kept().size(), 1u);
+    expect_same("first", "second");
+    expect_same("first", "third");
+}
+
+TEST_F(PackingProgram, KeepsNothingOfWhatIsShortOrNotWanted) {
+    EXPECT_EQ(movie("short", {}, "").status, 0);  // the usual: longer than a second
+    EXPECT_EQ(movie("off", {}, "off").status, 0);
+    EXPECT_EQ(movie("not", {"--no-cache"}).status, 0);
+    EXPECT_TRUE(kept().empty());
+    const Ended wrong = movie("wrong", {}, "some");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("GRAINREEL_PACKINGS=some: is neither off nor all"));
+}
+
+TEST_F(PackingProgram, PacksAnewWhereTheKeptOneIsDamaged) {
+    ASSERT_EQ(movie("first").status, 0);
+    ASSERT_EQ(kept().size(), 1u);
+    std::string bytes = text_of(kept().front());
+    bytes[bytes.size() / 2] ^= 1;
+    write_text(kept().front(), bytes);
+    const Ended second = movie("second");
+    EXPECT_EQ(second.status, 0) << second.err;
+    EXPECT_THAT(second.err, Not(HasSubstr(kFound)));
+    expect_same("first", "second");
+    EXPECT_THAT(movie("third").err, HasSubstr(kFound));  // the damaged one was replaced
+    expect_same("first", "third");
+}
+
+TEST_F(PackingProgram, RunsWhereNothingCanBeKept) {
+    write_text(here / "cache", "a file in its place");
+    const Ended ended = movie("run", {"--verbose"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("for later runs it is not kept: "));
+}
+
+TEST_F(PackingProgram, RunsWithAFullCacheAndLeavesNothingThere) {
+    fs::create_directory(here / "cache");
+    const SmallDisk disk(here / "cache", 8192);
+    if (!disk.mounted()) GTEST_SKIP() << "no small disk can be made here";
+    const Ended full = movie("full", {"--verbose"});
+    EXPECT_EQ(full.status, 0) << full.err;
+    EXPECT_THAT(full.err, HasSubstr("for later runs it is not kept: "));
+    EXPECT_THAT(full.err, HasSubstr("is the disk full?"));
+    EXPECT_TRUE(kept().empty());
+}
+
+TEST_F(PackingProgram, TwoRunsAtOnceBothKeepIt) {
+    const std::vector<std::string> words{"movie", scene.string(),         "--no-film", "--no-report",
+                                         "--set", "output.contacts=true", "--out"};
+    auto with = [&](const char* out) {
+        std::vector<std::string> all = words;
+        all.emplace_back(out);
+        return all;
+    };
+    Program one(with("one"), setting()), other(with("other"), setting());
+    EXPECT_EQ(one.wait().status, 0);
+    EXPECT_EQ(other.wait().status, 0);
+    EXPECT_EQ(kept().size(), 1u);
+    expect_same("one", "other");
+    EXPECT_THAT(movie("third").err, HasSubstr(kFound));
+    expect_same("one", "third");
+}
+
+TEST_F(PackingProgram, DoctorTellsTheSize) {
+    ASSERT_EQ(movie("first").status, 0);
+    EXPECT_THAT(run_program({"doctor"}, setting()).out, HasSubstr("1 kept for later runs, "));
+}
+
+TEST_F(PackingProgram, ComparisonsTakeIt) {
+    const std::vector<std::string> words{"compare", scene.string(), "--size", "480x270",
+                                         "--vary",  "run.seed=1,2", "--out"};
+    auto with = [&](const char* out) {
+        std::vector<std::string> all = words;
+        all.emplace_back(out);
+        return run_program(all, setting());
+    };
+    const Ended first = with("first"), second = with("second");
+    ASSERT_EQ(first.status, 0) << first.err;
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_THAT(first.err, Not(HasSubstr(kFound)));
+    EXPECT_THAT(second.err, HasSubstr(kFound));
+    EXPECT_EQ(kept().size(), 2u);
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""The Python module grainreel, and the code blocks of docs/guide/python.md. Usage: python_test.py PROGRAM.
+
+Exit status 77: xarray, numpy or a reader of NetCDF is missing.
+"""
+import os
+import re
+import struct
+import sys
+import tempfile
+import threading
+import zlib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "render/package/python"))
+try:
+    import netCDF4  # noqa: F401
+    import numpy
+    import xarray  # noqa: F401
+except ImportError as missing:
+    print(f"python_test: skipped, {missing}; on Debian: apt-get install python3-xarray python3-netcdf4")
+    sys.exit(77)
+import grainreel  # noqa: E402
+
+SCENE = (ROOT / "tests/cli/small_scene.hpp").read_text().split('R"(')[1].split(')"')[0]
+
+
+def expect(holds, what):
+    if not holds:
+        sys.exit(f"python_test: {what}")
+
+
+def mistake_of(call):
+    try:
+        call()
+    except grainreel.GrainreelError as error:
+        return str(error)
+    return "no mistake"
+
+
+# ---- pictures
+
+
+def guess_of(kind, left, up, corner):
+    if kind == 4:
+        base = left + up - corner
+        return min((abs(base - left), 0, left), (abs(base - up), 1, up), (abs(base - corner), 2, corner))[2]
+    return (0, left, up, (left + up) // 2)[kind]
+
+
+def png_of(picture, kinds):
+    """Written by the definition of the filters."""
+    height, width, channels = picture.shape
+    flat = picture.reshape(height, -1).astype(int)
+    rows = b""
+    for y in range(height):
+        kind, line = kinds[y % len(kinds)], []
+        for i in range(width * channels):
+            left = flat[y, i - channels] if i >= channels else 0
+            up = flat[y - 1, i] if y else 0
+            corner = flat[y - 1, i - channels] if y and i >= channels else 0
+            line.append((flat[y, i] - guess_of(kind, left, up, corner)) % 256)
+        rows += bytes([kind] + line)
+
+    def chunk(name, body):
+        return struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
+
+    head = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def check_pictures():
+    for channels in (3, 4):
+        picture = numpy.random.default_rng(1).integers(0, 256, (10, 7, channels), dtype=numpy.uint8)
+        for kinds in ([0], [1], [2], [3], [4], [4, 1, 3, 2, 0]):
+            read = grainreel._read_png(png_of(picture, kinds))
+            expect((read == picture).all(), f"a picture with the filters {kinds} is read wrongly")
+
+
+# ---- runs
+
+
+def check_run(program):
+    seen = []
+    run = grainreel.run("scene.toml", out="run", program=program, progress=seen.append, threads=1,
+                        output__contacts=True, set={"output.orientation": True})
+    expect(run.record["status"] == "complete", "the run is not complete")
+    expect(seen and seen[-1]["stage"] == "vibrating" and seen[-1]["done"] == 1, f"the last progress is {seen[-1:]}")
+    measures = run.measures
+    rows = (run.path / "measures.csv").read_text().splitlines()
+    expect(measures.sizes["time"] == len(rows) - 1, "measures have not as many rows as their file")
+    last = dict(zip(rows[0].split(","), rows[-1].split(",")))
+    expect(float(measures.kinetic_J[-1]) == float(last["kinetic_J"]), "the last kinetic energy is not the file's")
+    expect(float(measures.time[-1]) == float(last["time_s"]), "the last time is not the file's")
+    units = {name: measures[name].attrs["units"] for name in measures.variables}
+    expect(units["kinetic_J"] == "J" and units["time"] == "s" and units["lacey"] == "1" and
+           units["big_height_m"] == "m" and units["drive_frequency_Hz"] == "Hz", f"units are {units}")
+    trajectory = run.trajectory
+    expect(trajectory.coordinates.dims == ("frame", "atom", "spatial"), f"dims: {trajectory.coordinates.dims}")
+    expect(trajectory.coordinates.attrs["units"] == "m" and trajectory.time.attrs["units"] == "s", "units of frames")
+    expect(list(trajectory.spatial.values) == ["x", "y", "z"], "the axes have no names")
+    height = float(trajectory.coordinates.isel(frame=-1).sel(spatial="z").max())
+    expect(0 < height < 0.04, f"the highest centre is at {height} m")
+    expect("orientation" in trajectory, "set= was not heeded")
+    expect(not [name for name in trajectory.variables if "checksum" in name], "checksums are shown")
+    # Contacts that carry force are those that the frames count, each at both of its grains.
+    contacts = run.contacts
+    of_last = contacts.where(contacts.frame == trajectory.sizes["frame"] - 1, drop=True)
+    touches = int((of_last["second"] >= 0).sum() + (of_last["first"] >= 0).sum())
+    expect(int(trajectory.contact_number.isel(frame=-1).sum()) == touches, "contacts and frames do not agree")
+    expect(float(of_last.time[0]) == float(trajectory.time[-1]), "contacts have another time than their frame")
+    expect("is not there; run the scene with output.fields.grid" in mistake_of(lambda: run.fields), "fields are there")
+    picture = grainreel.render(run, at=0.1, size="160x120", program=program)
+    expect(picture.shape == (120, 160, 3) and picture.dtype == numpy.uint8 and picture.std() > 10, "no picture")
+    pale = grainreel.render(run.path, size="160x120", program=program, transparent=True)
+    expect(pale.shape == (120, 160, 4), f"a transparent picture has the shape {pale.shape}")
+    run.close()
+
+
+def check_mistakes(program):
+    def run(**more):
+        return mistake_of(lambda: grainreel.run("scene.toml", out="wrong", program=program, **more))
+
+    expect("unknown key 'frequencie' in [drive]" in run(drive__frequencie=3), run(drive__frequencie=3))
+    expect("run" in mistake_of(lambda: grainreel.run("scene.toml", out="run", program=program)), "a run is replaced")
+    expect("no such file" in mistake_of(lambda: grainreel.run("none.toml", program=program)), "no scene, no mistake")
+    expect("is not found" in mistake_of(lambda: grainreel.run("scene.toml", program="no-such-program")), "no program")
+    expect("is no folder of a run" in mistake_of(lambda: grainreel.open("/")), "any folder is a run")
+    for file, bytes_, says in (("measures.csv", b"step,time_s\n1,x\n", "is damaged"), ("run.json", b"{", "is damaged"),
+                               ("trajectory.nc", b"\x89HDF no more", "cannot be read")):
+        damaged = Path("damaged")
+        damaged.mkdir(exist_ok=True)
+        (damaged / "scene.toml").touch()
+        (damaged / file).write_bytes(bytes_)
+        said = mistake_of(lambda: [grainreel.open(damaged).measures] if file == "measures.csv" else
+                          [grainreel.open(damaged).trajectory] if file == "trajectory.nc" else
+                          [grainreel.open(damaged).record])
+        expect(says in said and file in said and "\n" not in said, f"of a damaged {file} it says: {said}")
+
+
+def check_stop(program):
+    running = grainreel.start("scene.toml", out="stopped", program=program, run__duration="100 s")
+    for now in running:
+        if now.get("time_s", 0) > 0.1:
+            running.stop()
+    run = running.result()
+    expect(run.record["status"] == "interrupted", "a run that was stopped says otherwise")
+    expect(0 < run.trajectory.sizes["frame"] and float(run.measures.time[-1]) < 100, "what there is was not kept")
+
+    # Ctrl-C, as Python gives it.
+    def interrupt(_):
+        raise KeyboardInterrupt
+
+    try:
+        grainreel.run("scene.toml", out="again", program=program, progress=interrupt, run__duration="100 s")
+        expect(False, "Ctrl-C does not come through")
+    except KeyboardInterrupt:
+        pass
+    expect(grainreel.open("again").record["status"] == "interrupted", "Ctrl-C does not stop the program")
+
+
+# ---- the guide
+
+
+def check_guide(program):
+    """All blocks in their order, as one notebook in a folder that has scene.toml."""
+    page = ROOT / "docs/guide/python.md"
+    os.environ["GRAINREEL"] = program
+    names = {}
+    for match in re.finditer(r"^```python\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL):
+        line = page.read_text()[:match.start()].count("\n") + 2
+        exec(compile("\n" * (line - 1) + match.group(1), str(page), "exec"), names)
+
+
+def main(program):
+    program = str(Path(program).resolve())
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        os.environ.update(XDG_CACHE_HOME=folder, GRAINREEL_PACKINGS="off")
+        Path("scene.toml").write_text(SCENE)
+        watchdog = threading.Timer(500, lambda: os._exit(1))
+        watchdog.daemon = True
+        watchdog.start()
+        check_pictures()
+        check_run(program)
+        check_mistakes(program)
+        check_stop(program)
+        check_guide(program)
+        os.chdir("/")
+
+
+main(sys.argv[1])
