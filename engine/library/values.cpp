@@ -46,12 +46,14 @@ void Frame::add(const Vector& where, double r, std::int32_t kind) {
 
 Mesh Mesh::plate(const std::string& name, const Vector& corner, const Vector& first, const Vector& second) {
     const Vec3 at = inside(corner), a = inside(first), b = inside(second);
-    return {name, {corner, outside(at + a), outside(at + a + b), outside(at + b)}, {{0, 1, 2}, {0, 2, 3}}};
+    return {
+        name, {corner, outside(at + a), outside(at + a + b), outside(at + b)}, {{0, 1, 2}, {0, 2, 3}}, false};
 }
 
 Mesh Mesh::box(const std::string& name, const Vector& low, const Vector& high) {
     Mesh mesh;
     mesh.name = name;
+    mesh.glass = true;
     for (int k = 0; k < 8; ++k)
         mesh.points.push_back({k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z});
     mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 2, 6}, {0, 6, 4},

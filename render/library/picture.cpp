@@ -113,8 +113,10 @@ Painter::Painter(const Scene& scene, const std::vector<std::string>& settings)
 Painter::Painter(const World& world, const Frame& first, const std::vector<std::string>& settings)
     : impl_(told([&] {
           const grainreel::Frame frame = inside(first, world.species.size(), "the first frame of a painter");
-          return std::make_unique<Impl>(plain_scene(scene_with_walls(inside(world)), frame, settings),
-                                        world.species.size());
+          FilmedScene filmed = plain_scene(scene_with_walls(inside(world)), frame, settings);
+          for (const Mesh& wall : world.walls)
+              (wall.glass ? filmed.film.look.walls.glass : filmed.film.look.walls.solid).push_back(wall.name);
+          return std::make_unique<Impl>(std::move(filmed), world.species.size());
       })) {}
 
 Painter::Painter(const FrameFile& file, const std::vector<std::string>& settings)

@@ -63,6 +63,21 @@ def build_examples(prefix, source, folder):
         check((done.returncode == 0) == (installed == version), f"find_package(grainreel {version}) with {installed}.x")
 
 
+def check_guide(prefix, source, folder):
+    """The guide's program, built by the guide's CMakeLists.txt: a ball on a plate."""
+    blocks = re.findall(r"^```(\w+)\n(.*?)^```", (source / "docs/guide/library.md").read_text(), re.M | re.S)
+    folder.mkdir()
+    (folder / "CMakeLists.txt").write_text(next(text for kind, text in blocks if kind == "cmake"))
+    (folder / "mine.cpp").write_text(next(text for kind, text in blocks if kind == "cpp" and "int main" in text))
+    output_of("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+    output_of("cmake", "--build", folder / "build")
+    rows = re.findall(r"^(\S+) s: highest (\S+) mm, (\d+) contacts, (\S+) J$", output_of(folder / "build/mine"), re.M)
+    check(len(rows) == 10, f"10 moments in 0.5 s were expected: {rows}")
+    for k, (time, height, contacts, energy) in enumerate(rows, 1):
+        check(abs(float(time) - 0.05 * k) < 0.001, f"moment {k} is at {time} s")
+        check(0 < float(height) < 100 and int(contacts) < 2 and float(energy) >= 0, f"moment {k}: {rows[k - 1]}")
+
+
 def check_shaken(text):
     rows = re.findall(r"^(\S+) s: (\d+) beads, mean height (\S+) m, centre of mass (\S+) m, (\d+) contacts$", text, re.M)
     check(len(rows) == 6, f"6 periods of 1/30 s were expected in 0.2 s:\n{text}")
@@ -188,6 +203,7 @@ def main():
         output_of("cmake", "--install", build, "--prefix", prefix, "--component", "dev")
         check_installed(prefix)
         build_examples(prefix, source, programs)
+        check_guide(prefix, source, folder / "guide")
         check_shaken(output_of(programs / "shake"))
         check_law(output_of(programs / "own_law"))
         check_pictures(programs, folder, grainreel)

@@ -25,6 +25,16 @@ for file in bin/grainreel share/man/man1/grainreel.1.gz share/man/man1/grainreel
 done
 zcat "$here/root/usr/share/man/man1/grainreel-movie.1.gz" | grep -q '^.SH SYNOPSIS' || fail "no man page"
 
+# The library is a package of its own; library_test.py tries it.
+library=$(echo "$here"/made/libgrainreel-dev_*.deb)
+(($(stat -c %s "$library") < 10000000)) || fail "$library is larger than 10 MB"
+dpkg-deb -x "$library" "$here/library"
+for file in include/grainreel/simulation.hpp lib/libgrainreel_engine.a lib/libgrainreel_picture.a \
+            lib/cmake/grainreel/grainreelConfig.cmake share/doc/libgrainreel-dev/copyright; do
+    [[ -s $here/library/usr/$file ]] || fail "$file is missing"
+    [[ ! -e $here/root/usr/$file ]] || fail "$file is in the program's package"
+done
+
 # Another working folder, and nothing in the environment.
 mkdir "$here/work"
 cd "$here/work"
@@ -34,4 +44,4 @@ run movie wedge_segregation --set species.small.count=60 --set species.big.count
     --out run --quiet || fail "no film"
 [[ -s run/movie.mp4 && -s run/report.html ]] || fail "film or page is missing: $(ls run)"
 run inspect run | grep -q 66 || fail "inspect does not count the grains"
-echo "ok: $(basename "$package"), $(stat -c %s "$package") bytes"
+echo "ok: $(basename "$package"), $(stat -c %s "$package") bytes; $(basename "$library"), $(stat -c %s "$library") bytes"

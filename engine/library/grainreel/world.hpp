@@ -17,12 +17,13 @@ struct Mesh {
     std::string name{};            ///< For people.
     std::vector<Vector> points{};  ///< m.
     std::vector<std::array<std::int32_t, 3>>
-        triangles{};  ///< Places in `points`; counter-clockwise from in front.
+        triangles{};     ///< Places in `points`; counter-clockwise from in front.
+    bool glass = false;  ///< In pictures: solid from in front, and glass from behind, so that one sees in.
 
     /// A parallelogram with a corner (m) and two edges (m).
     static Mesh plate(const std::string& name, const Vector& corner, const Vector& first,
                       const Vector& second);
-    /// The six sides of a box between two corners, m. Their fronts face its inside.
+    /// The six sides of a box between two corners, m. Their fronts face its inside; it is of glass.
     static Mesh box(const std::string& name, const Vector& low, const Vector& high);
     /// Reads STL, OBJ or PLY, whose numbers are multiplied by `scale` to give m. Throws Error where the file
     /// is missing, damaged or of another kind.

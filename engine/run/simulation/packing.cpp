@@ -123,6 +123,7 @@ void Simulation::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
+    if (std::isnan(start_energy)) start_energy = 0;  // a caller's law does not know it, now and ever
     step = 0;
     if (observers.need_wall_sums()) loop->tally_walls(wall_scale(scene, plan), step);
     open_when_due();
