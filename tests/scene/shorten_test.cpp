@@ -44,6 +44,40 @@ Assignments until(const std::string& duration) {
     return {outlet, {"run.duration=" + duration, "--duration"}};
 }
 
+// A species whose grains all come by feeds may lose the later ones, but not all of them.
+TEST(Shorten, LeavesOutALaterFeedOfASpeciesThatAnotherOneGives) {
+    const std::string poured = R"(
+[[species]]
+name = "sand"
+diameter = "3 mm"
+density = 2500
+[container]
+shape = "box"
+width = "60 mm"
+depth = "30 mm"
+height = "60 mm"
+[run]
+duration = "2 s"
+[[feed]]
+rate = 100
+until = "0.5 s"
+[[feed]]
+rate = 100
+from = "1.2 s"
+)";
+    const FilmedScene scene = read_text(poured, {{"run.duration=1 s", "--duration"}});
+    ASSERT_EQ(scene.feeds.size(), 1u);
+    EXPECT_EQ(scene.feeds.front().from, 0);
+    std::string late = poured;
+    late.replace(late.find("until = "), std::string("until = \"0.5 s\"").size(), "from = \"1.1 s\"");
+    try {
+        read_text(late, {{"run.duration=1 s", "--duration"}});
+        FAIL() << "a species without grains";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("'from' is 1.1 s, but the run ends at 1 s"));
+    }
+}
+
 TEST(Shorten, LeavesOutWhatComesLaterAndSaysSoInOneLine) {
     const FilmedScene scene = read_text(later_text, until("1 s"));
     EXPECT_EQ(scene.drive.stages.size(), 1u);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "engine/base/decimals.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
@@ -14,10 +15,15 @@ bool begins_too_late(double from, const Scene& scene) {
     return !clearly_less(from, scene.run.duration);
 }
 
-// A feed stays, to be refused, where its species has no other grains.
+// A feed stays, to be refused, where its species has no other grains: neither at the start nor from a feed
+// that begins in time.
 void shorten_feeds(Scene& scene) {
+    std::vector<bool> has_others;
+    for (const Species& species : scene.species) has_others.push_back(species.count > 0);
+    for (const Feed& feed : scene.feeds)
+        if (!begins_too_late(feed.from, scene)) has_others[feed.species] = true;
     const auto dispensable = [&](const Feed& feed) {
-        return begins_too_late(feed.from, scene) && scene.species[feed.species].count > 0;
+        return begins_too_late(feed.from, scene) && has_others[feed.species];
     };
     leave_out(scene, std::erase_if(scene.feeds, dispensable), "feed", "feeds");
 }
