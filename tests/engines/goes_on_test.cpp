@@ -1,5 +1,5 @@
-// A run goes on from the engine's restart file nearly as if it had not been broken off. Skipped where an engine is
-// not installed.
+// A run goes on from the engine's restart file nearly as if it had not been broken off. Skipped where an
+// engine is not installed.
 #include <chrono>
 #include <map>
 #include <thread>
@@ -84,8 +84,8 @@ TEST_P(EngineGoesOn, FromItsRestartFile) {
     run(EngineJob(engine, 1, deck_name(engine), fmt::format("{}.3000", restart_name(engine))), folder.path());
     const auto again = frames(dump);
     ASSERT_EQ(again.size(), whole.size());
-    // Both begin with forces of dashpots at another velocity than within a step, and LIGGGHTS forgets contacts with
-    // walls. A wall that had not turned would be millimetres off.
+    // Both begin with forces of dashpots at another velocity than within a step, and LIGGGHTS forgets
+    // contacts with walls. A wall that had not turned would be millimetres off.
     constexpr double near = 5e-5;  // m
     const DumpRows &then = whole.at(3250), &now = again.at(3250);
     for (std::size_t i = 0; i < then.size(); ++i)
