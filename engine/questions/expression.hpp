@@ -36,7 +36,7 @@ class Vocabulary {
     };
     virtual std::optional<Word> find(std::string_view name) const = 0;
     virtual std::vector<std::string> names() const = 0;  // for messages
-    // Of touches(who), a condition. None where there are no contacts to ask for. Throws UserError where `who`
+    // The condition touches(who); none where there are no contacts to ask for. Throws UserError where `who`
     // is nothing that can be touched.
     virtual std::optional<Word> touching(std::string_view /*who*/) const { return std::nullopt; }
 };

@@ -27,7 +27,7 @@ Answer wall_answer(const Snapshot& snapshot, const std::string& name, std::size_
 // most.
 Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
 
-// Of a moment that was brought back: a sentence on whether its overlaps keep to what run.overlap allows.
+// Says in a sentence whether the overlaps of a moment that was brought back keep to what run.overlap allows.
 std::string overlap_verdict(const Snapshot& snapshot);
 
 // Grains for which `condition` holds: how many of each species, statistics of their columns, and a list of at

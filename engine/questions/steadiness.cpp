@@ -1,7 +1,6 @@
 #include "engine/questions/steadiness.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -12,6 +11,7 @@
 #include "engine/base/nearest_name.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/measure/interval.hpp"
 #include "engine/questions/statistics.hpp"
 
 namespace grainreel {
@@ -75,14 +75,6 @@ double sen_slope(const std::vector<Batch>& all) {
     std::sort(slopes.begin(), slopes.end());
     const std::size_t middle = slopes.size() / 2;
     return slopes.size() % 2 == 1 ? slopes[middle] : 0.5 * (slopes[middle - 1] + slopes[middle]);
-}
-
-// Of 95 % on both sides, for 9 to 19 degrees of freedom.
-double student(std::size_t freedom) {
-    constexpr std::array at = {2.2622, 2.2281, 2.2010, 2.1788, 2.1604, 2.1448,
-                               2.1314, 2.1199, 2.1098, 2.1009, 2.0930};
-    static_assert(at.size() == kMostBatches - kLeastBatches + 1);
-    return at.at(freedom + 1 - kLeastBatches);
 }
 
 const char* word_of(const Steadiness& of) {
@@ -165,7 +157,8 @@ Steadiness steadiness_of(const std::vector<double>& times, const std::vector<dou
     of.from = rest.front().from;
     of.tested = tested.size();
     of.mean = joined(rest, 0, rest.size()).value;
-    of.half_width = student(of.tested - 1) * statistics.deviation / std::sqrt(static_cast<double>(of.tested));
+    of.half_width = student_t(0.95, static_cast<int>(of.tested) - 1) * statistics.deviation /
+                    std::sqrt(static_cast<double>(of.tested));
     of.slope = sen_slope(tested);
     of.tau = test.tau, of.p = test.p;
     of.verdict = test.p < kSignificance ? Steadiness::Verdict::drifts : Steadiness::Verdict::steady;

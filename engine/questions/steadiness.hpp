@@ -31,7 +31,7 @@ struct Steadiness {
     std::size_t batches = 0;  // in all, of the rows of a period, or of kRowsWithoutDrive
     std::size_t dropped = 0;  // of these, at the front
     std::size_t tested = 0;   // means that the test of drift saw
-    // Of the rest: mean, and half the width of its interval of 95 % (Student's t, of the means tested).
+    // Mean of the rest, and half the width of its 95 % interval (Student's t over the means tested).
     double mean = std::numeric_limits<double>::quiet_NaN(), half_width = mean;
     double slope = mean;          // Sen's, 1/s times the value's unit
     double tau = mean, p = mean;  // Kendall's tau, and the probability of one as large without a trend
@@ -51,7 +51,7 @@ struct MannKendall {
 // With the correction for ties, and for continuity.
 MannKendall mann_kendall(const std::vector<double>& values);
 
-// Of a column of a run's measures.csv. Throws UserError where there is no such file or column.
+// Tests a column of a run's measures.csv. Throws UserError where there is no such file or column.
 Answer steady_answer(const std::filesystem::path& run, const Scene& scene, const std::string& column);
 
 }  // namespace grainreel

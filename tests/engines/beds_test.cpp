@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/engines/both_engines.hpp"
+#include "tests/engines/handed.hpp"
 
 namespace grainreel::test {
 namespace {
@@ -173,13 +174,16 @@ const Bed& bed_named(const std::string& name) {
 struct Case {
     PeerEngine engine;
     std::string bed;
+    friend void PrintTo(const Case& one, std::ostream* out) {
+        *out << one.bed << " on " << key_of(one.engine);
+    }
 };
 
 class BedsOfEngines : public testing::TestWithParam<Case> {};
 
 TEST_P(BedsOfEngines, AreAsOurs) {
     const auto& [engine, name] = GetParam();
-    if (!is_installed(engine)) GTEST_SKIP() << key_of(engine) << " or mpirun is not installed";
+    NEEDS_ENGINE(engine);
     const Bed& bed = bed_named(name);
     const std::string apart = differences(bed, engine, kSeeds);
     if (apart.empty()) return;

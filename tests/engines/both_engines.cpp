@@ -2,36 +2,28 @@
 
 #include <cmath>
 #include <numbers>
-#include <thread>
 
-#include "engine/base/team.hpp"
-#include "engine/handover/back/dump_tail.hpp"
 #include "engine/handover/deck_parts.hpp"
-#include "engine/handover/handover_folder.hpp"
-#include "engine/handover/runner/engine_job.hpp"
-#include "engine/handover/start_state.hpp"
-#include "engine/handover/triangle_walls.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "tests/cli/temporary_folder.hpp"
+#include "tests/engines/handed.hpp"
 
 namespace grainreel::test {
 
 namespace {
 
-Course read_theirs(const std::filesystem::path& file, const CarriedScene& carried) {
+Course read_theirs(const std::filesystem::path& folder, PeerEngine engine, const CarriedScene& carried) {
     Course course;
-    DumpTail dump(file);
     const WallMotion motion(carried.scene.drive, carried.plan.clock);
-    while (const std::optional<DumpRows> rows = dump.next()) {
-        const std::int64_t step = rows->step - carried.shift();
+    for (const auto& [their_step, rows] : frames_of(engine, folder)) {
+        const std::int64_t step = their_step - carried.shift();
         Moment now;
         now.time = carried.plan.clock.time(step);
-        now.radius = rows->radius;
-        for (std::size_t i = 0; i < rows->size(); ++i) {
-            now.species.push_back(rows->type[i] - 1);
-            now.position.push_back(rows->position[i]);
+        now.radius = rows.radius;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            now.species.push_back(rows.type[i] - 1);
+            now.position.push_back(rows.position[i]);
             if (carried.rides()) now.position.back() += motion.at(step).offset;
         }
         course.push_back(std::move(now));
@@ -69,25 +61,13 @@ double mean_from(const Course& course, double from, const Value& value) {
 
 BothCourses run_both(const std::string& text, const CarryRequest& request) {
     const TemporaryFolder folder;
-    const Scene scene = read_scene_text(text, folder / "handed.toml");
     BothCourses both;
-    both.carried = carry(scene, make_plan(scene), request);
-    throw_refusals(both.carried);
-    const StartState start = start_state(both.carried, 1, [](const PackingProgress&) { return true; });
-    if (request.engine == PeerEngine::liggghts) make_room_for_walls(both.carried);
-    write_handover(folder.path(), both.carried, start, "test");
-    EngineJob job(request.engine, request.ranks, deck_name(request.engine));
-    job.start(folder.path());
-    while (job.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    both.failure = job.failure();
-    both.theirs = read_theirs(folder / dump_name(request.engine), both.carried);
+    both.carried = hand_over(text, request, folder.path());
+    both.failure =
+        run_engine(EngineJob(request.engine, request.ranks, deck_name(request.engine)), folder.path());
+    both.theirs = read_theirs(folder.path(), request.engine, both.carried);
     both.ours = run_ours(both.carried);
     return both;
-}
-
-bool is_installed(PeerEngine engine) {
-    return !program_named(engine == PeerEngine::lammps ? "lmp" : "liggghts").empty() &&
-           !program_named("mpirun").empty() && usable_processors() >= 2;
 }
 
 double mean_height(const Course& course, double from, int species) {

@@ -28,8 +28,6 @@ struct BothCourses {
 // Both at a time: theirs on two ranks, then ours. Throws UserError for a scene that is not carried.
 BothCourses run_both(const std::string& text, const CarryRequest& request);
 
-bool is_installed(PeerEngine engine);  // with mpirun, and two processors
-
 // Means over the moments from a time on, of one run.
 double mean_height(const Course& course, double from, int species);  // m
 // Contacts of a grain with others. periodic: m, along x; 0 where nothing is.

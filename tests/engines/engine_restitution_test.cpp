@@ -1,27 +1,24 @@
 // Two grains that meet, and grains that meet a wall, run by the other engines with the decks that we write:
 // the restitution of each pair is the scene's. Skipped where an engine is not installed.
 #include <cmath>
-#include <map>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/handover/back/dump_tail.hpp"
-#include "engine/handover/carry.hpp"
+#include "engine/base/error.hpp"
 #include "engine/handover/deck_parts.hpp"
-#include "engine/handover/handover_folder.hpp"
-#include "engine/handover/runner/engine_job.hpp"
-#include "engine/handover/start_state.hpp"
-#include "engine/handover/triangle_walls.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/handover/runner/engine_program.hpp"
 #include "tests/cli/temporary_folder.hpp"
+#include "tests/engines/handed.hpp"
 
 namespace grainreel::test {
 namespace {
 
 // Ids 0 to 7: AA, AB, BB head on along y; A and B against the floor.
 std::string scene_text(double speed, const std::string& law) {
-    std::string text = R"([[species]]
+    std::string text = R"(gravity = 0
+[[species]]
 name = "A"
 diameter = "2 mm"
 density = "2.5 g/cm3"
@@ -30,9 +27,8 @@ name = "B"
 diameter = "6 mm"
 density = "2.5 g/cm3"
 [contact]
-)" + law + R"(
-stiffness = 1e4
 friction = 0.3
+)" + law + R"(
 [[contact.pair]]
 between = ["A", "A"]
 restitution = 0.9
@@ -54,7 +50,6 @@ width = "120 mm"
 depth = "120 mm"
 height = "60 mm"
 )";
-    text = "gravity = 0\n" + text;
     const auto grain = [&](const char* species, double x, double y, double z, double vy, double vz) {
         text += fmt::format("[[grain]]\nspecies = \"{}\"\nposition = [{}, {}, {}]\nvelocity = [0, {}, {}]\n",
                             species, x, y, z, vy, vz);
@@ -74,71 +69,86 @@ struct Impacts {
     double aa = 0, ab = 0, bb = 0, a_wall = 0, b_wall = 0;
 };
 
-Impacts run(PeerEngine engine, int ranks, double speed, const std::string& law) {
+Impacts impacts(PeerEngine engine, double speed, const std::string& law) {
     const TemporaryFolder folder;
-    const Scene scene = read_scene_text(scene_text(speed, law), folder / "scene.toml");
     CarryRequest request;
     request.engine = engine;
-    request.ranks = ranks;
     request.accept_law = true;  // of the tangential law, which is of no matter here
-    CarriedScene carried = carry(scene, make_plan(scene), request);
-    throw_refusals(carried);
-    const StartState start = start_state(carried, 1, [](const PackingProgress&) { return true; });
-    if (engine == PeerEngine::liggghts) make_room_for_walls(carried);
-    write_handover(folder.path(), carried, start, "test");
-    EngineJob job(engine, ranks, deck_name(engine));
-    job.start(folder.path());
-    while (job.is_running()) continue;
-    EXPECT_EQ(job.failure(), "");
-    DumpTail dump(folder / dump_name(engine));
-    std::optional<DumpRows> last;
-    while (std::optional<DumpRows> rows = dump.next()) last = std::move(rows);
-    if (!last || last->size() != 8) return {};
-    const auto apart = [&](std::size_t k) { return (last->velocity[k + 1] - last->velocity[k]).y() / speed; };
-    return {apart(0), apart(2), apart(4), last->velocity[6].z() / speed, last->velocity[7].z() / speed};
+    hand_over(scene_text(speed, law), request, folder.path());
+    EXPECT_EQ(run_engine(EngineJob(engine, 1, deck_name(engine)), folder.path()), "");
+    const auto frames = frames_of(engine, folder.path());
+    if (frames.empty() || frames.rbegin()->second.size() != 8) return {};
+    const DumpRows& last = frames.rbegin()->second;
+    const auto apart = [&](std::size_t k) { return (last.velocity[k + 1] - last.velocity[k]).y() / speed; };
+    return {apart(0), apart(2), apart(4), last.velocity[6].z() / speed, last.velocity[7].z() / speed};
+}
+
+// found(e) is what a pair of restitution e in the scene should have.
+template <class Found>
+void expect_impacts(const Impacts& e, const Found& found) {
+    constexpr double near = 0.003;
+    EXPECT_NEAR(e.aa, found(0.9), near);
+    EXPECT_NEAR(e.ab, found(0.8), near);
+    EXPECT_NEAR(e.bb, found(0.7), near);
+    EXPECT_NEAR(e.a_wall, found(0.6), near);
+    EXPECT_NEAR(e.b_wall, found(0.5), near);
 }
 
 class EngineRestitution : public testing::TestWithParam<PeerEngine> {
   protected:
-    void SetUp() override {
-        const char* const program = GetParam() == PeerEngine::lammps ? "lmp" : "liggghts";
-        if (program_named(program).empty() || program_named("mpirun").empty())
-            GTEST_SKIP() << program << " or mpirun is not installed";
-    }
+    void SetUp() override { NEEDS_ENGINE(GetParam()); }
 };
 
-class LudingRestitution : public EngineRestitution {};  // LAMMPS has no such law
-
-constexpr double kNear = 0.003;
+// LAMMPS has no such law.
+class LudingRestitution : public EngineRestitution {};
+// LIGGGHTS takes a modulus of each material, not of a pair.
+class HertzRestitution : public EngineRestitution {};
 
 TEST_P(EngineRestitution, OfAllPairsAndWallsIsTheScenes) {
-    const Impacts e = run(GetParam(), 1, 0.5, "law = \"spring-dashpot\"\nfriction_law = \"linear-spring\"");
-    EXPECT_NEAR(e.aa, 0.9, kNear);
-    EXPECT_NEAR(e.ab, 0.8, kNear);
-    EXPECT_NEAR(e.bb, 0.7, kNear);
-    EXPECT_NEAR(e.a_wall, 0.6, kNear);
-    EXPECT_NEAR(e.b_wall, 0.5, kNear);
+    expect_impacts(impacts(GetParam(), 0.5,
+                           "law = \"spring-dashpot\"\nfriction_law = \"linear-spring\"\nstiffness = 1e4"),
+                   [](double e) { return e; });
+}
+
+TEST_P(EngineRestitution, HoldsWithDashpotsThatPull) {
+    expect_impacts(impacts(GetParam(), 0.5, "law = \"spring-dashpot\"\nstiffness = 1e4\nattraction = true"),
+                   [](double e) { return e; });
+}
+
+TEST_P(HertzRestitution, HoldsWithAndWithoutPulling) {
+    for (const char* pull : {"", "\nattraction = true"}) {
+        SCOPED_TRACE(pull);
+        expect_impacts(impacts(GetParam(), 0.5, fmt::format("law = \"hertz\"\nmodulus = 2e7{}", pull)),
+                       [](double e) { return e; });
+    }
 }
 
 // Walton and Braun's law with K2 = K1 + S F_max has e = 1 / sqrt(1 + S v sqrt(m / K1)): at half the speed
 // where it is e0 it is 1 / sqrt(1 + (1 / e0^2 - 1) / 2).
 TEST_P(LudingRestitution, FallsWithSpeed) {
-    const std::string law =
-        "law = \"walton-braun\"\nfriction_law = \"linear-spring\"\nrestitution_speed = 0.5";
-    const auto at_half = [](double e0) { return 1 / std::sqrt(1 + (1 / (e0 * e0) - 1) / 2); };
-    const Impacts e = run(GetParam(), 1, 0.25, law);
-    EXPECT_NEAR(e.aa, at_half(0.9), kNear);
-    EXPECT_NEAR(e.ab, at_half(0.8), kNear);
-    EXPECT_NEAR(e.bb, at_half(0.7), kNear);
-    EXPECT_NEAR(e.a_wall, at_half(0.6), kNear);
-    EXPECT_NEAR(e.b_wall, at_half(0.5), kNear);
+    expect_impacts(
+        impacts(GetParam(), 0.25,
+                "law = \"walton-braun\"\nfriction_law = \"linear-spring\"\nrestitution_speed = 0.5\n"
+                "stiffness = 1e4"),
+        [](double e0) { return 1 / std::sqrt(1 + (1 / (e0 * e0) - 1) / 2); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, EngineRestitution, testing::Values(PeerEngine::lammps, PeerEngine::liggghts),
-                         [](const auto& engine) { return std::string(key_of(engine.param)); });
+// LIGGGHTS opens a log in the folder where it is, whatever it is asked.
+TEST_P(EngineRestitution, AskingForTheVersionLeavesNoFile) {
+    const TemporaryFolder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    const EngineProgram program = find_engine(GetParam());
+    std::filesystem::current_path(before);
+    EXPECT_NE(program.version, "");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
 
-INSTANTIATE_TEST_SUITE_P(Liggghts, LudingRestitution, testing::Values(PeerEngine::liggghts),
-                         [](const auto& engine) { return std::string(key_of(engine.param)); });
+const auto name_of_engine = [](const auto& engine) { return std::string(key_of(engine.param)); };
+INSTANTIATE_TEST_SUITE_P(Both, EngineRestitution, testing::Values(PeerEngine::lammps, PeerEngine::liggghts),
+                         name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Lammps, HertzRestitution, testing::Values(PeerEngine::lammps), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Liggghts, LudingRestitution, testing::Values(PeerEngine::liggghts), name_of_engine);
 
 }  // namespace
 }  // namespace grainreel::test

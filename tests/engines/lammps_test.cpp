@@ -3,115 +3,30 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/engines/peer_run.hpp"
+#include "engine/run/simulation/simulation.hpp"
+#include "engine/state/wall_motion.hpp"
+#include "tests/cli/temporary_folder.hpp"
+#include "tests/engines/handed.hpp"
 
 namespace grainreel {
 namespace {
 
-#define NEEDS_LAMMPS() \
-    if (!test::has_lammps()) GTEST_SKIP() << "lmp is not installed"
+struct ScriptRun {
+    CarriedScene carried;
+    std::map<std::int64_t, DumpRows> dump;
+    int status = 0;
+    std::string words;  // of the engine
+};
 
-// Lanes along y: two of A, A and B, two of B, A and B each against the back wall.
-std::string impacts(const std::string& law) {
-    return law + R"(
-[[species]]
-name = "A"
-diameter = "2 mm"
-density = 2500
-[[species]]
-name = "B"
-diameter = "6 mm"
-density = 2500
-[container]
-shape = "box"
-width = "80 mm"
-depth = "60 mm"
-height = "40 mm"
-[start]
-method = "grains"
-[[grain]]
-species = "A"
-position = [-0.0011, -0.03, 0.02]
-velocity = [0.25, 0, 0]
-[[grain]]
-species = "A"
-position = [0.0011, -0.03, 0.02]
-velocity = [-0.25, 0, 0]
-[[grain]]
-species = "A"
-position = [-0.0022, -0.015, 0.02]
-velocity = [0.5, 0, 0]
-[[grain]]
-species = "B"
-position = [0.0020, -0.015, 0.02]
-[[grain]]
-species = "B"
-position = [-0.0031, 0, 0.02]
-velocity = [0.25, 0, 0]
-[[grain]]
-species = "B"
-position = [0.0031, 0, 0.02]
-velocity = [-0.25, 0, 0]
-[[grain]]
-species = "A"
-position = [-0.0288, 0.015, 0.02]
-velocity = [-0.5, 0, 0]
-[[grain]]
-species = "B"
-position = [-0.0268, 0.03, 0.02]
-velocity = [-0.5, 0, 0]
-[run]
-duration = "6 ms"
-step = 4e-7
-[output]
-trajectory_interval = "6 ms"
-)";
-}
-
-// Of AA, AB, BB, A-wall and B-wall. All impacts are at 0.5 m/s.
-std::vector<double> restitutions(const test::PeerRun& run) {
-    const auto& after = run.dump.rbegin()->second;
-    const auto speed = [&](std::int64_t id) { return after.at(id).velocity.x(); };
-    return {(speed(2) - speed(1)) / 0.5, (speed(4) - speed(3)) / 0.5, (speed(6) - speed(5)) / 0.5,
-            speed(7) / 0.5, speed(8) / 0.5};
-}
-
-constexpr const char* pairs = R"(
-[contact.wall]
-restitution = 0.6
-[[contact.pair]]
-between = ["A", "A"]
-restitution = 0.9
-[[contact.pair]]
-between = ["A", "B"]
-restitution = 0.8
-[[contact.pair]]
-between = ["B", "B"]
-restitution = 0.7
-[[contact.pair]]
-between = ["B", "wall"]
-restitution = 0.5
-)";
-
-void expect_restitutions(const std::string& contact) {
-    const test::PeerRun run =
-        test::run_on_lammps(impacts("gravity = 0\n[contact]\nfriction = 0.3\n" + contact + pairs));
-    ASSERT_EQ(run.status, 0) << run.words;
-    const std::vector<double> found = restitutions(run), wanted = {0.9, 0.8, 0.7, 0.6, 0.5};
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        EXPECT_NEAR(found[i], wanted[i], 0.003) << i << " " << contact;
-}
-
-TEST(OnLammps, ImpactsHaveTheirRestitution) {
-    NEEDS_LAMMPS();
-    expect_restitutions("law = \"spring-dashpot\"\nstiffness = 10000\n");
-    expect_restitutions("law = \"spring-dashpot\"\nstiffness = 10000\nattraction = true\n");
-}
-
-TEST(OnLammps, ImpactsOfHertzHaveTheirRestitution) {
-    NEEDS_LAMMPS();
-    expect_restitutions("law = \"hertz\"\nmodulus = 2e7\nattraction = true\n");
-    expect_restitutions("law = \"hertz\"\nmodulus = 2e7\n");
+// Hands a scene over and runs it by the script that lies in the folder.
+ScriptRun run_on_lammps(const std::string& text) {
+    const test::TemporaryFolder folder;
+    ScriptRun run;
+    run.carried = test::hand_over(text, {}, folder.path());
+    run.status = std::system(("sh " + (folder / "run.sh").string() + " 2> /dev/null").c_str());
+    run.words = test::text_of(folder / "out.lammps");
+    run.dump = test::frames_of(PeerEngine::lammps, folder.path());
+    return run;
 }
 
 // One ball. Gravity 9.81 m/s2.
@@ -141,12 +56,12 @@ position = )" +
 
 // It touches nothing, so in the lab it falls freely: z = z0 - g t^2 / 2.
 TEST(OnLammps, AFreeGrainFallsFreelyInTheFrameOfItsContainer) {
-    NEEDS_LAMMPS();
-    const test::PeerRun run =
-        test::run_on_lammps(one_ball("[0, 0, 0.05]",
-                                     "[drive]\nfrequency = \"50 Hz\"\namplitude = \"2 mm\"\ndirection = [0, "
-                                     "1, 2]\nramp = 0\nphase = 0.2\n",
-                                     "4 ms"));
+    NEEDS_ENGINE(PeerEngine::lammps);
+    const ScriptRun run =
+        run_on_lammps(one_ball("[0, 0, 0.05]",
+                               "[drive]\nfrequency = \"50 Hz\"\namplitude = \"2 mm\"\ndirection = [0, "
+                               "1, 2]\nramp = 0\nphase = 0.2\n",
+                               "4 ms"));
     ASSERT_EQ(run.status, 0) << run.words;
     ASSERT_EQ(run.carried.frame, RunFrame::container);
     const WallMotion walls(run.carried.scene.drive, run.carried.plan.clock);
@@ -154,37 +69,37 @@ TEST(OnLammps, AFreeGrainFallsFreelyInTheFrameOfItsContainer) {
     for (const auto& [step, grains] : run.dump) {
         const Pose pose = walls.at(step);
         const double t = pose.time;
-        const Vec3 lab = grains.at(1).position + pose.offset;
+        const Vec3 lab = grains.position.at(0) + pose.offset;
         EXPECT_NEAR((lab - Vec3(0, 0, 0.05 - 9.81 * t * t / 2)).norm(), 0, 1e-7) << t;
     }
 }
 
 // A plane that comes with speed U against a ball at rest leaves it with (1 + e) U.
 TEST(OnLammps, AMovingPlaneKicksABall) {
-    NEEDS_LAMMPS();
-    const test::PeerRun run = test::run_on_lammps(
+    NEEDS_ENGINE(PeerEngine::lammps);
+    const ScriptRun run = run_on_lammps(
         "gravity = 0\n" + one_ball("[0, 0, 0.05]",
                                    "[[wall]]\nname = \"piston\"\npoint = [0.004, 0, 0]\nnormal = [-1, 0, 0]\n"
                                    "velocity = [-0.3, 0, 0]\n",
                                    "8 ms", "duration = \"8 ms\"\nstep = 1e-7\n"));
     ASSERT_EQ(run.status, 0) << run.words;
-    EXPECT_NEAR(run.dump.rbegin()->second.at(1).velocity.x() / -(1.6 * 0.3), 1, 1e-4);
+    EXPECT_NEAR(run.dump.rbegin()->second.velocity.at(0).x() / -(1.6 * 0.3), 1, 1e-4);
 }
 
 // A plane that slides under a ball drags it with mu g until it rolls; then it goes with 2/7 of the plane's
 // speed.
 TEST(OnLammps, ASlidingPlaneDragsABall) {
-    NEEDS_LAMMPS();
+    NEEDS_ENGINE(PeerEngine::lammps);
     const double radius = 0.0025, mass = 4.0 / 3 * 3.14159265358979 * radius * radius * radius * 2500;
     const double height = 0.01 + radius - mass * 9.81 / 20000;  // at rest on it
-    const test::PeerRun run = test::run_on_lammps(one_ball(
+    const ScriptRun run = run_on_lammps(one_ball(
         fmt::format("[0, 0, {}]", height),
         "[[wall]]\nname = \"belt\"\npoint = [0, 0, 0.01]\nnormal = [0, 0, 1]\nvelocity = [0.2, 0, 0]\n",
         "2 ms"));
     ASSERT_EQ(run.status, 0) << run.words;
     const std::int64_t ms = std::llround(1e-3 / run.carried.step);
     const auto speed = [&](std::int64_t time) {
-        return run.dump.lower_bound(time * ms)->second.at(1).velocity.x();
+        return run.dump.lower_bound(time * ms)->second.velocity.at(0).x();
     };
     const auto when = [&](std::int64_t time) {
         return static_cast<double>(run.dump.lower_bound(time * ms)->first) * run.carried.step;
@@ -211,7 +126,7 @@ restitution = 0.7
 }
 
 void expect_sound(const std::string& text, std::size_t grains = 100) {
-    const test::PeerRun run = test::run_on_lammps(text);
+    const ScriptRun run = run_on_lammps(text);
     ASSERT_EQ(run.status, 0) << run.words;
     ASSERT_EQ(run.dump.size(), run.carried.dumps.size());
     const auto& last = run.dump.rbegin()->second;
@@ -220,16 +135,16 @@ void expect_sound(const std::string& text, std::size_t grains = 100) {
     const WallMotion walls(run.carried.scene.drive, run.carried.plan.clock);
     Pose pose = walls.at(run.dump.rbegin()->first);
     if (run.carried.frame == RunFrame::container) pose = Pose();
-    for (const auto& [id, grain] : last)
+    for (std::size_t i = 0; i < last.size(); ++i)
         for (const Face& face : run.carried.faces)
-            EXPECT_GT(distance_at(face, pose, grain.position).distance, 0.0019 * 0.9)
-                << id << " " << face.name;
+            EXPECT_GT(distance_at(face, pose, last.position[i]).distance, 0.0019 * 0.9)
+                << last.id[i] << " " << face.name;
 }
 
 const std::string shaken = "[drive]\nfrequency = \"30 Hz\"\ng_level = 2\n";
 
 TEST(OnLammps, BedsStayInTheirContainers) {
-    NEEDS_LAMMPS();
+    NEEDS_ENGINE(PeerEngine::lammps);
     expect_sound(
         bed("shape = \"wedge\"\nhalf_angle = \"25 deg\"\nslant_height = \"15 mm\"\nhalf_width = \"20 "
             "mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\n",
@@ -251,10 +166,10 @@ TEST(OnLammps, BedsStayInTheirContainers) {
 
 // Both runs begin with the same grains in the same places; all but those on the floor beside the slot leave.
 TEST(OnLammps, AnOutletOpensAndLetsAsManyGrainsOutAsOurs) {
-    NEEDS_LAMMPS();
-    const test::PeerRun run = test::run_on_lammps(
-        bed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\n"
-            "outlet = { width = \"14 mm\", opens = \"20 ms\", exit_depth = \"20 mm\" }\n"));
+    NEEDS_ENGINE(PeerEngine::lammps);
+    const ScriptRun run =
+        run_on_lammps(bed("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"\nheight = \"80 mm\"\n"
+                          "outlet = { width = \"14 mm\", opens = \"20 ms\", exit_depth = \"20 mm\" }\n"));
     ASSERT_EQ(run.status, 0) << run.words;
     EXPECT_EQ(run.dump.begin()->second.size(), 100u);
     Simulation ours(run.carried.scene, run.carried.plan, 1);

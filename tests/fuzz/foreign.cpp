@@ -28,7 +28,7 @@ ITEM: ATOMS id type x y z radius vx vy vz
 2 1 0.5 0.5 0.5 0.05 0 0 1
 )";
 
-// Of another process, or of a step of its series: what lists of files may name.
+// A piece by another process, or one step of a series: what lists of files may name.
 constexpr std::string_view vtk_piece = R"(<?xml version="1.0"?>
 <VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">
 <PolyData><Piece NumberOfPoints="2"><PointData>

@@ -1,5 +1,5 @@
 // Student's t against closed forms and a printed table.
-#include "render/app/study/results/interval.hpp"
+#include "engine/measure/interval.hpp"
 
 #include <gtest/gtest.h>
 

@@ -25,12 +25,12 @@ TEST(Reduction, SlopeOfALineIsItsOwn) {
     EXPECT_EQ(slope_of(uneven, line(uneven, 3, 0)), 0);
 }
 
-// Of the parabola t^2 at t = 0, 1, 2, 3: sum (t - 3/2)(t^2 - 7/2) / sum (t - 3/2)^2 = 15 / 5.
+// The slope of t^2 at t = 0, 1, 2, 3 is sum (t - 3/2)(t^2 - 7/2) / sum (t - 3/2)^2 = 15 / 5.
 TEST(Reduction, SlopeIsThatOfLeastSquares) {
     EXPECT_DOUBLE_EQ(slope_of({0, 1, 2, 3}, {0, 1, 4, 9}), 3);
 }
 
-// Of 1, 2, 3, 4 the squares about 5/2 sum to 5, over n - 1 = 3; NaN and rows outside the window are left out.
+// The squares of 1, 2, 3, 4 about 5/2 sum to 5, over n - 1 = 3. NaN and rows outside the window are left out.
 TEST(Reduction, MaxMinAndDeviation) {
     const std::vector<double> times{0, 1, 2, 3, 4, 5}, values{-9, 1, 2, nan, 3, 4};
     const auto of = [&](Kind kind, double from) {

@@ -90,7 +90,8 @@ EngineProgram find_engine(PeerEngine engine) {
             fmt::format("--engine {}: there is no program `{}` in PATH; Debian has it in the package {} "
                         "(sudo apt-get install {})",
                         key_of(engine), what.program, what.package, what.package));
-    found.version = version_in(engine, said_by(found.path, "-h"));
+    // LIGGGHTS opens its log for -h, too, in whatever folder the user is in.
+    found.version = version_in(engine, said_by(found.path, "-log none -h"));
     if (found.version.empty())
         throw UserError(fmt::format("--engine {}: {} does not say which version it is; try `{} -h`",
                                     key_of(engine), found.path.string(), what.program));

@@ -50,8 +50,8 @@ class ImportRanges {
     std::optional<std::array<double, 2>> heights_;
 };
 
-// Of a run's folder, for "speed", "vertical-velocity", "start-height", "spin", "kinetic-energy" and
-// "contact-force"; none where the run was not imported, or its files do not say.
+// The range of a quantity in a run's folder: "speed", "vertical-velocity", "start-height", "spin",
+// "kinetic-energy" or "contact-force"; none where the run was not imported, or its files do not say.
 std::optional<std::array<double, 2>> imported_range(const std::filesystem::path& run,
                                                     std::string_view quantity);
 

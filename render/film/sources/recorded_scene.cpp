@@ -48,8 +48,8 @@ Assignments with_purpose(const Assignments& sets) {
     return all;
 }
 
-// Of files of other programs no scene says how fast grains are. The frames do, where a colour needs it and
-// the user gives no range.
+// Files of other programs have no scene that says how fast grains are. The frames say it, where a colour
+// needs it and the user gives no range.
 Assignments with_range_of_frames(const fs::path& folder, Assignments sets) {
     const Assignment* by = nullptr;
     for (const Assignment& set : sets) {

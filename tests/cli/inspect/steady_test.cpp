@@ -69,7 +69,7 @@ TEST(Mser, DropsTheTransient) {
     }
 }
 
-// Of a straight line the variance of the rest is (n^2 - 1) / 12 over n: it falls to the end, so nothing of it
+// The variance of the rest of a straight line is (n^2 - 1) / 12 over n: it falls to the end, so nothing of it
 // is steady.
 TEST(Mser, KeepsNothingOfALine) {
     std::vector<double> line;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/measure/interval.hpp"
 #include "render/app/study/file/members.hpp"
-#include "render/app/study/results/interval.hpp"
 #include "render/app/study/results/results.hpp"
 
 namespace grainreel {

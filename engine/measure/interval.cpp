@@ -1,4 +1,4 @@
-#include "render/app/study/results/interval.hpp"
+#include "engine/measure/interval.hpp"
 
 #include <cmath>
 #include <limits>

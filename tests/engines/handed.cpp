@@ -1,0 +1,47 @@
+#include "tests/engines/handed.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/handover_folder.hpp"
+#include "engine/handover/runner/engine_program.hpp"
+#include "engine/handover/start_state.hpp"
+#include "engine/handover/triangle_walls.hpp"
+#include "engine/scene/file/reader.hpp"
+
+namespace grainreel::test {
+
+bool has_engine(PeerEngine engine) {
+    return !program_named(engine == PeerEngine::lammps ? "lmp" : "liggghts").empty() &&
+           !program_named("mpirun").empty();
+}
+
+CarriedScene hand_over(const std::string& text, const CarryRequest& request,
+                       const std::filesystem::path& folder) {
+    const Scene scene = read_scene_text(text, folder / "handed.toml");
+    CarriedScene carried = carry(scene, make_plan(scene), request);
+    throw_refusals(carried);
+    const StartState start = start_state(carried, 1, [](const PackingProgress&) { return true; });
+    if (request.engine == PeerEngine::liggghts) make_room_for_walls(carried);
+    write_handover(folder, carried, start, "test");
+    return carried;
+}
+
+std::string run_engine(EngineJob job, const std::filesystem::path& folder) {
+    job.start(folder);
+    while (job.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return job.failure();
+}
+
+std::map<std::int64_t, DumpRows> frames_of(PeerEngine engine, const std::filesystem::path& folder) {
+    std::map<std::int64_t, DumpRows> all;
+    DumpTail dump(folder / dump_name(engine));
+    while (std::optional<DumpRows> rows = dump.next()) {
+        const std::int64_t step = rows->step;
+        all[step] = std::move(*rows);
+    }
+    return all;
+}
+
+}  // namespace grainreel::test

@@ -1,0 +1,42 @@
+// A scene that a test hands over, and the engine that runs it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <ostream>
+#include <string>
+
+#include "engine/handover/back/dump_tail.hpp"
+#include "engine/handover/carry.hpp"
+#include "engine/handover/runner/engine_job.hpp"
+
+namespace grainreel {
+
+// For the names of tests.
+inline void PrintTo(PeerEngine engine, std::ostream* out) {
+    *out << key_of(engine);
+}
+
+}  // namespace grainreel
+
+namespace grainreel::test {
+
+// Whether the engine and mpirun are installed; ./test --peers installs them.
+bool has_engine(PeerEngine engine);
+
+// Writes deck, data and walls of a scene into the folder. Throws UserError for a scene that is not carried.
+CarriedScene hand_over(const std::string& text, const CarryRequest& request,
+                       const std::filesystem::path& folder);
+
+// Runs the engine there until it ends, and returns what it complained of, or nothing.
+std::string run_engine(EngineJob job, const std::filesystem::path& folder);
+
+// All frames of the dump in the folder, by the engine's step.
+std::map<std::int64_t, DumpRows> frames_of(PeerEngine engine, const std::filesystem::path& folder);
+
+// A skip for tests and their SetUp().
+#define NEEDS_ENGINE(engine)                    \
+    if (!::grainreel::test::has_engine(engine)) \
+    GTEST_SKIP() << name_of(engine) << " or mpirun is not installed"
+
+}  // namespace grainreel::test
