@@ -39,7 +39,7 @@ class OwnArchive final : public FrameArchive {
     const grainreel::World& world() const override { return world_; }
     FrameSupply supply() const override {
         FrameSupply supply;
-        supply.velocities = source_->has_velocities();
+        supply.velocities = supply.spins = source_->has_velocities();
         return supply;
     }
     const std::vector<grainreel::Frame>& moments() const override { return moments_; }

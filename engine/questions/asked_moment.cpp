@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -130,6 +131,12 @@ Snapshot MomentFinder::kept(std::size_t index) const {
     Snapshot snapshot{record_.scene(), record_.frame(index), record_.frames().has_contacts_of(index),
                       record_.frames().first()};
     snapshot.measured = record_.measured_near(index);
+    const FrameSupply supply = record_.frames().supply();
+    snapshot.spins = supply.spins;
+    snapshot.velocities = supply.velocities;
+    if (!supply.velocities)
+        std::fill(snapshot.frame.velocity.begin(), snapshot.frame.velocity.end(),
+                  Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     return snapshot;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -55,8 +56,12 @@ AnswerTable species_table(const Snapshot& s) {
                       true};
     const GrainVocabulary words(s);
     const auto column = [&](const char* name) { return values_of(s, words.find(name)->column); };
-    const std::vector<double> height = column("height"), rise = column("rise"), speed = column("speed"),
-                              mass = column("mass"), energy = column("kinetic_energy");
+    const auto of_motion = [&](const char* name) {
+        return s.velocities ? column(name)
+                            : std::vector<double>(s.frame.size(), std::numeric_limits<double>::quiet_NaN());
+    };
+    const std::vector<double> height = column("height"), rise = column("rise"), speed = of_motion("speed"),
+                              mass = column("mass"), energy = of_motion("kinetic_energy");
     for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
         const auto of_species = [&](const std::vector<double>& all) {
             std::vector<double> own;
@@ -111,8 +116,8 @@ AnswerTable extremes_table(const Snapshot& s) {
                               name_of_body(s, s.frame.id[*tip]), s.height(*tip),
                               s.frame.velocity[*tip].norm()});
     add("lowest", "height", false);
-    add("fastest", "speed", true);
-    add("fastest spin", "spin", true);
+    if (s.velocities) add("fastest", "speed", true);
+    if (s.spins) add("fastest spin", "spin", true);
     add("moved most", "moved", true);
     if (s.contacts) add("pressed most", "contact_force", true);
     return table;
@@ -271,7 +276,7 @@ Answer overview_of(const Snapshot& s) {
     std::size_t out = 0, odd = 0;
     for (std::size_t i = 0; i < s.frame.size(); ++i) {
         out += outside(s, i);
-        odd += !s.frame.position[i].allFinite() || !s.frame.velocity[i].allFinite();
+        odd += !s.frame.position[i].allFinite() || (s.velocities && !s.frame.velocity[i].allFinite());
     }
     if (out > 0) answer.notes.push_back(fmt::format("{} grains are outside the container", out));
     if (odd > 0)

@@ -17,6 +17,10 @@ bool Snapshot::has(Needs what) const {
             return forces.has_value();
         case Needs::period:
             return !frame.displacement.empty() || frame.size() == 0;
+        case Needs::velocities:
+            return velocities;
+        case Needs::spins:
+            return spins;
         case Needs::nothing:
             break;
     }

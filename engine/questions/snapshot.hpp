@@ -21,8 +21,9 @@ struct SnapshotForces {
 };
 
 // What a question may take that a snapshot may lack: contacts; what only a moment that was brought back has;
-// ways over the last period of the drive (Frame::displacement).
-enum class Needs { nothing, contacts, forces, period };
+// ways over the last period of the drive (Frame::displacement); velocities and spins, which some files of
+// other programs do not have.
+enum class Needs { nothing, contacts, forces, period, velocities, spins };
 
 struct Snapshot {
     const Scene& scene;
@@ -32,6 +33,7 @@ struct Snapshot {
     std::optional<SnapshotForces> forces{};  // of a moment that was brought back
     std::optional<MeasuredRow> measured{};   // at the moment, or at the row nearest to it
     double bin_width = 0;  // m, of bins along lengths; 0: the mean diameter of the grains that are there
+    bool velocities = true, spins = true;  // whether they are known; velocities that are not are NaN
 
     bool has(Needs what) const;
     double density(std::size_t i) const;  // kg/m3, of grain i of the frame

@@ -503,6 +503,7 @@ std::optional<std::vector<Touch>> ForeignArchive::touches(std::size_t index) con
 FrameSupply ForeignArchive::supply() const {
     FrameSupply supply;
     supply.velocities = meaning_->has_velocities() || derived_;
+    supply.spins = meaning_->has_spins();
     supply.orientations = meaning_->has_orientations();
     supply.contacts = has_contacts_;
     return supply;
@@ -549,7 +550,8 @@ void ForeignArchive::decide_velocities() {
     news_.push_back(
         derived_ ? fmt::format("{}: says no velocities; they come from the places of neighbouring frames",
                                path_.string())
-                 : fmt::format("{}: says no velocities, and its frames are too far apart for them; all are 0",
+                 : fmt::format("{}: says no velocities, and its frames are too far apart for them; what "
+                               "needs them is left out",
                                path_.string()));
 }
 

@@ -10,6 +10,7 @@ std::vector<std::string> FrameSupply::lacks() const {
         if (!has) names.emplace_back(name);
     };
     add(velocities, "velocities");
+    add(spins, "spins");
     add(orientations, "orientations");
     add(contact_numbers, "contact numbers");
     add(contacts, "contacts");

@@ -20,7 +20,8 @@ class FieldsReader;  // engine/files/fields_reader.hpp
 
 // What the frames of a record have beside ids, species, radii and places.
 struct FrameSupply {
-    bool velocities = true;        // Frame::velocity, Frame::spin; else they are zero
+    bool velocities = true;        // Frame::velocity; else they are zero
+    bool spins = true;             // Frame::spin; else they are zero
     bool orientations = false;     // Frame::orientation
     bool contact_numbers = false;  // Frame::contact_number
     bool contacts = false;         // touches()

@@ -195,6 +195,7 @@ std::vector<GrainColumn> bed_columns() {
          .dimension = speed,
          .about = "speed against the mean velocity of itself and these, by mass",
          .of = fluctuation,
+         .needs = Needs::velocities,
          .costly = true},
     };
 }

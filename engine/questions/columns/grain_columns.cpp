@@ -40,6 +40,10 @@ std::string why_lacking(std::string_view name, Needs needs) {
         case Needs::period:
             return fmt::format(
                 "'{}' needs the moment one period of the drive earlier, which is not to be had here", name);
+        case Needs::velocities:
+            return fmt::format("'{}' needs velocities, which these files do not have", name);
+        case Needs::spins:
+            return fmt::format("'{}' needs spins, which these files do not have", name);
         case Needs::nothing:
             break;
     }

@@ -122,4 +122,13 @@ std::optional<std::array<double, 2>> imported_range(const fs::path& run, std::st
     return std::nullopt;
 }
 
+bool import_lacks(const fs::path& run, std::string_view quantity) {
+    constexpr std::array from_frames = {"speed", "vertical-velocity", "spin", "kinetic-energy",
+                                        "contact-force"};
+    std::error_code ignored;
+    return fs::exists(run / ranges_name, ignored) &&
+           std::find(from_frames.begin(), from_frames.end(), quantity) != from_frames.end() &&
+           !imported_range(run, quantity);
+}
+
 }  // namespace grainreel

@@ -55,4 +55,7 @@ class ImportRanges {
 std::optional<std::array<double, 2>> imported_range(const std::filesystem::path& run,
                                                     std::string_view quantity);
 
+// Whether a run was imported and its files do not say this quantity, which is one of those above.
+bool import_lacks(const std::filesystem::path& run, std::string_view quantity);
+
 }  // namespace grainreel

@@ -52,11 +52,17 @@ Assignments with_purpose(const Assignments& sets) {
 // needs it and the user gives no range.
 Assignments with_range_of_frames(const fs::path& folder, Assignments sets) {
     const Assignment* by = nullptr;
+    bool has_range = false;
     for (const Assignment& set : sets) {
-        if (set.key() == "film.colour.range") return sets;
+        has_range = has_range || set.key() == "film.colour.range";
         if (set.key() == "film.colour.by") by = &set;
     }
     if (by == nullptr) return sets;
+    if (import_lacks(folder, by->value()))
+        throw UserError(
+            fmt::format("{}: the files say nothing of \"{}\", or nothing but 0; colour by something else",
+                        by->place(), by->value()));
+    if (has_range) return sets;
     if (const auto range = imported_range(folder, by->value()))
         sets.push_back(
             {fmt::format("film.colour.range=[{:.6g}, {:.6g}]", (*range)[0], (*range)[1]), by->place()});

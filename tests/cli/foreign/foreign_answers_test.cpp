@@ -49,6 +49,44 @@ TEST_F(ForeignAnswers, AreOfTheFrameThatIsAskedFor) {
     EXPECT_NEAR(grains["rows"][0][4].get<double>(), 0.015 + 0.002, 1e-12);  // z of the upper layer
 }
 
+// A dump of places alone: what needs velocities or spins is left out of tables, and refused where it is asked
+// for.
+TEST_F(ForeignAnswers, SayNothingOfVelocitiesThatAFileDoesNotHave) {
+    std::string text = foreign_frame(0);
+    const auto replace_all = [&](const std::string& from, const std::string& to) {
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+            text.replace(at, from.size(), to);
+    };
+    replace_all(" vx vy vz", "");
+    replace_all(" 0 0 0.1\n", "\n");
+    std::ofstream(here / "places.dump") << text;
+
+    const nlohmann::json said = answer({"inspect", "places.dump"});
+    const nlohmann::json& species = said["tables"]["species"];
+    const auto column = [&](const char* name) {
+        for (std::size_t k = 0; k < species["columns"].size(); ++k)
+            if (species["columns"][k]["name"] == name) return k;
+        return species["columns"].size();
+    };
+    ASSERT_LT(column("mean_speed"), species["columns"].size());
+    for (const nlohmann::json& row : species["rows"]) {
+        EXPECT_TRUE(row[column("mean_speed")].is_null()) << row;
+        EXPECT_FALSE(row[column("mean_height")].is_null()) << row;
+    }
+    for (const nlohmann::json& row : said["tables"]["extremes"]["rows"])
+        EXPECT_THAT(row[0].get<std::string>(), Not(HasSubstr("fastest")));
+    expect_refused({"inspect", "places.dump", "--where", "speed > 1 m/s"}, "'speed' needs velocities");
+    expect_refused({"inspect", "places.dump", "--histogram", "spin"}, "'spin' needs spins");
+}
+
+TEST_F(ForeignAnswers, AColourThatFilesDoNotSayIsRefused) {
+    const Ended ended = program({"render", "bed.dump", "--frame", "1", "--set", "film.colour.by=spin",
+                                 "--set", "film.colour.range=[0, 1]", "--out", "spin.png"});
+    EXPECT_EQ(ended.status, 2) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("--set film.colour.by: the files say nothing of \"spin\""));
+    EXPECT_FALSE(fs::exists(here / "spin.png"));
+}
+
 TEST_F(ForeignAnswers, KnowTheContactsOfAContactDump) {
     const nlohmann::json said =
         answer({"inspect", "bed.dump", "--frame", "1", "--grain", "39", "--contacts", "contacts.dump"});

@@ -96,7 +96,7 @@ TEST_F(ForeignFilm, ColoursHaveTheirRangeFromTheFrames) {
     }
     const Ended none = imported({"--set", "film.colour.by=spin", "--out", "spin.png"});
     EXPECT_EQ(none.status, 2);
-    EXPECT_THAT(none.err, HasSubstr("write a 'range' for it"));
+    EXPECT_THAT(none.err, HasSubstr("the files say nothing of \"spin\""));
 }
 
 TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {

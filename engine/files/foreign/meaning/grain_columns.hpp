@@ -50,6 +50,7 @@ class GrainMeaning {
     bool has_ids() const { return id_.has_value(); }
     bool has_types() const { return type_.has_value(); }
     bool has_velocities() const { return velocity_[0] && velocity_[1]; }
+    bool has_spins() const { return spin_[0] && spin_[1] && spin_[2]; }
     bool has_orientations() const {
         return quaternion_[0] && quaternion_[1] && quaternion_[2] && quaternion_[3];
     }
