@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 namespace {

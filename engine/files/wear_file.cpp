@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/measure/no_value.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/handover/carry_parts.hpp"
-#include "engine/state/outlet_faces.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/state/outlet_faces.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,10 +1,13 @@
 #include "engine/state/container_faces.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "engine/state/face_reach.hpp"
-#include "engine/state/tray_faces.hpp"
+#include "engine/base/error.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/measure_columns.hpp"
 
 namespace grainreel {
 
@@ -102,6 +105,99 @@ std::vector<Face> faces_of(const Scene& scene) {
 
 double period_of_depth(const Container& container) {
     return container.periodic_depth && container.shape != Container::Shape::cylinder ? container.depth : 0.0;
+}
+
+void set_reach(const Container& container, std::vector<Face>& faces) {
+    if (!container.turn) return;
+    const bool round = container.shape == Container::Shape::cylinder;
+    const double depth = round ? 2 * container.half_width : container.depth;
+    const double top = (container.lid ? 1 : 2) * container.height;
+    double reach = 0;
+    for (const double x : {-0.5 * depth, 0.5 * depth})
+        for (const double y : {-container.half_width, container.half_width})
+            for (const double z : {0.0, top}) {
+                const Vec3 from = Vec3(x, y, z) - container.turn->through;
+                reach = std::max(reach, from.cross(container.turn->axis).norm());
+            }
+    for (Face& face : faces) face.reach = reach;
+}
+
+std::vector<Face> tray_faces(const Scene& scene) {
+    if (!scene.container.tray) return {};
+    const Container tray = tray_container(scene);
+    const Vec3 down(0, 0, -scene.container.tray->depth), rim = down + tray.height * Vec3::UnitZ();
+    std::vector<Face> faces = container_faces(tray, Drive{});
+    for (Face& face : faces) {
+        face.name = "tray " + face.name;
+        face.body = {kTrayBody, false, Vec3(0, 0, 0)};
+        face.point += down;
+        if (face.kind == Face::Kind::plane && face.normal.z() != 0) continue;  // the floor
+        face.ends = true;
+        face.along = Vec3(0, 0, -1);
+        face.edge = face.point;
+        face.edge.z() = rim.z();
+    }
+    return faces;
+}
+
+namespace {
+
+// m: as wide as a gap that leaves nothing of the floor. Then the walls' lower edges are those of the outlet.
+constexpr double kNoFloorLeft = 1e9;
+// Relative: of the floor that rounding leaves where the scene says the same width twice.
+constexpr double kRounding = 1e-9;
+
+void open_floor(const Container& container, Face& floor) {
+    const Outlet& outlet = *container.outlet;
+    const bool hole = outlet.shape == Outlet::Shape::hole;
+    floor.ends = true;
+    floor.round_gap = hole;
+    floor.gap = outlet.half_width;
+    const bool round = container.shape == Container::Shape::cylinder;
+    if (hole == round && outlet.half_width >= (1 - kRounding) * container.floor_half_width())
+        floor.gap = kNoFloorLeft;
+}
+
+// Vertical walls end at the floor, those of a wedge where the slants begin, and the slants at the floor.
+void end_wall(const Container& container, Face& wall) {
+    wall.ends = true;
+    wall.along = Vec3(0, 0, 1);
+    wall.edge = wall.point;
+    if (wall.kind == Face::Kind::cylinder || container.shape != Container::Shape::wedge) return;
+    const double side = wall.normal.y() < 0 ? 1 : -1;
+    if (wall.normal.z() > 0) {
+        wall.along = Vec3(0, side * std::sin(container.half_angle), std::cos(container.half_angle));
+        wall.edge = Vec3(0, side * container.floor_half_width(), 0);
+    } else if (wall.normal.y() != 0) {
+        wall.edge.z() = container.slant_height;
+    }
+}
+
+}  // namespace
+
+void open_outlet(const Container& container, std::vector<Face>& faces) {
+    GRAINREEL_CHECK(container.outlet);
+    for (Face& face : faces) {
+        if (face.body.number == kFloorBody)
+            open_floor(container, face);
+        else if (face.body.number == kContainerBody && face.normal.z() >= 0)  // the lid stays whole
+            end_wall(container, face);
+    }
+}
+
+std::vector<std::string> face_names(const Scene& scene) {
+    std::vector<std::string> names;
+    std::set<std::string> taken;
+    const auto add = [&](const std::string& name) {
+        std::string part = column_part(name);
+        std::replace(part.begin(), part.end(), ' ', '_');
+        const std::string first = part;
+        for (int number = 2; !taken.insert(part).second; ++number) part = fmt::format("{}_{}", first, number);
+        names.push_back(part);
+    };
+    for (const Face& face : faces_of(scene)) add(face.name);
+    for (const SceneMesh& mesh : scene.meshes) add(mesh.name);
+    return names;
 }
 
 }  // namespace grainreel

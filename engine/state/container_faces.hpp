@@ -77,4 +77,31 @@ std::vector<Face> faces_of(const Scene& scene);
 // 0 when the depth is not periodic.
 double period_of_depth(const Container& container);
 
+// How far faces reach from the axis about which their body turns.
+
+// Sets Face::reach of a container's faces, where it turns. Walls that go on upwards without end count up to
+// twice the height.
+void set_reach(const Container& container, std::vector<Face>& faces);
+
+// The faces of the tray that catches what flows out of an outlet.
+
+// None without a tray. Its floor is an endless plane. Its walls are thin plates that end above, at their rim,
+// so that they touch nothing in the container. They stand still and are there before the outlet opens.
+std::vector<Face> tray_faces(const Scene& scene);
+
+// What becomes of a container's faces when its outlet opens: the floor gets a slot or a hole, and the walls
+// end below. Grains that have fallen through touch nothing but edges and the floor's underside.
+//
+// Every face stays under its number, so contacts and their histories go on: one that began on the floor goes
+// on at the floor's edge.
+
+// `faces` are those of container_faces(), perhaps with others behind them, which stay as they are.
+void open_outlet(const Container& container, std::vector<Face>& faces);
+
+// The walls of a scene as columns of measures and files name them.
+
+// Container and planes, in the order of the surroundings' faces, then the meshes, as parts of columns:
+// "left_slant". Each name once: of walls of one name the second is "NAME_2".
+std::vector<std::string> face_names(const Scene& scene);
+
 }  // namespace grainreel

@@ -1,6 +1,6 @@
 #include "engine/measure/walls/mesh_wear.hpp"
 
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,6 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/measure_columns.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/face_names.hpp"
 
 namespace grainreel {
 namespace {

@@ -17,7 +17,7 @@
 #include "engine/measure/rows.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/measure/walls/wall_work.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel::observers {
 

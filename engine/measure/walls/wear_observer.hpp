@@ -9,7 +9,7 @@
 #include "engine/measure/observer.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/measure/walls/wear_tally.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel::observers {
 

@@ -8,7 +8,7 @@
 #include "engine/files/foreign/meaning/names.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 #include "render/film/moments/known_reach.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/film/sources/recorded_scene.hpp"

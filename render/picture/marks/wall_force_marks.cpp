@@ -5,7 +5,7 @@
 
 #include "engine/measure/measure_table.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 #include "render/picture/marks/arrow.hpp"
 #include "render/scene/filmed_scene.hpp"
 

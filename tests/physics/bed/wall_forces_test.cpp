@@ -8,7 +8,7 @@
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

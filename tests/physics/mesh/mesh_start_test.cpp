@@ -7,7 +7,7 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/surroundings.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"
-#include "engine/state/outlet_faces.hpp"
+#include "engine/state/container_faces.hpp"
 #include "engine/step/geometry/plate_geometry.hpp"
 #include "tests/physics/world.hpp"
 

@@ -11,7 +11,7 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"
-#include "engine/state/face_names.hpp"
+#include "engine/state/container_faces.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 

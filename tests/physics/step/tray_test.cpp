@@ -8,7 +8,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"
-#include "engine/state/tray_faces.hpp"
+#include "engine/state/container_faces.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 
