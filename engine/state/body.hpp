@@ -9,9 +9,17 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/state/drive_pose.hpp"
 
 namespace grainreel {
+
+// Where what the drive moves is.
+
+// Its displacement from rest and its velocity, both at the same time level.
+struct Pose {
+    Vec3 offset{0, 0, 0};    // m
+    Vec3 velocity{0, 0, 0};  // m/s
+    double time = 0;         // s, since the start of the motion
+};
 
 // Where a body is and how it moves. At rest its origin is that of the scene.
 struct BodyPose {

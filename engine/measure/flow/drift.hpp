@@ -12,7 +12,7 @@
 #include "engine/measure/flow/velocity_grid.hpp"
 #include "engine/measure/segregation/side_walls.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/state/drive_pose.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/grains.hpp"
 
 namespace grainreel {
