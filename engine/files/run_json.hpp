@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "engine/files/drawn_part.hpp"
+#include "engine/grain_table.hpp"
 #include "engine/scene/keys/accepted_key.hpp"
-#include "engine/state/table_mark.hpp"
 
 namespace grainreel {
 

@@ -10,11 +10,11 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/write_frames.hpp"
+#include "engine/grain_table.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/state/checkpoint_file.hpp"
-#include "engine/state/table_mark.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
