@@ -12,7 +12,7 @@
 #include "engine/base/random.hpp"
 #include "engine/scene/diameters.hpp"
 #include "engine/scene/free_space.hpp"
-#include "engine/step/grid/glued_search.hpp"
+#include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {
 

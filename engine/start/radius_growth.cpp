@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/step/grid/glued_search.hpp"
 #include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "engine/step/grid/near_partners.hpp"
+#include "engine/step/grid/neighbours.hpp"
 
 #include <bit>
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "engine/step/grid/near_partners.hpp"
-
 namespace grainreel {
 
 void put_in_order(const TeamMember& me, Cells& cells, Grains& grains, double skin, double period,
@@ -111,6 +109,101 @@ void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose
                 part.push_back({i, static_cast<std::int32_t>(f)});
         }
     }
+}
+
+GluedSearch::GluedSearch(const GluedGrains& glued, const std::vector<Face>& faces, double period)
+    : glued_(glued), period_(period) {
+    std::vector<std::vector<std::int32_t>> members;  // by part
+    for (std::size_t g = 0; g < glued.size(); ++g) {
+        const Body& body = faces[static_cast<std::size_t>(glued.face[g])].body;
+        at_rest_.push_back({glued.centre(g, faces, {}), glued.place[g].radius});
+        at_rest_.back().position.x() = wrapped(at_rest_.back().position.x(), period);
+        largest_ = std::max(largest_, glued.place[g].radius);
+        const auto found = std::find_if(parts_.begin(), parts_.end(),
+                                        [&](const OfBody& part) { return part.body.number == body.number; });
+        const auto part = static_cast<std::size_t>(found - parts_.begin());
+        if (found == parts_.end()) parts_.push_back({body, {}}), members.emplace_back();
+        members[part].push_back(static_cast<std::int32_t>(g));
+    }
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+        GridFrame frame;
+        frame.low = frame.high = at_rest_[static_cast<std::size_t>(members[part][0])].position;
+        for (const std::int32_t g : members[part]) {
+            frame.low = frame.low.cwiseMin(at_rest_[static_cast<std::size_t>(g)].position);
+            frame.high = frame.high.cwiseMax(at_rest_[static_cast<std::size_t>(g)].position);
+        }
+        if (period > 0) frame.low.x() = -0.5 * period, frame.high.x() = 0.5 * period;
+        frame.grains = members[part].size();
+        frame.period = period;
+        parts_[part].grid.lay(at_rest_, members[part], 2 * largest_, frame);
+    }
+}
+
+void GluedSearch::list(const Grains& grains, const Pose& pose, double skin, std::int32_t begin,
+                       std::int32_t end, std::vector<WallNeighbour>& part) const {
+    part.clear();
+    if (parts_.empty()) return;
+    for (std::int32_t i = begin; i < end; ++i) {
+        const Place& own = grains.place[i];
+        const std::size_t from = part.size();
+        near(own.position, own.radius + skin, pose, [&](std::int32_t g, double) { part.push_back({i, g}); });
+        std::sort(part.begin() + static_cast<std::ptrdiff_t>(from), part.end(),
+                  [](const WallNeighbour& a, const WallNeighbour& b) { return a.face < b.face; });
+    }
+}
+
+namespace {
+
+// Grains in sequence are near each other. So a mesh that is far from all of many is asked for but once.
+class MeshSearch {
+  public:
+    MeshSearch(const Grains& grains, double skin, std::vector<WallNeighbour>& part)
+        : grains_(grains), skin_(skin), part_(part) {}
+
+    void list(const Surface& surface, std::int32_t mesh, const BodyPose& pose, std::int32_t begin,
+              std::int32_t end) {
+        if (end - begin <= kFew) {
+            for (std::int32_t i = begin; i < end; ++i) {
+                const Place& own = grains_.place[i];
+                if (surface.any_within(pose.at_rest(own.position), own.radius + skin_))
+                    part_.push_back({i, mesh});
+            }
+            return;
+        }
+        Eigen::AlignedBox3d centres;
+        double largest = 0;
+        for (std::int32_t i = begin; i < end; ++i) {
+            centres.extend(grains_.place[i].position);
+            largest = std::max(largest, grains_.place[i].radius);
+        }
+        const double reach = 0.5 * centres.sizes().norm() + largest + skin_;
+        if (!surface.any_within(pose.at_rest(centres.center()), kMore * reach)) return;
+        const std::int32_t half = begin + (end - begin) / 2;
+        list(surface, mesh, pose, begin, half);
+        list(surface, mesh, pose, half, end);
+    }
+
+  private:
+    static constexpr std::int32_t kFew = 4;    // grains; to ask for each costs less
+    static constexpr double kMore = 1 + 1e-6;  // for rounding, far from the origin too
+
+    const Grains& grains_;
+    double skin_;
+    std::vector<WallNeighbour>& part_;
+};
+
+}  // namespace
+
+void list_meshes(const Grains& grains, const std::vector<MeshWall>& meshes, const Pose& pose, double skin,
+                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part) {
+    part.clear();
+    MeshSearch search(grains, skin, part);
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        search.list(*meshes[m].surface, static_cast<std::int32_t>(m), meshes[m].body.at(pose), begin, end);
+    if (meshes.size() < 2) return;
+    std::sort(part.begin(), part.end(), [](const WallNeighbour& a, const WallNeighbour& b) {
+        return a.grain != b.grain ? a.grain < b.grain : a.face < b.face;
+    });
 }
 
 }  // namespace grainreel

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/base/ticks.hpp"
-#include "engine/step/grid/mesh_search.hpp"
+#include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/candidates.hpp"
 #include "engine/step/lists/change_owners.hpp"
 

@@ -17,7 +17,6 @@
 #include "engine/state/grains.hpp"
 #include "engine/step/evaluation.hpp"
 #include "engine/step/grid/cells.hpp"
-#include "engine/step/grid/glued_search.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/candidates.hpp"
 #include "engine/step/lists/list_life.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "engine/step/grid/mesh_search.hpp"
+#include "engine/step/grid/neighbours.hpp"
 #include "tests/physics/step/mesh_world.hpp"
 
 namespace grainreel {
