@@ -15,7 +15,6 @@
 #include <iterator>
 #include <vector>
 
-#include "engine/step/grid/reorder.hpp"
 #include "engine/step/lists/histories.hpp"
 
 namespace grainreel {

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <random>
 
-#include "engine/step/grid/reorder.hpp"
 #include "engine/step/lists/histories.hpp"
 #include "engine/step/threads/halo.hpp"
 
