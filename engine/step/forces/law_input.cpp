@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/step/geometry/contact_geometry.hpp"
-#include "engine/step/geometry/glued_geometry.hpp"
 #include "engine/step/geometry/wall_point.hpp"
 
 namespace grainreel {

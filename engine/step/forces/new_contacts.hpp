@@ -6,7 +6,6 @@
 
 #include "engine/step/forces/force_input.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
-#include "engine/step/geometry/glued_geometry.hpp"
 #include "engine/step/lists/large_bed.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
 

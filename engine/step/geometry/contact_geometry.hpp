@@ -7,6 +7,7 @@
 
 #include "engine/laws/law_kernel.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/state/glued_grains.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/geometry/walls.hpp"
 
@@ -43,5 +44,33 @@ std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, co
 // Fill the rows that `in` asks for. Of contacts that do not touch, only the overlap need be set.
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out);
 void touch_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
+
+// Contacts of grains with grains that are glued to walls. Scenes without glued grains have no such contacts,
+// and the kernels of pairs and of walls know nothing of them.
+
+// Glued grains where their walls are. period: of x, in m; 0 for none.
+struct GluedState {
+    const GluedGrains& glued;
+    const WallState& walls;
+    double period;
+};
+
+// The face of each of `count` glued grains, and of those that fill their last block.
+void find_faces(const GluedGrains& glued, const std::int32_t* second, int count, std::int32_t* face);
+
+// As touching_walls() and touch_walls(); `second` are numbers of glued grains, and `face` what find_faces()
+// gives.
+std::uint64_t touching_glued(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                             int count, const GluedState& state);
+void touch_glued(const GeometryInput& in, const GluedState& state, const std::int32_t* face, TouchChunk& out);
+
+// Contacts with walls of which some end at edges, as those of a container with an open outlet do. Scenes
+// without such walls take the way of touch_walls() in wall_geometry.cpp, which calls these where they are
+// needed.
+
+// As touching_walls() and touch_walls().
+std::uint64_t touching_plates(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
+                              int count, const WallState& walls);
+void touch_plates(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
 }  // namespace grainreel

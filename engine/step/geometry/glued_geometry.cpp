@@ -1,4 +1,4 @@
-#include "engine/step/geometry/glued_geometry.hpp"
+#include "engine/step/geometry/contact_geometry.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/geometry/glued_geometry.cpp"

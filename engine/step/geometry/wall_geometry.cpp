@@ -1,6 +1,5 @@
 // The geometry of contacts between a grain and a wall.
 #include "engine/step/geometry/contact_geometry.hpp"
-#include "engine/step/geometry/plate_geometry.hpp"
 #include "engine/step/geometry/wall_point.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -12,7 +12,7 @@
 #include "engine/scene/file/reader.hpp"
 #include "engine/start/surroundings.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/step/geometry/plate_geometry.hpp"
+#include "engine/step/geometry/contact_geometry.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
