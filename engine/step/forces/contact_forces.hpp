@@ -1,7 +1,6 @@
 // The forces of one step: new contacts, then each contact's geometry, law and load.
 #pragma once
 
-#include "engine/step/forces/force_input.hpp"
 #include "engine/step/forces/law_input.hpp"
 #include "engine/step/forces/vanguard.hpp"
 #include "engine/step/lists/thread_contacts.hpp"

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/step/forces/force_input.hpp"
 #include "engine/step/forces/law_input.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
 

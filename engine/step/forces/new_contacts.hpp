@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/step/forces/force_input.hpp"
+#include "engine/step/forces/law_input.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/lists/large_bed.hpp"
 #include "engine/step/lists/thread_contacts.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "engine/step/contact_view.hpp"
-#include "engine/step/forces/force_input.hpp"
+#include "engine/step/forces/law_input.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
 
 namespace grainreel {
