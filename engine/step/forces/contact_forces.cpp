@@ -1,11 +1,10 @@
 #include "engine/step/forces/contact_forces.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "engine/step/forces/loads.hpp"
-#include "engine/step/forces/mesh_contacts.hpp"
-#include "engine/step/forces/new_contacts.hpp"
 #include "engine/step/forces/point_loads.hpp"
 #include "engine/step/lists/large_bed.hpp"
 
@@ -76,6 +75,139 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
     }
     advance(vanguard, grains, contacts.end);
     clock.lap(Cost::integrate);
+}
+
+namespace {
+
+// Keeps the fault of the earliest step, and in it that of the lowest id. Those of this step have no number
+// yet.
+void note(const MeshFault& fault, std::optional<MeshFault>& first) {
+    if (!first || (first->step < 0 && fault.grain < first->grain)) first = fault;
+}
+
+// Rows and histories hold a block's numbers in the same way.
+template <class Number>
+void remember(const ContactGroup& group, const MeshTouch* touch, const ChunkMemory& memory, std::int32_t c,
+              int count, Histories& histories) {
+    const int behind = group.law_size();
+    for (int begin = 0; begin < count; begin += kBlock) {
+        const int size = std::min(kBlock, count - begin);
+        auto* const to = static_cast<Number*>(histories.of_block(c + begin)) + behind * kBlock;
+        const std::uint64_t touches = memory.touch.touching >> begin;
+        const auto keep = [&](int number, const Row& row) {
+            const Number* const from = row.of<Number>() + begin;
+            for (int k = 0; k < size; ++k) to[number * kBlock + k] = touches >> k & 1 ? from[k] : 0;
+        };
+        for (int k = 0; k < size; ++k)
+            to[kTriangle * kBlock + k] =
+                touches >> k & 1 ? static_cast<Number>(touch[begin + k].triangle) : 0;
+        for (int a = 0; a < 3; ++a) keep(kNormalX + a, memory.touch.normal[a]);
+        keep(kForce, memory.force.normal);
+    }
+}
+
+}  // namespace
+
+void find_patches(const ForceInput& in, std::size_t g, ThreadContacts& contacts, PatchMatcher& matcher) {
+    const ContactGroup& group = in.rules.groups[g];
+    ContactTable& table = contacts.tables[g];
+    MeshLists& lists = contacts.meshes[g];
+    table.begin_step();
+    for (MeshTouch& touch : lists.touch) touch.distance = MeshTouch::kApart;
+    lists.touch.resize(MeshLists::places_for(table.size()));
+    for (MeshNear& near : lists.near) {
+        // Rising numbers: patches come by rising triangle, and new ones take the lowest that is free.
+        for (const MatchedPatch& patch : matcher.match(in, in.meshes, group, near, lists, table)) {
+            std::int32_t c = near.contact[patch.number];
+            if (c == MeshNear::kNone) {
+                c = table.add_new(near.grain, near.mesh * kMostPatches + patch.number);
+                near.set_contact(patch.number, c);
+                lists.touch.resize(MeshLists::places_for(table.size()));
+            } else if (!patch.goes_on) {
+                table.histories().clear(c);
+            }
+            lists.touch[static_cast<std::size_t>(c)] = patch.touch;
+        }
+        if (matcher.fault()) note(*matcher.fault(), contacts.fault);
+    }
+    const std::int32_t first_new = table.end_step();
+    contacts.note_loaded(in.rules, g, first_new, table.size());
+}
+
+void remember_patches(const ContactGroup& group, const MeshTouch* touch, const ChunkMemory& memory,
+                      std::int32_t c, int count, Histories& histories) {
+    group.number_size() == sizeof(float) ? remember<float>(group, touch, memory, c, count, histories)
+                                         : remember<double>(group, touch, memory, c, count, histories);
+}
+
+namespace {
+
+// The candidates [from, to) of a group; `from` is a multiple of kChunk.
+void admit_all(const ForceInput& in, std::size_t g, ThreadContacts& contacts, std::int32_t from,
+               std::int32_t to) {
+    const ContactGroup& group = in.rules.groups[g];
+    ContactTable& table = contacts.tables[g];
+    for (std::int32_t c = from; c < to; c += kChunk) {
+        const auto bodies = contacts.found[g].candidates.of(table.near_first(), table.near_second(), c);
+        if (group.of_pairs && is_large_bed(in.grains)) fetch_places(in.grains, table, c);
+        table.admit(c, which_touch(in, group, bodies, std::min(kChunk, to - c)));
+    }
+}
+
+// Lists the candidates of one stretch that are closer than `gap` (m).
+void list_soon(const ForceInput& in, const ContactTable& table, const FoundPairs& candidates, SoonList& soon,
+               double gap) {
+    soon.begin(in.times.moved, gap);
+    for (std::int32_t c = soon.from(); c < soon.to(); c += kChunk) {
+        const int count = std::min(kChunk, soon.to() - c);
+        const auto [first, second] = candidates.of(table.near_first(), table.near_second(), c);
+        std::uint64_t left = near_pairs(in.grains, first, second, count, in.rules.period, gap);
+        left &= bits_of_first(count) & ~table.admitted(c);
+        if (!soon.has_room(std::popcount(left))) return soon.give_up();
+        for (; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            soon.add(first[k], second[k], c + k);
+        }
+    }
+    soon.end();
+}
+
+void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts, const SoonList& soon) {
+    if (soon.are_all()) return admit_all(in, g, contacts, soon.from(), soon.to());
+    for (std::int32_t k = 0; k < soon.size(); k += kChunk) {
+        const Halo::Bodies bodies{soon.first() + k, soon.second() + k};
+        std::uint64_t left = which_touch(in, in.rules.groups[g], bodies, std::min(kChunk, soon.size() - k));
+        for (; left != 0; left &= left - 1) {
+            const std::int32_t at = soon.at(k + std::countr_zero(left));
+            contacts.tables[g].admit(at / kChunk * kChunk, std::uint64_t{1} << at % kChunk);
+        }
+    }
+}
+
+// For pairs of a small bed. A large bed looks at all candidates: this brings their places to the cache, and
+// contacts need them soon after. (With lists, contacts took 1.15 times as long there.)
+//
+// kShare is a compromise. A small gap holds few pairs; a large gap makes a list last longer.
+void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts) {
+    constexpr double kShare = 1.0 / 10;
+    contacts.soon[g].each(kShare * contacts.skin, [&](SoonList& soon, double gap) {
+        if (!soon.lasts(in.times.moved))
+            list_soon(in, contacts.tables[g], contacts.found[g].candidates, soon, gap);
+        admit_soon(in, g, contacts, soon);
+    });
+}
+
+}  // namespace
+
+void add_new_contacts(const ForceInput& in, std::size_t g, ThreadContacts& contacts) {
+    ContactTable& table = contacts.tables[g];
+    table.begin_step();
+    if (in.rules.groups[g].of_pairs && !is_large_bed(in.grains))
+        admit_soon(in, g, contacts);
+    else
+        admit_all(in, g, contacts, 0, table.candidates());
+    const std::int32_t first_new = table.end_step();
+    contacts.note_loaded(in.rules, g, first_new, table.size());
 }
 
 }  // namespace grainreel

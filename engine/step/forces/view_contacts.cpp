@@ -4,8 +4,8 @@
 #include <bit>
 #include <vector>
 
+#include "engine/step/forces/contact_forces.hpp"
 #include "engine/step/forces/law_input.hpp"
-#include "engine/step/forces/new_contacts.hpp"
 
 namespace grainreel {
 
