@@ -1,9 +1,15 @@
 #include "engine/step/step_loop.hpp"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
+#include "engine/base/binary.hpp"
+#include "engine/base/error.hpp"
 #include "engine/base/flush_denormals.hpp"
+#include "engine/step/forces/view_contacts.hpp"
 #include "engine/step/lists/large_bed.hpp"
 #include "engine/step/motion/integrate.hpp"
 
@@ -207,6 +213,108 @@ std::array<double, kCosts> StepLoop::cost_shares() const {
     }
     for (double& share : shares) share /= all;
     return shares;
+}
+
+// What the step loop shows of its contacts, and what it saves.
+
+void StepLoop::visit_contacts(std::int64_t at_step,
+                              const std::function<void(const ContactView&)>& visit) const {
+    WallState walls;
+    const Pose pose = around_.motion.at(at_step);
+    walls.set(around_, pose, pose, 0);
+    const ForceInput in{rules_, grains_, walls, around_.glued, around_.meshes, {}};
+    std::vector<ContactView> late;
+    const auto keep = [&](const ContactView& seen) { late.push_back(seen); };
+    for (std::size_t g = 0; g < rules_.groups.size(); ++g) {
+        late.clear();
+        for (int m = 0; m < team_.size(); ++m) view_contacts(in, g, lists_.contacts(m), visit, keep);
+        // Threads own stretches of the grains, so those in order are in order on any number of them.
+        std::sort(late.begin(), late.end(), [](const ContactView& a, const ContactView& b) {
+            if (a.first != b.first) return a.first < b.first;
+            if (a.second != b.second) return a.second > b.second;
+            return a.glued != b.glued ? a.glued < b.glued : a.triangle < b.triangle;
+        });
+        for (const ContactView& seen : late) visit(seen);
+    }
+}
+
+void StepLoop::save(std::ostream& out) const {
+    lists_.save(out);
+    if (traffic_.any()) write_value(out, traffic_);
+}
+
+void StepLoop::load(Bytes& in, std::int64_t at_step) {
+    lists_.load(in, around_.motion.at(at_step));
+    if (!in.failed() && in.left() > 0) read_value(in, traffic_);
+    if (in.failed() || !is_traffic_sound()) return in.fail();
+    fresh_ = false;
+}
+
+bool StepLoop::is_traffic_sound() const {
+    constexpr std::int64_t kMostIds = std::int64_t{1} << 31;
+    const Traffic& t = traffic_;
+    const auto known = [&](std::int32_t id) { return id < t.next_id; };
+    return !t.any() || (t.came >= 0 && t.left >= 0 && t.openings >= 0 && std::isfinite(t.energy_in) &&
+                        std::isfinite(t.energy_out) && std::isfinite(t.work_out) && t.next_id <= kMostIds &&
+                        (t.came == 0 || std::all_of(grains_.id.begin(), grains_.id.end(), known)));
+}
+
+void StepLoop::take_histories(const HistoryOf& history_of) {
+    constexpr std::int64_t kBefore = -1;  // walls stand as restart() had them
+    lists_.take_histories(history_of);
+    sum_loads_anew(std::vector<bool>(grains_.size(), true), kBefore);
+}
+
+// What ends a run within the step loop. Threads note it, and go on to the end of the next step.
+
+namespace {
+
+std::string text_of(const MeshFault& fault, const Clock& clock, const std::string& mesh) {
+    const Vec3& x = fault.position;
+    const std::string where =
+        fmt::format("step {} ({:.6g} s): grain {} at ({:.4g}, {:.4g}, {:.4g}) m", fault.step,
+                    clock.time(fault.step), fault.grain, x.x(), x.y(), x.z());
+    if (fault.kind == MeshFault::Kind::many_patches)
+        return fmt::format(
+            "{} touches the mesh {} at more than {} places at once; take larger grains or a mesh without "
+            "such "
+            "fine folds",
+            where, mesh, kMostPatches);
+    return fmt::format(
+        "{} went through the mesh {} (its centre came to triangle {}); take a smaller run.step or a larger "
+        "contact.wall.stiffness",
+        where, mesh, fault.triangle);
+}
+
+}  // namespace
+
+// Histories hold the number of a triangle as one of their own numbers.
+void StepLoop::check_meshes() const {
+    constexpr std::int32_t kMostInFloats = 1 << 24;
+    GRAINREEL_CHECK(rules_.group_of_mesh.size() >=
+                    around_.meshes.size() * static_cast<std::size_t>(rules_.species));
+    for (std::size_t m = 0; m < around_.meshes.size(); ++m) {
+        const std::int32_t triangles = around_.meshes[m].surface->size();
+        for (std::int32_t s = 0; s < rules_.species && triangles > kMostInFloats; ++s)
+            if (rules_.groups[rules_.group_of(static_cast<std::int32_t>(m), s)].number_size() ==
+                sizeof(float))
+                throw UserError(
+                    fmt::format("the mesh {} has {} triangles, and with run.precision = \"mixed\" a mesh may "
+                                "have at most {}; "
+                                "take run.precision = \"full\" or a coarser mesh",
+                                around_.meshes[m].name, triangles, kMostInFloats));
+    }
+}
+
+// The earliest fault, whatever the threads; of one step that of the grain with the lowest id.
+void StepLoop::end_with_fault() const {
+    const MeshFault* first = nullptr;
+    for (int m = 0; m < team_.size(); ++m) {
+        const auto& fault = lists_.contacts(m).fault;
+        if (fault && (!first || std::tie(fault->step, fault->grain) < std::tie(first->step, first->grain)))
+            first = &*fault;
+    }
+    if (first) throw RunError(text_of(*first, clock_, around_.meshes[first->mesh].name));
 }
 
 }  // namespace grainreel
