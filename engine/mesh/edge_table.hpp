@@ -1,7 +1,9 @@
 // The edges of a mesh, each with all sides of triangles that lie on it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -47,5 +49,40 @@ inline std::int32_t begin_of(const TriangleMesh& mesh, std::int32_t side) {
 inline std::int32_t end_of(const TriangleMesh& mesh, std::int32_t side) {
     return mesh.triangles[static_cast<std::size_t>(side / 3)][static_cast<std::size_t>((side + 1) % 3)];
 }
+
+// Sets of numbers that are joined step by step.
+
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+
+    // The lowest number of the set.
+    std::int32_t root(std::int32_t i) {
+        while (parent(i) != i) {
+            parent(i) = parent(parent(i));
+            i = parent(i);
+        }
+        return i;
+    }
+    // Whether they were apart.
+    bool join(std::int32_t a, std::int32_t b) {
+        a = root(a);
+        b = root(b);
+        parent(std::max(a, b)) = std::min(a, b);
+        return a != b;
+    }
+
+  private:
+    std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
+    std::vector<std::int32_t> parent_;
+};
+
+// Which parts of a surface bound a solid.
+
+// For each triangle, whether its part (what hangs together by edges) is closed and consistently wound: each
+// edge is run through as often one way as the other. Such a part has an inside, and rays tell it.
+std::vector<char> in_closed_part(const TriangleMesh& mesh);
 
 }  // namespace grainreel

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "engine/mesh/closed_parts.hpp"
+#include "engine/mesh/edge_table.hpp"
 #include "engine/mesh/level_section.hpp"
 #include "engine/mesh/room.hpp"
 

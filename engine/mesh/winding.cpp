@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/mesh/disjoint_sets.hpp"
+#include "engine/mesh/edge_table.hpp"
 
 namespace grainreel {
 namespace {
