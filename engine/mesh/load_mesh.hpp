@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/mesh/mesh_facts.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh/mesh_facts.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
