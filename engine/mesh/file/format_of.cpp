@@ -5,7 +5,6 @@
 
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/obj_words.hpp"
 #include "engine/mesh/file/words.hpp"
 
 namespace grainreel {

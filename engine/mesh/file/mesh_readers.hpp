@@ -6,6 +6,8 @@
 // manual, appendix B1 (1993). PLY: G. Turk, The PLY Polygon File Format (1994).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string_view>
 
@@ -26,5 +28,17 @@ TriangleMesh read_obj(const std::filesystem::path& file, std::string_view bytes)
 TriangleMesh read_ply(const std::filesystem::path& file, std::string_view bytes);
 // By the one of these that the format names.
 TriangleMesh read_mesh(MeshFormat format, const std::filesystem::path& file, std::string_view bytes);
+
+// The words with which a line of an OBJ file can begin.
+
+inline bool is_obj_word(std::string_view word) {
+    static constexpr std::array<std::string_view, 42> words{
+        "v",     "vt",    "vn",   "vp",     "f",        "fo",       "l",      "p",          "g",
+        "o",     "s",     "mg",   "mtllib", "usemtl",   "usemap",   "maplib", "cstype",     "deg",
+        "bmat",  "step",  "curv", "curv2",  "surf",     "parm",     "trim",   "hole",       "scrv",
+        "sp",    "end",   "con",  "bevel",  "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj",
+        "ctech", "stech", "call", "csh",    "bsp",      "bzp"};
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 }  // namespace grainreel
