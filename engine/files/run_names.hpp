@@ -8,7 +8,7 @@ namespace grainreel {
 // Frames that a run handed out on its way, a film's pictures for one, in the format of trajectory.nc: frame k
 // is the k-th of them.
 inline constexpr const char* kFilmMoments = "film_moments.nc";
-// Key moments of a run (engine/run/driver/key_moments.hpp): grains in the format of trajectory.nc, contacts
+// Key moments of a run (engine/run/driver/agenda.hpp): grains in the format of trajectory.nc, contacts
 // in that of contacts.nc, whose `frame` counts the frames of the former.
 inline constexpr const char *kKeyMoments = "key_moments.nc", *kKeyContacts = "key_contacts.nc";
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "engine/plan/field_times.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/plan/rhythm.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -52,5 +54,15 @@ class Agenda {
     std::int64_t at_;  // steps below are done with
     bool begins_ = true;
 };
+
+// Key moments of a run: those of which it keeps all contacts with their forces (key_moments.nc,
+// key_contacts.nc), for its page. The start, the end and the two periods before it, times that somebody
+// names, and some in between.
+
+// Their steps, from `first` to the plan's last. named: s of simulated time, such as those at which captions
+// of a film begin. The more grains, the fewer, so that both files together take 40 MB or so; none where a
+// single moment takes more.
+std::set<std::int64_t> key_steps(const Scene& scene, const Plan& plan, std::int64_t first,
+                                 const std::vector<double>& named);
 
 }  // namespace grainreel

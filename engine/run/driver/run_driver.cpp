@@ -11,7 +11,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/run/driver/key_moments.hpp"
+#include "engine/run/driver/agenda.hpp"
 #include "engine/run/packings/packing_cache.hpp"
 #include "engine/scene/file/scene_file.hpp"
 #include "engine/scene/text/comments.hpp"

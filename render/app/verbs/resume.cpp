@@ -16,7 +16,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/run/driver/key_moments.hpp"
+#include "engine/run/driver/agenda.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/run/resume/accepted_changes.hpp"
