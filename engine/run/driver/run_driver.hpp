@@ -17,7 +17,7 @@
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/driver/checkpoint_pace.hpp"
 #include "engine/run/driver/first_failure.hpp"
-#include "engine/run/driver/frame_wishes.hpp"
+#include "engine/run/driver/kept_moments.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/driver/stage_times.hpp"
