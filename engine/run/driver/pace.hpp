@@ -3,8 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace grainreel {
 
@@ -39,6 +43,78 @@ class RecentRate {
   private:
     static constexpr double memory = 2;  // s
     double work_ = 0, seconds_ = 0;
+};
+
+// Wall time by stage of a run.
+
+class Stopwatch {
+  public:
+    double seconds() const { return std::chrono::duration<double>(Watch::now() - start_).count(); }
+
+  private:
+    using Watch = std::chrono::steady_clock;
+    Watch::time_point start_ = Watch::now();
+};
+
+class StageTimes {
+  public:
+    void add(const std::string& stage, double seconds) {
+        for (auto& [name, sum] : sums_) {
+            if (name == stage) {
+                sum += seconds;
+                return;
+            }
+        }
+        sums_.emplace_back(stage, seconds);
+    }
+
+    // Adds the time that the scope of the returned object takes, also when an exception ends it.
+    auto during(std::string stage) {
+        struct Timer {
+            StageTimes& times;
+            std::string stage;
+            Stopwatch watch{};
+            ~Timer() { times.add(stage, watch.seconds()); }
+        };
+        return Timer{*this, std::move(stage)};
+    }
+
+    double of(const std::string& stage) const {
+        for (const auto& [name, sum] : sums_) {
+            if (name == stage) return sum;
+        }
+        return 0;
+    }
+
+    const std::vector<std::pair<std::string, double>>& all() const { return sums_; }
+
+  private:
+    std::vector<std::pair<std::string, double>> sums_;  // in order of first use
+};
+
+// When a run writes its checkpoints.
+
+// The next one 2 s after the first, then after 4 s, 8 s, ... 30 s: what a killed run loses is never much more
+// than what it has done. Those of the ring come beside them. A checkpoint of a million grains takes its time;
+// so all together never cost more than a hundredth of the run.
+class CheckpointPace {
+  public:
+    // After one that took so long to write, s.
+    void saved(double cost) {
+        interval_ = std::min(longest, 2 * interval_);
+        cost_ = cost;
+        since_ = Stopwatch();
+    }
+    bool due() const { return due(since_.seconds()); }
+    // So long after the last one.
+    bool due(double seconds) const { return seconds > std::max(interval_, share * cost_); }
+    // Whether one more costs no more than it may.
+    bool affordable() const { return since_.seconds() > share * cost_; }
+
+  private:
+    static constexpr double longest = 30, share = 100;
+    double interval_ = 1, cost_ = 0;  // s, of wall time
+    Stopwatch since_;
 };
 
 }  // namespace grainreel

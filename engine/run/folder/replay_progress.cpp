@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 
 namespace grainreel {
 

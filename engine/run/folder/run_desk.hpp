@@ -7,7 +7,7 @@
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/driver/first_failure.hpp"
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/app/report/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"

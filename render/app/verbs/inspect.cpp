@@ -19,7 +19,7 @@
 #include "engine/questions/mean_answer.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/steadiness.hpp"
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/replay_progress.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/inspect/print_answer.hpp"

@@ -11,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/handover/back/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/progress.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/camera_file.hpp"

@@ -12,7 +12,7 @@
 #include "engine/base/team.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/files/folder_lock.hpp"
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/app/check/study_estimate.hpp"
 #include "render/app/options/option_groups.hpp"

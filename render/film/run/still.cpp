@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/questions/asked_moment.hpp"
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/replay_progress.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/production/picture_files.hpp"

@@ -1,4 +1,4 @@
-#include "engine/run/driver/checkpoint_pace.hpp"
+#include "engine/run/driver/pace.hpp"
 
 #include <gtest/gtest.h>
 

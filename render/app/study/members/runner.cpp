@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/run/driver/stage_times.hpp"
+#include "engine/run/driver/pace.hpp"
 #include "render/app/study/members/child.hpp"
 
 namespace grainreel {
