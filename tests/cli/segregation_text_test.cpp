@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "engine/run/driver/late_means.hpp"
+#include "engine/run/driver/run_files.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/made_frame.hpp"
 
