@@ -13,9 +13,9 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/text.hpp"
 #include "engine/base/text_file.hpp"
 
 namespace grainreel {

@@ -11,10 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/no_value.hpp"
 

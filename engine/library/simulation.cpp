@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/nearest_name.hpp"
+#include "engine/base/text.hpp"
 #include "engine/library/own_law.hpp"
 #include "engine/run/driver/useful_threads.hpp"
 #include "engine/run/simulation/simulation.hpp"

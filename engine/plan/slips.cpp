@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/warnings.hpp"
 

@@ -9,8 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_name.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/questions/dimensions.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_name.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/interval.hpp"

@@ -12,9 +12,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_name.hpp"
-#include "engine/base/shell_word.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/version.hpp"
 #include "render/app/verbs/verbs.hpp"

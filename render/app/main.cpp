@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/report/reporter.hpp"
 #include "render/app/report/result.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/text/fitting_unit.hpp"
 #include "render/scene/grain_values.hpp"
 

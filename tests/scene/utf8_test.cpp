@@ -1,5 +1,5 @@
 // Text from outside: what is UTF-8, and that a scene with any text in it can be read again.
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/base/error.hpp"
-#include "engine/base/shell_word.hpp"
+#include "engine/base/text.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/print/curve.hpp"
 #include "render/app/study/page.hpp"

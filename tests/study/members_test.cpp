@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/base/file_name_part.hpp"
+#include "engine/base/text.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/study/study_text.hpp"

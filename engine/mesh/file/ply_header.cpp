@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/words.hpp"
 

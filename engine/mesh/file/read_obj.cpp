@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 #include "engine/mesh/file/words.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 #include "engine/mesh/file/ply_header.hpp"

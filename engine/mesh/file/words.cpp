@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 namespace {

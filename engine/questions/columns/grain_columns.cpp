@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_name.hpp"
+#include "engine/base/text.hpp"
 #include "engine/questions/columns/touches.hpp"
 #include "engine/questions/dimensions.hpp"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/replay/replay.hpp"

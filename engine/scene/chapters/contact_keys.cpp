@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/contact_table.hpp"
 #include "engine/scene/chapters/wall_grain_keys.hpp"

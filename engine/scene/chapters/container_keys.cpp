@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/mesh_files.hpp"

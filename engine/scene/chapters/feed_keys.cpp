@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/base/decimals.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/bound_key.hpp"

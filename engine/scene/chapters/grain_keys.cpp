@@ -1,7 +1,7 @@
 // The keys of [[grain]].
 #include <fmt/format.h>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"

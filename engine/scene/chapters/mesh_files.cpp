@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/mesh/load_mesh.hpp"
 
 namespace grainreel {

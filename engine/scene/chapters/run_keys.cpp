@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/also_formats.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"

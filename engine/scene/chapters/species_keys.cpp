@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/table_reader.hpp"
 #include "engine/scene/chapters/wall_grain_keys.hpp"

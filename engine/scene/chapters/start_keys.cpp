@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 

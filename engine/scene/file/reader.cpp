@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/table_reader.hpp"
 #include "engine/scene/drive/shorten.hpp"

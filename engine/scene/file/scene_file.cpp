@@ -8,7 +8,7 @@
 #include <cerrno>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
 
 namespace grainreel {

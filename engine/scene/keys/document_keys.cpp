@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/key_path.hpp"
 

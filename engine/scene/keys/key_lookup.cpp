@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/nearest_name.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/base/nearest_name.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,6 +1,6 @@
 #include "engine/scene/text/assignment.hpp"
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 namespace {

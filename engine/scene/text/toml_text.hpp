@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/plan/plan.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"

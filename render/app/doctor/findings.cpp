@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "engine/base/shell_word.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/lab/bench/lattice_speed.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "engine/run/packings/packing_cache.hpp"

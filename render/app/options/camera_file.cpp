@@ -6,8 +6,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/text.hpp"
 #include "engine/base/text_file.hpp"
-#include "engine/base/utf8.hpp"
 #include "render/app/options/option_groups.hpp"
 
 namespace grainreel {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/options/number_range.hpp"
 #include "render/app/options/option_groups.hpp"

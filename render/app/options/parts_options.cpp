@@ -7,8 +7,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/base/shell_word.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "render/app/options/option_groups.hpp"
 
 namespace grainreel {

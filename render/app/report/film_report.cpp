@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "render/app/report/result.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "render/app/report/progress_text.hpp"
 #include "render/app/report/stop_signal.hpp"
 

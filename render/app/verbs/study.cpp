@@ -8,8 +8,8 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/base/shell_word.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/base/text_file.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/run/driver/pace.hpp"

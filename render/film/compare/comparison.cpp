@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/compare/vary.hpp"

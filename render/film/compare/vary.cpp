@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/units.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/drawn_part.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/codec/join_films.hpp"

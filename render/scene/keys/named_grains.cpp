@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,7 +1,7 @@
 // The keys of [[film.plot]], [film.arrows], [film.streamlines] and [film.trails].
 #include <fmt/format.h>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/grain_values.hpp"
 #include "render/scene/keys/film_keys.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive/shorten.hpp"
 #include "engine/scene/keys/bound_key.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/keys/film_keys.hpp"
 #include "render/scene/wall_values.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/dumps/dump_box.hpp"
 #include "engine/mesh/file/words.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {

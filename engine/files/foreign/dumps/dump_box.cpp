@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/mesh/file/words.hpp"
 
 namespace grainreel {

@@ -6,9 +6,8 @@
 #include <memory>
 #include <mutex>
 
-#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/bytes/file_bytes.hpp"
 #include "engine/files/foreign/dumps/grain_checks.hpp"
 #include "engine/files/foreign/dumps/growth.hpp"

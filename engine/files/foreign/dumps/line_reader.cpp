@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "engine/base/byte_order_mark.hpp"
+#include "engine/base/text.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {

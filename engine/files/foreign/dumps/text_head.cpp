@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/dumps/dump_box.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/words.hpp"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/dumps/last_row.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 

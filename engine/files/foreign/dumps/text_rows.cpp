@@ -7,7 +7,7 @@
 #include <map>
 #include <string_view>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/dumps/grain_checks.hpp"
 #include "engine/files/foreign/numbers/decimal.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"

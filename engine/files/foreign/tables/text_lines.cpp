@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 

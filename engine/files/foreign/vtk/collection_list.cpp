@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/named_file.hpp"
 #include "engine/files/foreign/vtk/vtk_fault.hpp"

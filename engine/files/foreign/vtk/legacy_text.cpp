@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/vtk/vtk_fault.hpp"
 #include "engine/mesh/file/words.hpp"
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {

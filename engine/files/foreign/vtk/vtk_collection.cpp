@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/collection_list.hpp"
 #include "engine/files/foreign/vtk/vtk_fault.hpp"

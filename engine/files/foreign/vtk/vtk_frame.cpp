@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/vtk/vtk_columns.hpp"
 #include "engine/files/foreign/vtk/vtk_surface.hpp"
 #include "engine/files/foreign/vtk/vtk_walls.hpp"

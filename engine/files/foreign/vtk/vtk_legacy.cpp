@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/legacy_text.hpp"
 #include "engine/files/foreign/vtk/vtk_fault.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/plain_file.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/named_file.hpp"
 #include "engine/files/foreign/vtk/vtk_fault.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/base/plain_file.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/named_file.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"

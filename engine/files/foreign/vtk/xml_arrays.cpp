@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/file_name_part.hpp"
+#include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/file/kept_files.hpp"

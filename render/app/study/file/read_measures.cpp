@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "render/app/study/file/read_parts.hpp"

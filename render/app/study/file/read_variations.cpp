@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "render/app/study/file/read_parts.hpp"
 #include "render/app/study/file/values.hpp"
 #include "render/scene/read_scene.hpp"

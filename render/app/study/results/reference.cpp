@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/byte_order_mark.hpp"
 #include "engine/base/error.hpp"
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/file/scene_file.hpp"
 
 namespace grainreel {

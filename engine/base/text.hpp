@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace grainreel {
 
@@ -35,5 +36,36 @@ std::string message_text(std::string_view text);
 
 // "\"Gr\\xf6sse\" is not UTF-8 at byte 3, 0xf6" for text that is not; empty for text that is.
 std::string complaint_of_utf8(std::string_view text);
+
+// The mark that spreadsheets put before a table in UTF-8 ("CSV UTF-8").
+
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+// Takes it off the front of a text or of its first line.
+inline void drop_byte_order_mark(std::string& text) {
+    if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+}
+inline void drop_byte_order_mark(std::string_view& text) {
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+}
+
+// Which name somebody meant who mistyped one.
+
+// The nearest of `names` to `word`, by insertions, deletions, substitutions and swaps of neighbours
+// (Damerau's distance). Empty when none is near: more than two slips, and more than a third of the word.
+std::optional<std::string> nearest_name(std::string_view word, const std::vector<std::string>& names);
+
+// Words for a POSIX shell.
+
+// A word as a shell needs it typed: in single quotes where it has anything but letters, digits and harmless
+// signs.
+std::string shell_word(const std::string& word);
+// Several, with spaces between them.
+std::string shell_words(const std::vector<std::string>& words);
+
+// Names of things as names of files.
+
+// Text as a part of a file's name: letters, digits, "-", "." and "_" alone, at most `most` of them.
+std::string file_name_part(const std::string& text, std::size_t most = 60);
 
 }  // namespace grainreel

@@ -1,10 +1,12 @@
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cctype>
+#include <numeric>
 
 namespace grainreel {
+
 namespace {
 
 bool follows(std::string_view text, std::size_t at) {
@@ -137,6 +139,61 @@ std::string complaint_of_utf8(std::string_view text) {
     if (!bad) return "";
     return fmt::format("\"{}\" is not UTF-8 at byte {}, 0x{:02x}", excerpt(text), *bad + 1,
                        static_cast<unsigned char>(text[*bad]));
+}
+
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+    std::iota(above.begin(), above.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({above[j] + 1, row[j - 1] + 1, substituted});
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        std::swap(before, above);
+        std::swap(above, row);
+    }
+    return above[b.size()];
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_name(std::string_view word, const std::vector<std::string>& names) {
+    const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
+        return edit_distance(word, a) < edit_distance(word, b);
+    });
+    const std::size_t most = std::max<std::size_t>(2, word.size() / 3);
+    if (nearest == names.end() || edit_distance(word, *nearest) > most) return std::nullopt;
+    return *nearest;
+}
+
+std::string shell_word(const std::string& word) {
+    const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string result = "'";
+    for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
+    return result + "'";
+}
+
+std::string shell_words(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+    return line;
+}
+
+std::string file_name_part(const std::string& text, std::size_t most) {
+    std::string name;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = byte < 0x80 && (std::isalnum(byte) || c == '-' || c == '.' || c == '_');
+        if (c != ' ') name += plain ? c : '-';
+    }
+    if (name.empty() || name.front() == '.') name.insert(0, 1, '_');
+    return name.substr(0, most);
 }
 
 }  // namespace grainreel
