@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/folder/run_desk.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "engine/run/folder/run_request.hpp"
 #include "engine/run/folder/side_work.hpp"
 

@@ -2,12 +2,48 @@
 // whoever runs a scene decides where the words go.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "engine/files/log.hpp"
-#include "engine/run/folder/progress.hpp"
+#include "engine/files/run_folder.hpp"
+#include "engine/files/run_json.hpp"
+#include "engine/run/driver/first_failure.hpp"
+#include "engine/run/driver/pace.hpp"
+#include "engine/run/replay/replay.hpp"
 
 namespace grainreel {
+
+// How far a run has come.
+
+struct Progress {
+    enum class Stage {
+        growing,
+        raining,
+        settling,
+        vibrating,
+        charting,
+        timing,
+        drawing,
+        studying,
+        replaying,
+        paging,
+        exporting
+    };
+    Stage stage = Stage::growing;
+    double done = 0;                              // of this stage, 0 to 1
+    std::string what;                             // while charting, timing or studying
+    double time = 0, end = 0;                     // s simulated, while vibrating
+    double particle_steps_per_second = 0;         // 0: not known yet
+    std::int64_t frames = 0, frames_planned = 0;  // of the film; planned 0: no film
+    double elapsed = 0;                           // s of wall time since the run began
+    double remaining = -1;                        // s of wall time; negative: not known yet
+};
+
+// "0.4 s", "45 s", "1 min 05 s", "2 h 03 min".
+std::string duration_text(double seconds);
 
 class RunListener {
   public:
@@ -72,6 +108,26 @@ class LoggingListener final : public RunListener {
   private:
     RunListener& to_;
     RunLog* log_ = nullptr;
+};
+
+// How far a replay has come, for whoever waits for the moment.
+
+// Tells `tell` once the replay has gone on for a second, with the time that is left. It never stops the
+// replay.
+ReplayWatcher replay_progress(std::function<void(const Progress&)> tell);
+
+// What lies at hand for everybody who works on one run's folder.
+
+struct RunDesk {
+    explicit RunDesk(RunListener& to) : listener(to) {}
+
+    LoggingListener listener;
+    std::optional<RunFolder> folder;  // once it is made
+    std::optional<RunLog> log;        // once the folder is made
+    RunRecord record;                 // run.json
+    StageTimes times;
+    Stopwatch watch;  // since the run began
+    FirstFailure failure;
 };
 
 }  // namespace grainreel

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/run/folder/progress.hpp"
+#include "engine/run/folder/listener.hpp"
 
 namespace grainreel {
 

@@ -16,7 +16,7 @@
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/run/folder/progress.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"

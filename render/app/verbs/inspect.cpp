@@ -20,7 +20,7 @@
 #include "engine/questions/questions.hpp"
 #include "engine/questions/steadiness.hpp"
 #include "engine/run/driver/pace.hpp"
-#include "engine/run/folder/replay_progress.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/inspect/print_answer.hpp"
 #include "render/app/options/option_groups.hpp"

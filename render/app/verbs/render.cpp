@@ -12,7 +12,7 @@
 #include "engine/handover/back/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
-#include "engine/run/folder/progress.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/camera_file.hpp"
 #include "render/app/options/number_range.hpp"

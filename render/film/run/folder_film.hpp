@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/run/folder/run_desk.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "engine/run/folder/side_work.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/request/film_request.hpp"

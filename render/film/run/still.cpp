@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/run/driver/pace.hpp"
-#include "engine/run/folder/replay_progress.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "render/film/production/caption_holds.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/request/thread_plan.hpp"
