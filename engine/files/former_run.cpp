@@ -15,7 +15,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/files/run_names.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/measure/measure_table.hpp"
 #include "engine/measure/measures.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/state/traffic.hpp"
 
 namespace grainreel {

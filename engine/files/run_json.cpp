@@ -14,7 +14,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/text_file.hpp"
 
 namespace grainreel {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/mesh_copies.hpp"
 #include "engine/handover/deck_parts.hpp"
 #include "engine/handover/lammps_deck.hpp"

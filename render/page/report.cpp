@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "render/page/embed/html.hpp"
 #include "render/page/facts/differences.hpp"
 #include "render/page/facts/run_names.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/bench/peers_bed.hpp"
 #include "tests/peers/lammps_hooke-inl.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/former_run.hpp"
 #include "engine/files/mesh_copies.hpp"
 #include "engine/files/run_names.hpp"

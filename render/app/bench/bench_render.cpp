@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/lab/bench/peers_bed.hpp"
 #include "engine/lab/bench/settled_bed.hpp"
 #include "render/app/report/result.hpp"

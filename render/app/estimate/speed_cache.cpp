@@ -9,8 +9,8 @@
 
 #include "build_info.hpp"
 #include "engine/base/cache_folder.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/vector/instructions.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/print/drawn_file.hpp"
 

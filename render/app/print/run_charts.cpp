@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/lab/chart/gnuplot.hpp"

@@ -6,7 +6,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/options/option_groups.hpp"

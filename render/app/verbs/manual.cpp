@@ -8,8 +8,8 @@
 
 #include "build_info.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
-#include "engine/base/text_file.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/manual/man_page.hpp"
 #include "render/app/options/option_groups.hpp"

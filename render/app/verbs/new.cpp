@@ -6,8 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"

@@ -8,9 +8,9 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/scene/text/data_size.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/files/mesh_copies.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/handover/back/trim_dump.hpp"

@@ -7,7 +7,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/scene/text/comments.hpp"

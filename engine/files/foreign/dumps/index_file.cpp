@@ -15,7 +15,6 @@
 #include "engine/base/cache_folder.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/files/foreign/dumps/growth.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/world_surfaces.hpp"
 #include "engine/files/frames/writers/blender_script.hpp"

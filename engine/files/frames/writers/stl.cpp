@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/world_surfaces.hpp"
 

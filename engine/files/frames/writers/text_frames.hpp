@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/accuracy/convergence.hpp"
 #include "engine/lab/chart/accuracy/gas_drift.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"

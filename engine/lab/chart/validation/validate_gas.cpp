@@ -1,7 +1,7 @@
 // A cooling gas against Haff (1983).
 #include <fmt/format.h>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/result_table.hpp"
 #include "engine/lab/chart/validation/cooling_gas.hpp"
 #include "engine/lab/chart/validation/seed_mean.hpp"

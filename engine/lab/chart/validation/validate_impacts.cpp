@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/result_table.hpp"
 #include "engine/lab/chart/validation/kharaz.hpp"
 #include "engine/lab/chart/validation/rebound.hpp"

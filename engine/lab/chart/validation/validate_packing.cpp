@@ -1,7 +1,7 @@
 // Jammed packings against O'Hern et al. (2003), Silbert (2010) and Onoda & Liniger (1990).
 #include <fmt/format.h>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/result_table.hpp"
 #include "engine/lab/chart/validation/packing.hpp"
 #include "engine/lab/chart/validation/seed_mean.hpp"

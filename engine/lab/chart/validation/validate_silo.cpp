@@ -1,7 +1,7 @@
 // Columns in a cylinder against Janssen (1895).
 #include <fmt/format.h>
 
-#include "engine/base/text_file.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/result_table.hpp"
 #include "engine/lab/chart/validation/seed_mean.hpp"
 #include "engine/lab/chart/validation/silo.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
-#include "engine/base/text_file.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/study/results/table.hpp"
 
