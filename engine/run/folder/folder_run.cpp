@@ -1,10 +1,8 @@
 #include "engine/run/folder/folder_run.hpp"
 
-#include <sys/resource.h>
-
-#include <utility>
-
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <utility>
 
 #include "engine/base/error.hpp"
 

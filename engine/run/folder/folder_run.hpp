@@ -4,15 +4,52 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/files/run_json.hpp"
 #include "engine/run/folder/listener.hpp"
-#include "engine/run/folder/run_request.hpp"
-#include "engine/run/folder/side_work.hpp"
 
 namespace grainreel {
+
+// What is asked of a run that fills a folder.
+
+// Makes the page of the run in a folder, whose other files are closed, and returns its file's name. go_on:
+// told the share that is done; when it says false the page is left out, and nothing is returned. Throws when
+// the page cannot be made.
+using PageMaker = std::function<std::optional<std::string>(const std::filesystem::path& folder,
+                                                           const std::function<bool(double)>& go_on)>;
+
+struct RunRequest {
+    std::optional<std::filesystem::path> out;  // new or empty; none: base and the scene's name, numbered
+    std::filesystem::path base = "output";     // of runs without `out`
+    bool force = false;                        // a run in `out` is replaced
+    // s: packings that took so long or longer are kept in the user's cache folder, and found there; none: no
+    std::optional<double> keep_packings;
+    PageMaker page;       // none: the run leaves no page
+    std::string command;  // as typed, for run.json
+    ProgramInfo program;  // for run.json
+};
+
+// What is made in a run's folder beside the run itself, on threads of its own: a film.
+
+class SideWork {
+  public:
+    virtual ~SideWork() = default;
+    // Begun, and neither closed nor dropped.
+    virtual bool is_open() const = 0;
+    // For the sentence "stopping: finishing the film".
+    virtual const char* name() const = 0;
+    // Finishes it; in a hurry, or when the folder is gone, leaves it as it is. Notes a failure and throws
+    // nothing. Nothing happens where it is not open.
+    virtual void close() = 0;
+    // The run is put back as it was; nothing else is called afterwards.
+    virtual void drop() = 0;
+    // What run.json says of it: before it is begun, while it is open, and when it is closed.
+    virtual void describe(RunRecord& record) const = 0;
+};
 
 class FolderRun {
   public:

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/run/folder/run_request.hpp"
+#include "engine/run/folder/folder_run.hpp"
 #include "render/film/request/film_request.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -12,7 +12,7 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/driver/first_failure.hpp"
-#include "engine/run/folder/run_request.hpp"
+#include "engine/run/folder/folder_run.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/revisited_run.hpp"
 #include "render/film/sources/scene_run.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/folder/run_request.hpp"
+#include "engine/run/folder/folder_run.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/request/print_size.hpp"
 #include "render/picture/gl/provider.hpp"

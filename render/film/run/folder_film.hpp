@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/run/folder/folder_run.hpp"
 #include "engine/run/folder/listener.hpp"
-#include "engine/run/folder/side_work.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/request/film_request.hpp"
 #include "render/film/request/thread_plan.hpp"
