@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "engine/base/period_table.hpp"
+#include "engine/base/clock.hpp"
 #include "engine/scene/drive/drive_change.hpp"
 #include "engine/scene/scene.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/base/period_table.hpp"
+#include "engine/base/clock.hpp"
 
 #include <algorithm>
 #include <cmath>
