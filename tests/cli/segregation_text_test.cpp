@@ -1,5 +1,5 @@
 // The line on segregation at the end of a run.
-#include "engine/run/folder/segregation_text.hpp"
+#include "engine/run/folder/scene_folder_run.hpp"
 
 #include <gmock/gmock.h>
 
