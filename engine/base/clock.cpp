@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/smooth_step.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/displacement.hpp"

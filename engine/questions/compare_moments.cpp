@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/state/container_faces.hpp"

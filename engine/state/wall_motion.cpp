@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/smooth_step.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/plan/plan.hpp"
 #include "tests/scene/scene_text.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/segregation/big_and_small.hpp"
 #include "engine/measure/surface/surface.hpp"

@@ -1,7 +1,7 @@
 // From a moment of a run to what coarse-graining takes.
 #pragma once
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/measure/fields/field_state.hpp"
 #include "engine/measure/observer.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/grid/cells.hpp"
 

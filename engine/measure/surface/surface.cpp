@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/measure/surface/spectrum.hpp"
 
 namespace grainreel {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/state/container_faces.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/base/decimals.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/free_space.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/base/decimals.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/drive/shorten.hpp"

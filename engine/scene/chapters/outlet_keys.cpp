@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {

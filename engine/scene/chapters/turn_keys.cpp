@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/base/decimals.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 
 namespace grainreel {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"

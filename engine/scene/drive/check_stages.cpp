@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "engine/base/decimals.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
 

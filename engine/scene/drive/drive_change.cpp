@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/smooth_step.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 

@@ -1,7 +1,7 @@
 // How much of its amplitude a drive has while it grows.
 #pragma once
 
-#include "engine/base/smooth_step.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 
 namespace grainreel {

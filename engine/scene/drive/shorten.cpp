@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/base/decimals.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
 
 namespace grainreel {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/base/smooth_step.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 

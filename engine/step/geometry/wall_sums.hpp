@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/state/container_faces.hpp"
 

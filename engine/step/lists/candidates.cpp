@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/step/lists/large_bed.hpp"
 #include "engine/step/lists/near_pairs.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/base/smooth_step.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/relax.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/questions/rows_in.hpp"
 
 namespace grainreel {

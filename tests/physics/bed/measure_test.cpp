@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/random.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/measure/bed/intruder.hpp"
 #include "engine/measure/bed/solid_fraction.hpp"
 #include "engine/measure/segregation/side_walls.hpp"

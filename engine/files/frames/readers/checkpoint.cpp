@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/nearest_image.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/files/frame_faults.hpp"
 #include "engine/files/frames/clock_of.hpp"
 #include "engine/files/frames/frame_reader.hpp"
