@@ -11,7 +11,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/questions/record.hpp"
-#include "engine/run/replay/replayer.hpp"
+#include "engine/run/replay/replay.hpp"
 
 namespace grainreel {
 

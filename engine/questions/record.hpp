@@ -12,7 +12,7 @@
 #include "engine/base/clock.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/run_archive.hpp"
-#include "engine/run/replay/own_checkpoints.hpp"
+#include "engine/run/replay/replay.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -1,15 +1,19 @@
 #include "engine/run/replay/replay.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
-
-#include <fmt/format.h>
+#include <system_error>
+#include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
+#include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {
@@ -86,6 +90,97 @@ void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& w
         if (!watcher(static_cast<double>(simulation.step() - from) / static_cast<double>(step - from)))
             throw RunError("stopped before the moment was reached");
     }
+}
+
+Replayer::Replayer(std::filesystem::path run, std::vector<KeptCheckpoint> kept, int threads)
+    : run_(std::move(run)), kept_(std::move(kept)), threads_(threads) {}
+
+bool Replayer::reaches(std::int64_t step) const {
+    return !kept_.empty() && kept_.front().step <= step;
+}
+
+bool Replayer::goes_to(std::int64_t step) const {
+    return reaches(step) && std::none_of(kept_.begin(), kept_.end(),
+                                         [&](const KeptCheckpoint& one) { return one.step == step; });
+}
+
+bool Replayer::is_shortcut(std::int64_t from, std::int64_t to) const {
+    return std::any_of(kept_.begin(), kept_.end(),
+                       [&](const KeptCheckpoint& one) { return one.step > from && one.step <= to; });
+}
+
+const Simulation& Replayer::at(std::int64_t step, const ReplayWatcher& watcher) {
+    const bool goes_on =
+        simulation_ && simulation_->step() <= step && !is_shortcut(simulation_->step(), step);
+    if (goes_on) {
+        replay_on(*simulation_, step, watcher);
+    } else {
+        simulation_.reset();  // before the next one takes as much memory
+        simulation_.emplace(replayed(run_, kept_, step, threads_, watcher));
+    }
+    return *simulation_;
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kDamaged = "is damaged, or of another version of grainreel";
+
+// What a scene that an earlier version kept means today: keys that it did not know have their defaults.
+std::string meant_today(const fs::path& checkpoint, const std::string& kept) {
+    try {
+        const Scene scene = scene_of_checkpoint(checkpoint);
+        return scene_to_keep(scene, make_plan(scene));
+    } catch (const UserError&) {
+        return kept;
+    }
+}
+
+std::string value_text(const std::string& value) {
+    return value.empty() ? "not there" : excerpt(value);
+}
+
+// Why a checkpoint is not of the run with this scene; empty: it is.
+std::string why_not(const KeptCheckpoint& one, const std::string& today,
+                    const std::vector<AcceptedKey>& accepted) {
+    const std::optional<CheckpointLabel> label = label_of_checkpoint(one.file);
+    if (!label) return kDamaged;
+    if (label->step != one.step)
+        return fmt::format("is of another moment, step {}, than its name says", label->step);
+    std::vector<KeyDifference> different = differences_of_future(label->scene, today, one.step, accepted);
+    if (!different.empty())
+        different = differences_of_future(meant_today(one.file, label->scene), today, one.step, accepted);
+    if (different.empty()) return "";
+    const KeyDifference& first = different.front();
+    return fmt::format("is of another run: '{}' is {} there, but {} in scene.toml", excerpt(first.key),
+                       value_text(first.then), value_text(first.now));
+}
+
+}  // namespace
+
+OwnCheckpoints own_checkpoints(const fs::path& run, const Scene& scene) {
+    OwnCheckpoints own;
+    const auto pass_over = [&](const fs::path& file, const std::string& why) {
+        own.news.push_back(fmt::format("{}: {}; it is passed over", file.string(), why));
+    };
+    std::vector<KeptCheckpoint> all = kept_checkpoints(run);
+    std::error_code ignored;
+    if (const fs::path last = run / "checkpoint.grs"; fs::exists(last, ignored) && !label_of_checkpoint(last))
+        pass_over(last, kDamaged);
+    if (all.empty()) return own;
+    const std::string today = scene_to_keep(scene, plan_of_run(scene, run));
+    const std::vector<AcceptedKey> accepted = accepted_in_run_json(run / "run.json");
+    for (KeptCheckpoint& one : all) {
+        const std::string why = why_not(one, today, accepted);
+        why.empty() ? own.kept.push_back(std::move(one)) : pass_over(one.file, why);
+    }
+    // It says how far the run has come.
+    while (!own.kept.empty() && !is_whole_checkpoint(own.kept.back().file)) {
+        pass_over(own.kept.back().file, kDamaged);
+        own.kept.pop_back();
+    }
+    return own;
 }
 
 }  // namespace grainreel

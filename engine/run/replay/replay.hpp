@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -36,5 +38,41 @@ Simulation replayed(const std::filesystem::path& run, const std::vector<KeptChec
 
 // Goes on to a later step. Throws RunError.
 void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher);
+
+// A run on disk brought back to one step after the other. Steps that rise cost no more than the run itself
+// did from the first to the last of them: the engine goes on from one to the next.
+
+class Replayer {
+  public:
+    // kept: the run's checkpoints by rising step. run: named in messages.
+    Replayer(std::filesystem::path run, std::vector<KeptCheckpoint> kept, int threads);
+
+    // Whether there is a checkpoint of the step, or before it.
+    bool reaches(std::int64_t step) const;
+    // Whether the engine has a way to go to it from the checkpoint before.
+    bool goes_to(std::int64_t step) const;
+    // The run at that step; good until the next call. Throws as replayed() does.
+    const Simulation& at(std::int64_t step, const ReplayWatcher& watcher);
+
+  private:
+    // Whether a checkpoint lies between the two, or at the second.
+    bool is_shortcut(std::int64_t from, std::int64_t to) const;
+
+    std::filesystem::path run_;
+    std::vector<KeptCheckpoint> kept_;
+    int threads_;
+    std::optional<Simulation> simulation_;
+};
+
+// The checkpoints of a run's folder that are of this run: with its scene, so far as that decides the future,
+// and at the step that they are named by. A file from elsewhere leads nowhere that this run has been.
+
+struct OwnCheckpoints {
+    std::vector<KeptCheckpoint> kept;  // by rising step; the last one is whole
+    std::vector<std::string> news;     // of those that are passed over: which, and why
+};
+
+// scene: that of the run's folder. What was changed on the run's way (`resume --accept`) is in its run.json.
+OwnCheckpoints own_checkpoints(const std::filesystem::path& run, const Scene& scene);
 
 }  // namespace grainreel
