@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "engine/base/cache_folder.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/files/foreign/series/file_groups.hpp"
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/run/import/import_run.hpp"

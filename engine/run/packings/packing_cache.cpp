@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "engine/base/cache_folder.hpp"
+#include "engine/base/program.hpp"
 
 namespace grainreel {
 

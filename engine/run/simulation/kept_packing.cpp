@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/build_identity.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/plan/resolved_scene.hpp"

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "build_info.hpp"
-#include "engine/base/cache_folder.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/vector/instructions.hpp"
 

@@ -12,9 +12,9 @@
 #include <system_error>
 
 #include "engine/base/binary.hpp"
-#include "engine/base/cache_folder.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/program.hpp"
 #include "engine/files/foreign/dumps/growth.hpp"
 
 namespace grainreel {

@@ -1,13 +1,11 @@
-#include "engine/base/build_identity.hpp"
+#include "engine/base/program.hpp"
 
 #include <elf.h>
+#include <fmt/format.h>
 #include <link.h>
 #include <sys/stat.h>
-
 #include <cstring>
 #include <string_view>
-
-#include <fmt/format.h>
 
 namespace grainreel {
 
