@@ -20,7 +20,7 @@
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
-#include "engine/run/resume/ready_files.hpp"
+#include "engine/run/resume/kept_files.hpp"
 #include "engine/run/resume/resume_point.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene.hpp"
