@@ -1,12 +1,11 @@
 #include "engine/run/resume/resume_point.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/run_names.hpp"
@@ -123,6 +122,127 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::pa
     }
     if (mistake) throw *mistake;
     refuse(run, limits, kept.front().step);
+}
+
+namespace {
+
+bool ends_in(const std::string& key, const std::string& name) {
+    return key.size() > name.size() && key.ends_with("." + name);
+}
+
+bool is_of_drive(const std::string& key) {
+    return key == "drive.amplitude";
+}
+
+bool is_friction(const std::string& key) {
+    return key.starts_with("contact.pair[") && (ends_in(key, "friction") || ends_in(key, "rolling_friction"));
+}
+
+// Whether the user meant this key of the resolved scene.
+bool is_named(const std::string& key, const std::vector<std::string>& accepted) {
+    return std::any_of(accepted.begin(), accepted.end(), [&](const std::string& name) {
+        if (name == key) return true;
+        if (name == "drive.g_level") return key == "drive.amplitude";
+        if (name == "contact.friction") return is_friction(key) && ends_in(key, "friction");
+        if (name == "contact.rolling_friction") return is_friction(key) && ends_in(key, "rolling_friction");
+        return false;
+    });
+}
+
+void check_can_change(const std::string& key) {
+    if (is_of_drive(key) || is_friction(key)) return;
+    throw UserError(
+        fmt::format("--accept: '{}' cannot change while a run goes on; these can: drive.g_level, "
+                    "drive.amplitude, contact.friction, contact.rolling_friction",
+                    key));
+}
+
+}  // namespace
+
+std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkpoint, const Scene& scene,
+                                             const Plan& plan, const std::vector<std::string>& accepted) {
+    std::vector<AcceptedChange> changes;
+    const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
+    if (!label) return changes;
+    for (const KeyDifference& difference : deciding_differences(label->scene, scene_to_keep(scene, plan))) {
+        check_can_change(difference.key);
+        if (!is_named(difference.key, accepted))
+            throw UserError(fmt::format(
+                "{}: '{}' is {}, but it was {} in this run; put back what it was, or give --accept {}",
+                scene.where(difference.key), difference.key,
+                difference.now.empty() ? "not there" : difference.now,
+                difference.then.empty() ? "not there" : difference.then, difference.key));
+        changes.push_back({difference.key, difference.then, difference.now});
+    }
+    for (const std::string& name : accepted)
+        if (std::none_of(changes.begin(), changes.end(),
+                         [&](const AcceptedChange& change) { return is_named(change.key, {name}); }))
+            throw UserError(
+                fmt::format("--accept: '{}' is what it was in this run, or is no key that can "
+                            "change; give a value, as in drive.g_level=3",
+                            name));
+    return changes;
+}
+
+Assignments undone(const std::vector<AcceptedChange>& changes) {
+    Assignments sets;
+    for (const AcceptedChange& change : changes)
+        sets.push_back({fmt::format("{}={}", change.key, change.then), "--accept"});
+    return sets;
+}
+
+Drive drive_changed_at(double time, const Scene& before, const Scene& after,
+                       const std::vector<AcceptedChange>& changes) {
+    const bool changes_drive = std::any_of(
+        changes.begin(), changes.end(), [](const AcceptedChange& change) { return is_of_drive(change.key); });
+    if (!changes_drive) return after.drive;
+    Drive drive = before.drive;
+    if (!drive.stages.empty() && drive.stages.front().from <= time)
+        throw UserError(fmt::format(
+            "--accept: a stage of the drive began at {:.6g} s; change the stages in scene.toml that come "
+            "after {:.6g} s",
+            drive.stages.front().from, time));
+    DriveStage stage;
+    stage.from = time;
+    stage.frequency = after.drive.frequency;
+    stage.amplitude = after.drive.amplitude;
+    drive.stages.insert(drive.stages.begin(), stage);
+    return drive;
+}
+
+// "Γ" and friction are what people know; of pairs that change alike it says so once.
+std::string words_of_changes(const Scene& before, const Scene& after,
+                             const std::vector<AcceptedChange>& changes) {
+    if (changes.empty()) return "";
+    std::vector<std::string> parts;
+    const auto add = [&](const std::string& part) {
+        if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+    };
+    for (const AcceptedChange& change : changes) {
+        if (change.key == "drive.amplitude") {
+            const double gravity = before.gravity.norm();
+            const double then = before.drive.g_level(gravity), now = after.drive.g_level(gravity);
+            if (gravity > 0 && std::abs(now - then) > 1e-6 * then)
+                add(fmt::format("Γ {:.3g} instead of {:.3g}", now, then));
+            else
+                add(fmt::format("amplitude {:.3g} mm instead of {:.3g} mm", 1e3 * after.drive.amplitude,
+                                1e3 * before.drive.amplitude));
+        } else {
+            add(fmt::format("{} {} instead of {}",
+                            ends_in(change.key, "rolling_friction") ? "rolling friction" : "friction",
+                            change.now, change.then));
+        }
+    }
+    return fmt::format("From here on: {}", fmt::join(parts, ", "));
+}
+
+void check_overlap_stays(const Scene& scene, const Plan& before, const Plan& after) {
+    const double limit = std::max(scene.run.overlap, before.expected_overlap);
+    if (after.expected_overlap <= limit * (1 + 1e-9)) return;
+    throw UserError(
+        fmt::format("--accept: grains would overlap by {:.3g} % of their diameter, and this run is made for "
+                    "{:.3g} %; shake less, or start anew from its final.csv",
+                    100 * after.expected_overlap, 100 * limit));
 }
 
 }  // namespace grainreel

@@ -19,7 +19,6 @@
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/replay/replay.hpp"
-#include "engine/run/resume/accepted_changes.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/run/resume/resume_point.hpp"
 #include "engine/scene/file/reader.hpp"
