@@ -7,7 +7,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
-#include "engine/run/simulation/contact_force.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -1,8 +1,19 @@
+
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
 
+#include "engine/base/error.hpp"
+#include "engine/base/random.hpp"
 #include "engine/measure/energy/energy.hpp"
+#include "engine/run/simulation/feeder.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
+#include "engine/start/free_places.hpp"
+#include "engine/step/fed_grain.hpp"
+#include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {
 
@@ -93,6 +104,192 @@ std::size_t Simulation::grains() const {
 }
 int Simulation::threads() const {
     return impl_->team.size();
+}
+
+// What leaves a simulation: frames, measures, fields and contacts.
+
+Frame Simulation::frame() const {
+    const Impl& m = *impl_;
+    Frame f;
+    f.step = m.step;
+    f.time = m.plan.clock.time(m.step);
+    f.cycles = m.plan.clock.cycles(m.step);
+    f.phase = m.plan.clock.phase(m.step);
+    f.bodies = poses_of(m.bodies, m.around.motion.at(m.step));
+    const Grains& g = m.grains;
+    std::vector<std::int32_t> by_id(g.size());
+    std::iota(by_id.begin(), by_id.end(), 0);
+    std::sort(by_id.begin(), by_id.end(), [&](std::int32_t a, std::int32_t b) { return g.id[a] < g.id[b]; });
+    for (const std::int32_t i : by_id) {
+        f.id.push_back(g.id[i]);
+        f.species.push_back(g.species[i]);
+        f.radius.push_back(g.place[i].radius);
+        Vec3 x = g.place[i].position;
+        x.x() = wrapped(x.x(), m.around.period);
+        f.position.push_back(x);
+        f.velocity.push_back(g.motion[i].velocity);
+        f.spin.push_back(g.motion[i].spin);
+        if (!g.orientation.empty()) f.orientation.push_back(g.orientation[i]);
+    }
+    return f;
+}
+
+Moment Simulation::Impl::moment() {
+    if (observers.need_wall_sums()) wall_sums = loop->wall_sums();
+    return {scene,
+            plan.clock,
+            grains,
+            step,
+            around.gravity,
+            around.period,
+            around.motion.at(step),
+            start_energy,
+            loop->traffic(),
+            around.faces,
+            wall_sums ? &*wall_sums : nullptr,
+            &around,
+            loop.get(),
+            feeder.given()};
+}
+
+ShowContacts Simulation::Impl::contacts() const {
+    return [this](const auto& see) { loop->visit_contacts(step, see); };
+}
+
+Measures Simulation::measures() const {
+    return impl_->observers.look(impl_->moment(), impl_->contacts());
+}
+
+double Simulation::measure(const std::string& column) const {
+    return impl_->observers.look(impl_->moment(), impl_->contacts(), column);
+}
+
+const std::vector<std::string>& Simulation::measured() const {
+    return impl_->observers.names();
+}
+
+std::vector<const FieldSet*> Simulation::field_sets() const {
+    return impl_->observers.fields();
+}
+
+std::vector<FieldValues> Simulation::fields() const {
+    return impl_->observers.look_at_fields(impl_->moment(), impl_->contacts());
+}
+
+std::vector<ContactRecord> Simulation::contacts() const {
+    std::vector<ContactRecord> records;
+    impl_->loop->visit_contacts(impl_->step, [&](const ContactView& c) {
+        if (c.normal_force <= 0) return;
+        const std::int32_t second = c.second >= 0 ? impl_->grains.id[c.second] : c.second;
+        records.push_back(
+            {impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point, c.triangle});
+    });
+    // Each thread shows its own, which is no order to go by.
+    std::sort(records.begin(), records.end(), [](const ContactRecord& a, const ContactRecord& b) {
+        return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
+    });
+    return records;
+}
+
+std::vector<ContactForce> Simulation::contact_forces() const {
+    const Impl& m = *impl_;
+    const auto species = [&](std::int32_t grain) {
+        return static_cast<std::size_t>(m.grains.species[grain]);
+    };
+    std::vector<ContactForce> forces;
+    m.loop->visit_contacts(m.step, [&](const ContactView& c) {
+        const bool pair = c.second >= 0;
+        const std::int32_t mesh = -1 - c.second - static_cast<std::int32_t>(m.around.faces.size());
+        const PairPlan& law =
+            pair ? m.plan.between(species(c.first), species(c.second))
+            : mesh >= 0
+                ? m.plan.mesh[static_cast<std::size_t>(mesh) * m.scene.species.size() + species(c.first)]
+                : m.plan.wall[species(c.first)];
+        forces.push_back({m.grains.id[c.first], pair ? m.grains.id[c.second] : c.second, c.normal, c.overlap,
+                          c.normal_force, c.tangential, c.torque_on_first,
+                          pair ? c.torque_on_second : Vec3::Zero(), law.friction, c.point, c.smaller_radius,
+                          c.stored_energy, c.triangle});
+    });
+    std::sort(forces.begin(), forces.end(), [](const ContactForce& a, const ContactForce& b) {
+        return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
+    });
+    return forces;
+}
+
+namespace {
+
+constexpr double kLeastPatience = 20;  // looks
+
+// s: how long a grain may wait for a place: twice as long as it takes to fall through the container, so that
+// the one before it has had time to leave the box; and at least some looks.
+double patience(const Scene& scene, double look) {
+    const double gravity = scene.gravity.norm();
+    const double height = scene.container.height - scene.container.base();
+    const double fall = gravity > 0 ? std::sqrt(2 * height / gravity) : 0;
+    return std::max(2 * fall, kLeastPatience * look);
+}
+
+// Whether the vessel's room holds a part of the box. Grains then come in the room alone: a box may lie across
+// the walls of a vessel.
+bool reaches_into_vessel(const Scene& scene, const Feed& feed) {
+    constexpr int places = 9;  // along each axis
+    for (int at = 0; at < places * places * places; ++at) {
+        const Vec3 share = Vec3(at % places, at / places % places, at / (places * places)) / (places - 1);
+        if (scene.container.room->holds(feed.low + share.cwiseProduct(feed.high - feed.low))) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Feeder::Feeder(const Scene& scene, const Plan& plan, const Surroundings& around)
+    : scene_(scene), clock_(plan.clock), around_(around), given_(scene.feeds.size(), 0) {
+    const bool mesh = scene.container.shape == Container::Shape::mesh;
+    for (const Feed& feed : scene.feeds) into_vessel_.push_back(mesh && reaches_into_vessel(scene, feed));
+}
+
+std::int64_t Feeder::next_look(std::int64_t step) const {
+    if (given_.empty()) return std::numeric_limits<std::int64_t>::max();
+    return (step / kStepsPerLook + 1) * kStepsPerLook;
+}
+
+std::vector<NewGrain> Feeder::take(std::int64_t step, const Grains& grains) {
+    const double time = clock_.time(step);
+    std::vector<NewGrain> more;
+    for (std::size_t k = 0; k < scene_.feeds.size(); ++k) {
+        const Feed& feed = scene_.feeds[k];
+        const std::int64_t due = feed.due(time);
+        if (given_[k] >= due) continue;
+        const double largest = 0.5 * scene_.species[feed.species].diameter.largest;
+        FreePlaces free(around_, around_.motion.at(step), grains, feed.low, feed.high, largest);
+        if (into_vessel_[k])
+            free.only_where([this](const Vec3& place) { return scene_.container.room->holds(place); });
+        for (const NewGrain& other : more) free.add({other.position, other.radius});
+        for (; given_[k] < due; ++given_[k]) {
+            NewGrain grain = fed_grain(scene_, k, given_[k]);
+            Random random(scene_.run.seed, Stream::feed_places,
+                          {static_cast<std::int64_t>(k), given_[k], step});
+            const auto place = free.take(grain.radius, random);
+            if (!place) break;
+            grain.position = *place;
+            more.push_back(grain);
+        }
+        if (given_[k] < due) check_patience(k, time);
+    }
+    return more;
+}
+
+// The next grain of a feed has found no place at this time, s.
+void Feeder::check_patience(std::size_t feed, double time) const {
+    const Feed& from = scene_.feeds[feed];
+    const double waited = time - from.from - static_cast<double>(given_[feed] + 1) / from.rate;
+    if (waited <= patience(scene_, kStepsPerLook * clock_.step)) return;
+    throw RunError(fmt::format(
+        "{}: at {:.6g} s grain {} of \"{}\" has waited {:.3g} s for a place where nothing is: where they "
+        "appear it is full; lower the 'rate', end it earlier ('until', 'count'), or enlarge the box or "
+        "the container",
+        scene_.where(fmt::format("feed[{}]", feed)), time, given_[feed] + 1,
+        scene_.species[from.species].name, waited));
 }
 
 }  // namespace grainreel
