@@ -9,7 +9,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
 #include "engine/measure/energy/energy.hpp"
-#include "engine/run/simulation/feeder.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
 #include "engine/start/free_places.hpp"
 #include "engine/step/fed_grain.hpp"
