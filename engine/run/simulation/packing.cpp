@@ -1,12 +1,22 @@
 // How the grains of a simulation come to be where the drive finds them.
+
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <utility>
 
+#include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/measure/energy/energy.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
+#include "engine/mesh/load_mesh.hpp"
+#include "engine/plan/resolved_scene.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
+#include "engine/scene/file/kept_files.hpp"
+#include "engine/scene/file/writer.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/latches.hpp"
 #include "engine/start/layers.hpp"
@@ -16,6 +26,7 @@
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/start/start_file.hpp"
+#include "engine/vector/instructions.hpp"
 
 namespace grainreel {
 
@@ -162,6 +173,139 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     result.solid_fraction = solid_fraction(m.scene.container, m.grains);
     m.begin_drive();
     return result;
+}
+
+// A packing that is kept, and a run that begins with it instead of packing by itself.
+
+namespace {
+
+constexpr int kFormat = 1;  // of keys and files; another one where either changes
+
+std::string text_of(const PairPlan& p) {
+    std::string text = fmt::format(
+        "{} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {}",
+        static_cast<int>(p.model.normal), static_cast<int>(p.model.tangential), p.model.rolls,
+        static_cast<int>(p.model.precision), p.effective_mass, p.loading_stiffness, p.unloading_stiffness,
+        p.hardening, p.modulus, p.tangential_stiffness, p.tangential_ratio, p.gamma, p.restitution,
+        p.friction, p.rolling_friction, p.normal_damping, p.tangential_damping, p.damping_by_root,
+        p.tangential_damping_by_root, p.hertz_damping, p.allowed_overlap, p.attraction);
+    for (const RestitutionPoint& point : p.restitution_table)
+        text += fmt::format(" {:a}:{:a}", point.speed, point.restitution);
+    return text + "\n";
+}
+
+std::string text_of(const Plan& plan) {
+    std::string text = fmt::format(
+        "arms {} integrator {} moving {} step {:a} limits {} {} histories {} relaxes {}\n",
+        static_cast<int>(plan.arms), static_cast<int>(plan.integrator), plan.moving_walls, plan.clock.step,
+        plan.settle_steps_limit, plan.rain_steps_limit, plan.start.keeps_histories, plan.start.relaxes);
+    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.glued, &plan.mesh}) {
+        text += "contacts\n";
+        for (const PairPlan& pair : *pairs) text += text_of(pair);
+    }
+    return text;
+}
+
+bool any_own_law(const Plan& plan) {
+    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.glued, &plan.mesh})
+        for (const PairPlan& pair : *pairs)
+            if (pair.model.own != nullptr) return true;
+    return false;
+}
+
+// Radii grow from step 0 on, so they see the drive's first steps. All else comes before step 0, when what the
+// drive moves stands still; the last force of a bed that does not settle is one of step 0.
+bool sees_drive(const Scene& scene) {
+    return scene.start.method == Start::Method::layers;
+}
+
+std::string text_of(const Drive& drive, const Pose& at_begin) {
+    const auto numbers = [](const Vec3& v) { return fmt::format("{:a} {:a} {:a}", v.x(), v.y(), v.z()); };
+    return fmt::format("drive {} {} {} {}\n", drive.present, static_cast<int>(drive.moves),
+                       numbers(at_begin.offset), numbers(at_begin.velocity));
+}
+
+// Without what only shows or records the run, and without its end.
+Scene packed_part(const Scene& scene, const Plan& plan) {
+    Scene part = with_choices(scene, plan);
+    part.title.clear();
+    part.film_text.clear();
+    part.output = {};
+    part.wishes = {};
+    part.run.duration = 1;
+    part.run.threads = 0;
+    for (Species& species : part.species) species.colour_text.clear();
+    if (scene.start.method == Start::Method::file) part.start.file = hash_of_file(scene.start.file);
+    if (!sees_drive(scene)) part.drive = {};
+    return naming_kept_files(std::move(part));
+}
+
+bool is_possible(const PackingResult& result) {
+    return std::isfinite(result.settle_time) && std::isfinite(result.kinetic_per_grain) &&
+           std::isfinite(result.solid_fraction);
+}
+
+}  // namespace
+
+std::string Simulation::packing_key() const {
+    const Impl& m = *impl_;
+    const std::string build = build_identity();
+    const bool packs = m.scene.start.packs() ? m.scene.grains_at_start() > 0 : m.plan.start.relaxes;
+    if (m.continued || !packs || build.empty() || any_own_law(m.plan)) return "";
+    std::string key = fmt::format("packing {} of build {} with {}\n", kFormat, build, vector_instructions());
+    key += fmt::format("orientations {} wall sums {}\n", m.orientations, m.observers.need_wall_sums());
+    key += fmt::format("period {}\n", sees_drive(m.scene) ? m.plan.clock.steps_per_period : 0);
+    key += text_of(m.scene.drive, m.around.motion.at(0)) + text_of(m.plan);
+    return key + written_scene(packed_part(m.scene, m.plan));
+}
+
+void Simulation::save_packing(const std::filesystem::path& file, const std::string& key,
+                              const PackingResult& result) const {
+    const Impl& m = *impl_;
+    grainreel::save_checkpoint(file, key, m.header(), m.grains, *m.loop, m.gathered_of_packing(result),
+                               m.feeder.given());
+}
+
+std::optional<Simulation> Simulation::with_packing(const Scene& scene, const Plan& plan,
+                                                   const std::filesystem::path& file, const std::string& key,
+                                                   int threads, PackingResult& result) {
+    const std::optional<CheckpointLabel> label = label_of_checkpoint(file);
+    if (!label || label->scene != key || label->step != 0) return std::nullopt;
+    Scene there = scene;
+    there.start = {};
+    there.start.method = Start::Method::file;
+    there.start.file = file.string();
+    there.start.keep_clock = true;
+    try {
+        auto impl = std::make_unique<Impl>(there, plan, threads, Impl::Takes::packing);
+        result = impl->packed;
+        return Simulation(std::move(impl));
+    } catch (const UserError&) {
+        return std::nullopt;
+    }
+}
+
+// What observers gather begins with the drive and is not kept, but for what the last forces did to walls.
+void Simulation::Impl::begin_packed(const std::string& gathered) {
+    Bytes in(gathered);
+    take_wall_sums(in);
+    std::uint8_t settled = 0;
+    read_value(in, settled);
+    read_value(in, packed.settle_time);
+    read_value(in, packed.kinetic_per_grain);
+    read_value(in, packed.solid_fraction);
+    packed.settled = settled == 1;
+    if (in.failed() || in.left() > 0 || settled > 1 || !is_possible(packed)) throw damaged_checkpoint(scene);
+}
+
+std::string Simulation::Impl::gathered_of_packing(const PackingResult& result) const {
+    std::ostringstream out;
+    save_wall_sums(out);
+    write_value(out, static_cast<std::uint8_t>(result.settled ? 1 : 0));
+    write_value(out, result.settle_time);
+    write_value(out, result.kinetic_per_grain);
+    write_value(out, result.solid_fraction);
+    return out.str();
 }
 
 }  // namespace grainreel
