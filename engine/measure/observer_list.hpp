@@ -5,15 +5,7 @@
 // observer_list.cpp makes them.
 #pragma once
 
-#include "engine/measure/bed/bed_motion_observer.hpp"
-#include "engine/measure/bed/bed_periods_observer.hpp"
-#include "engine/measure/bed/bed_shape_observer.hpp"
-#include "engine/measure/bed/centre_of_mass_observer.hpp"
-#include "engine/measure/bed/contact_number_observer.hpp"
-#include "engine/measure/bed/fabric_observer.hpp"
-#include "engine/measure/bed/intruder_observer.hpp"
-#include "engine/measure/bed/largest_overlap_observer.hpp"
-#include "engine/measure/bed/species_places_observer.hpp"
+#include "engine/measure/bed/bed_observers.hpp"
 #include "engine/measure/drive/drive_now_observer.hpp"
 #include "engine/measure/drive/floor_position_observer.hpp"
 #include "engine/measure/drive/times_observer.hpp"

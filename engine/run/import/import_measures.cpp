@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/measure/bed/bed_shape_observer.hpp"
-#include "engine/measure/bed/centre_of_mass_observer.hpp"
-#include "engine/measure/bed/contact_number_observer.hpp"
-#include "engine/measure/bed/fabric_observer.hpp"
-#include "engine/measure/bed/species_places_observer.hpp"
+#include "engine/measure/bed/bed_observers.hpp"
 #include "engine/measure/drive/floor_position_observer.hpp"
 #include "engine/measure/drive/times_observer.hpp"
 #include "engine/measure/observers.hpp"
