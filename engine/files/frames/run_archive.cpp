@@ -16,7 +16,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/trajectory_world.hpp"
 #include "engine/files/measures_csv.hpp"
-#include "engine/measure/bed/period_multiple.hpp"
+#include "engine/measure/bed/bed_motion.hpp"
 
 namespace grainreel {
 

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/measure/bed/bed_motion.hpp"
 #include "engine/measure/bed/fabric.hpp"
-#include "engine/measure/bed/flight.hpp"
 #include "engine/measure/bed/intruder.hpp"
-#include "engine/measure/bed/period_multiple.hpp"
 #include "engine/measure/bed/solid_fraction.hpp"
 #include "engine/measure/heights.hpp"
 #include "engine/measure/no_value.hpp"

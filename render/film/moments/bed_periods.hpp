@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/bed/period_multiple.hpp"
+#include "engine/measure/bed/bed_motion.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 

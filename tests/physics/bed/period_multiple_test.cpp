@@ -1,5 +1,5 @@
 // After how many periods a bed repeats itself: made series, and a ball on a shaken plate.
-#include "engine/measure/bed/period_multiple.hpp"
+#include "engine/measure/bed/bed_motion.hpp"
 
 #include <gtest/gtest.h>
 

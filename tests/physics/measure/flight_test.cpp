@@ -1,5 +1,5 @@
 // Take-off and landing of bodies whose flight is known.
-#include "engine/measure/bed/flight.hpp"
+#include "engine/measure/bed/bed_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,22 @@
-#include "engine/measure/bed/period_multiple.hpp"
+#include "engine/measure/bed/bed_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace grainreel {
+
+void Flight::add(std::int64_t from, double carried) {
+    if (!state_.flying && carried < kLeaves) {
+        state_.flying = true;
+        state_.since = from;
+    } else if (state_.flying && carried > kLands) {
+        state_.flying = false;
+        if (from - state_.since < least_) return;
+        state_.last = {state_.since, from};
+        state_.any = true;
+    }
+}
 
 void PeriodMultiple::add(std::int64_t number, double height) {
     if (number != next_) heights_.clear();
