@@ -6,9 +6,7 @@
 #include <optional>
 
 #include "engine/measure/bed/bed_motion.hpp"
-#include "engine/measure/bed/fabric.hpp"
-#include "engine/measure/bed/intruder.hpp"
-#include "engine/measure/bed/solid_fraction.hpp"
+#include "engine/measure/bed/bed_shape.hpp"
 #include "engine/measure/heights.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"

@@ -5,8 +5,7 @@
 #include <numbers>
 
 #include "engine/base/numbers.hpp"
-#include "engine/measure/bed/intruder.hpp"
-#include "engine/measure/bed/solid_fraction.hpp"
+#include "engine/measure/bed/bed_shape.hpp"
 #include "engine/measure/segregation/side_walls.hpp"
 
 namespace grainreel {

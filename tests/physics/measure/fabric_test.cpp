@@ -1,5 +1,5 @@
 // The fabric tensor of contacts whose directions are known.
-#include "engine/measure/bed/fabric.hpp"
+#include "engine/measure/bed/bed_shape.hpp"
 
 #include <gtest/gtest.h>
 

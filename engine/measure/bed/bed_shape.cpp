@@ -1,6 +1,9 @@
-#include "engine/measure/bed/intruder.hpp"
+#include "engine/measure/bed/bed_shape.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "engine/base/numbers.hpp"
@@ -10,6 +13,25 @@
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
+
+double solid_fraction(const Container& container, const Grains& grains, double floor, double top) {
+    const double height = std::min(top - floor, container.height);
+    if (container.shape == Container::Shape::none || !(height > container.base())) return kNoValue;
+    double solid = 0;
+    for (const Place& p : grains.place) {
+        const double r = p.radius, cap = std::clamp(floor + height - (p.position.z() - r), 0.0, 2 * r);
+        solid += std::numbers::pi * cap * cap * (3 * r - cap) / 3;
+    }
+    return solid / container.volume_below(height);
+}
+
+double Fabric::anisotropy() const {
+    if (contacts_ == 0) return kNoValue;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.compute(tensor(), Eigen::EigenvaluesOnly);
+    const Vec3 rising = solver.eigenvalues();
+    return rising[2] - rising[0];
+}
 
 std::optional<std::size_t> find_intruder(const Scene& scene, const Grains& grains) {
     if (scene.species.size() < 2) return std::nullopt;
