@@ -6,9 +6,7 @@
 #pragma once
 
 #include "engine/measure/bed/bed_observers.hpp"
-#include "engine/measure/drive/drive_now_observer.hpp"
-#include "engine/measure/drive/floor_position_observer.hpp"
-#include "engine/measure/drive/times_observer.hpp"
+#include "engine/measure/drive_observers.hpp"
 #include "engine/measure/energy/energies_observer.hpp"
 #include "engine/measure/energy/energy_shares_observer.hpp"
 #include "engine/measure/fields/coarse_graining_observer.hpp"

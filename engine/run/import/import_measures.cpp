@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "engine/measure/bed/bed_observers.hpp"
-#include "engine/measure/drive/floor_position_observer.hpp"
-#include "engine/measure/drive/times_observer.hpp"
+#include "engine/measure/drive_observers.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation/big_above_small_observer.hpp"
 #include "engine/measure/segregation/big_in_quarters_observer.hpp"

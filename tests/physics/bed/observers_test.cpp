@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "engine/measure/columns.hpp"
-#include "engine/measure/drive/times_observer.hpp"
+#include "engine/measure/drive_observers.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

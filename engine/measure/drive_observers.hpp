@@ -1,4 +1,4 @@
-// What the drive does: frequency and acceleration of the stage that is on.
+// When: step, time, phase and periods of the drive.
 #pragma once
 
 #include <limits>
@@ -6,6 +6,27 @@
 #include "engine/measure/observer.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/drive/grown_share.hpp"
+
+namespace grainreel::observers {
+
+class Times final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"step", "step"}, {"time_s", "time", Dimension::time}}, "1, s", "since the drive started"},
+                {{{"phase_turns", "phase (turns)"}},
+                 "turns, 0 to 1",
+                 "the drive's phase, `drive.phase` included; 0 without a drive"},
+                {{{"cycles", "periods"}}, "periods", "since the drive started; 0 without a drive"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        row.insert(row.end(), {static_cast<double>(m.step), m.clock.time(m.step), m.clock.phase(m.step),
+                               m.clock.cycles(m.step)});
+    }
+};
+
+}  // namespace grainreel::observers
+
+// What the drive does: frequency and acceleration of the stage that is on.
 
 namespace grainreel::observers {
 
@@ -33,6 +54,24 @@ class DriveNow final : public Observer {
             if (m.gravity.isZero(0)) g_level = std::numeric_limits<double>::quiet_NaN();
         }
         row.insert(row.end(), {frequency, g_level});
+    }
+};
+
+}  // namespace grainreel::observers
+
+// Where the drive has moved to.
+
+namespace grainreel::observers {
+
+class FloorPosition final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"floor_position_m", "floor position", Dimension::length}},
+                 "m",
+                 "displacement of what the drive moves, along `drive.direction`"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        row.push_back(m.pose.offset.dot(m.scene.drive.direction));
     }
 };
 
