@@ -1,0 +1,174 @@
+// How much higher big grains lie than small ones.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/measure/heights.hpp"
+#include "engine/measure/no_value.hpp"
+#include "engine/measure/observer.hpp"
+#include "engine/measure/segregation/big_and_small.hpp"
+#include "engine/measure/segregation/segregation.hpp"
+#include "engine/measure/segregation/side_walls.hpp"
+#include "engine/measure/segregation/unlike_neighbours.hpp"
+
+namespace grainreel::observers {
+
+class HeightDifference final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"height_difference", "height of big − small"}},
+                 "1",
+                 "`NAME_height_m` of the species of the largest mean diameter minus that of the smallest, "
+                 "over the height above the floor below which 95 % of all centres lie; of species all equal "
+                 "in size, the first minus the second"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds()) return add_no_values(row, 1);
+        const BigAndSmall kinds = big_and_small(m.scene.species);
+        const std::vector<double> mean = mean_heights(m.grains, m.scene.species.size(), m.floor_height());
+        std::vector<double> heights = heights_above(m.grains, m.floor_height());
+        row.push_back((mean[kinds.big] - mean[kinds.small]) / bed_height(heights));
+    }
+};
+
+}  // namespace grainreel::observers
+
+// How often a big grain lies above a small one.
+
+namespace grainreel::observers {
+
+class BigAboveSmall final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"big_above_small", "P(big above small)"}},
+                 "1",
+                 "probability that a grain of the largest species lies above one of the smallest: 0 all "
+                 "below, 1/2 mixed, 1 all above"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds()) return add_no_values(row, 1);
+        const BigAndSmall kinds = big_and_small(m.scene.species);
+        std::vector<double> big = heights_above(m.grains, m.floor_height(), kinds.big);
+        std::vector<double> small = heights_above(m.grains, m.floor_height(), kinds.small);
+        row.push_back(share_above(big, small));
+    }
+};
+
+}  // namespace grainreel::observers
+
+// How many of the big grains lie on top, and how many at the bottom.
+
+namespace grainreel::observers {
+
+class BigInQuarters final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {
+            {{{"big_in_top_quarter", "big grains in top quarter"}},
+             "1",
+             "share of the largest species' grains whose centres lie above 3/4 of the bed's height"},
+            {{{"big_in_bottom_quarter", "big grains in bottom quarter"}}, "1", "the same below 1/4 of it"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds()) return add_no_values(row, 2);
+        const BigAndSmall kinds = big_and_small(m.scene.species);
+        const std::vector<double> big = heights_above(m.grains, m.floor_height(), kinds.big);
+        std::vector<double> all = heights_above(m.grains, m.floor_height());
+        const double bed = bed_height(all), count = static_cast<double>(big.size());
+        const auto higher = std::count_if(big.begin(), big.end(), [&](double h) { return h > 0.75 * bed; });
+        const auto lower = std::count_if(big.begin(), big.end(), [&](double h) { return h < 0.25 * bed; });
+        row.insert(row.end(), {static_cast<double>(higher) / count, static_cast<double>(lower) / count});
+    }
+};
+
+}  // namespace grainreel::observers
+
+// How many of the big grains lie beside the left and right walls.
+
+namespace grainreel::observers {
+
+class BigAtWalls final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {
+            {{{"big_at_walls", "big grains beside the walls"}},
+             "1",
+             "share of the largest species' grains beside the left or right wall or slant, or a cylinder's "
+             "wall: no grain of the smallest mean diameter fits between"}};
+    }
+    BigAtWalls(const Scene& scene, const Plan&) : walls_(scene) {}
+
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds() || !walls_.any()) return add_no_values(row, 1);
+        const auto big = static_cast<std::int32_t>(big_and_small(m.scene.species).big);
+        double beside = 0, all = 0;
+        for (std::size_t i = 0; i < m.grains.size(); ++i) {
+            if (m.grains.species[i] != big) continue;
+            all += 1;
+            beside += walls_.side_of(m.grains.place[i], m.pose) != Side::none;
+        }
+        row.push_back(beside / all);
+    }
+
+  private:
+    const SideWalls walls_;
+};
+
+}  // namespace grainreel::observers
+
+// How well big grains are mixed with all others, by samples of equal count.
+
+namespace grainreel::observers {
+
+class Mixing final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {
+            {{{"lacey", "Lacey mixing index"}}, "1", "Lacey's mixing index: 0 segregated, 1 randomly mixed"},
+            {{{"intensity", "intensity of segregation"}},
+             "1",
+             "intensity of segregation by Danckwerts, from the samples of `lacey`: 1 segregated, about "
+             "1/32 randomly mixed"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds()) return add_no_values(row, 2);
+        const BigAndSmall kinds = big_and_small(m.scene.species);
+        const Grains& grains = m.grains;
+        std::vector<std::size_t> by_id(grains.size());
+        std::iota(by_id.begin(), by_id.end(), std::size_t{0});
+        std::sort(by_id.begin(), by_id.end(), [&](auto a, auto b) { return grains.id[a] < grains.id[b]; });
+        std::vector<Vec3> position;
+        std::vector<std::uint8_t> marked;
+        for (const std::size_t i : by_id) {
+            position.push_back(grains.place[i].position);
+            marked.push_back(static_cast<std::size_t>(grains.species[i]) == kinds.big);
+        }
+        const Samples samples = take_samples(position, marked);
+        row.insert(row.end(), {lacey_index(samples), intensity_of_segregation(samples)});
+    }
+};
+
+}  // namespace grainreel::observers
+
+// Do grains of different species lie side by side as often as by chance?
+
+namespace grainreel::observers {
+
+class Unlike final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"unlike_neighbours", "unlike pairs / chance"}},
+                 "1",
+                 "pairs of neighbours of different species over what chance would give: 0 segregated, 1 "
+                 "randomly mixed"}};
+    }
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!m.has_two_kinds()) return add_no_values(row, 1);
+        const BigAndSmall kinds = big_and_small(m.scene.species);
+        const double gap = kNeighbourGap * m.scene.species[kinds.small].diameter.mean;
+        row.push_back(unlike_neighbours(m.grains.place, m.grains.species, gap, m.period));
+    }
+};
+
+}  // namespace grainreel::observers
