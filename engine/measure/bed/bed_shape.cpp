@@ -8,7 +8,7 @@
 
 #include "engine/base/numbers.hpp"
 #include "engine/measure/no_value.hpp"
-#include "engine/measure/segregation/big_and_small.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/surface/surface.hpp"
 #include "engine/state/container_faces.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "engine/base/binary.hpp"
 #include "engine/measure/flow/velocity_grid.hpp"
-#include "engine/measure/segregation/side_walls.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/grains.hpp"

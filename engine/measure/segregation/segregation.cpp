@@ -4,7 +4,9 @@
 #include <numeric>
 #include <span>
 
+#include "engine/base/error.hpp"
 #include "engine/measure/no_value.hpp"
+#include "engine/measure/walls/turning.hpp"
 
 namespace grainreel {
 
@@ -91,6 +93,36 @@ double bed_height(std::vector<double>& heights) {
         heights.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(heights.size() - 1));
     std::nth_element(heights.begin(), at, heights.end());
     return *at;
+}
+
+BigAndSmall big_and_small(const std::vector<Species>& species) {
+    GRAINREEL_CHECK(species.size() > 1);
+    BigAndSmall kinds;
+    for (std::size_t s = 1; s < species.size(); ++s) {
+        if (species[s].diameter.mean > species[kinds.big].diameter.mean) kinds.big = s;
+        if (species[s].diameter.mean < species[kinds.small].diameter.mean) kinds.small = s;
+    }
+    if (kinds.big == kinds.small) kinds.small = 1;
+    return kinds;
+}
+
+SideWalls::SideWalls(const Scene& scene) {
+    const bool stands = !turns_over(scene);  // else its walls are at its sides by turns
+    for (const Face& face : container_faces(scene.container, scene.drive))
+        if (stands && (face.kind == Face::Kind::cylinder || face.normal.y() != 0)) faces_.push_back(face);
+    if (scene.species.empty()) return;
+    gap_ =
+        std::min_element(scene.species.begin(), scene.species.end(), [](const Species& a, const Species& b) {
+            return a.diameter.mean < b.diameter.mean;
+        })->diameter.mean;
+}
+
+Side SideWalls::side_of(const Place& grain, const Pose& pose) const {
+    const bool beside = std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+        return distance_to(face, face.displacement(pose), grain.position).distance < grain.radius + gap_;
+    });
+    if (!beside) return Side::none;
+    return grain.position.y() < pose.offset.y() ? Side::left : Side::right;
 }
 
 }  // namespace grainreel

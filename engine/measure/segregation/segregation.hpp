@@ -2,10 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/container_faces.hpp"
+#include "engine/state/grains.hpp"
 
 namespace grainreel {
 
@@ -48,5 +52,33 @@ double share_above(std::vector<double>& these, std::vector<double>& those);
 // m: height below which 95 % of the grains' centres lie; the bed height of the height difference. Grains in
 // flight have no say in it. Reorders.
 double bed_height(std::vector<double>& heights);
+
+// Which species the segregation indices compare.
+
+// The species of the largest and of the smallest mean diameter. All of one size: the first and the second.
+// There must be two at least.
+struct BigAndSmall {
+    std::size_t big = 0, small = 0;
+};
+BigAndSmall big_and_small(const std::vector<Species>& species);
+
+// Which grains lie beside the left wall of the container, and which beside the right one.
+
+enum class Side { left, right, none };
+
+// Slants count as walls, and the halves y < 0 and y > 0 of a cylinder's wall as left and right. Front and
+// back do not count: in a narrow bed every grain is beside them.
+class SideWalls {
+  public:
+    // A grain lies beside a wall when no grain of the smallest mean diameter fits between the two.
+    explicit SideWalls(const Scene& scene);
+
+    bool any() const { return !faces_.empty(); }
+    Side side_of(const Place& grain, const Pose& pose) const;
+
+  private:
+    std::vector<Face> faces_;
+    double gap_ = 0;  // m
+};
 
 }  // namespace grainreel

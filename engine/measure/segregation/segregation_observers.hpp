@@ -7,9 +7,7 @@
 #include "engine/measure/heights.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/segregation/big_and_small.hpp"
 #include "engine/measure/segregation/segregation.hpp"
-#include "engine/measure/segregation/side_walls.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"
 
 namespace grainreel::observers {

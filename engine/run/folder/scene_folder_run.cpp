@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/measure/segregation/big_and_small.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 #include "engine/run/driver/also_exports.hpp"
 #include "engine/run/driver/useful_threads.hpp"
 #include "engine/scene/scene.hpp"

@@ -6,7 +6,7 @@
 
 #include "engine/base/numbers.hpp"
 #include "engine/measure/bed/bed_shape.hpp"
-#include "engine/measure/segregation/side_walls.hpp"
+#include "engine/measure/segregation/segregation.hpp"
 
 namespace grainreel {
 namespace {
