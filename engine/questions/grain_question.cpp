@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/segregation/neighbour_pairs.hpp"
+#include "engine/measure/segregation/unlike_neighbours.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/forces.hpp"
 #include "engine/questions/questions.hpp"

@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "engine/measure/segregation/neighbour_pairs.hpp"
-
 namespace grainreel {
 
 namespace {

@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 
-#include "engine/measure/segregation/neighbour_pairs.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"
 #include "engine/measure/surface/surface_frame.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
