@@ -5,9 +5,14 @@
 #include <limits>
 
 #include "engine/base/numbers.hpp"
+#include "engine/measure/no_value.hpp"
 #include "engine/measure/surface/spectrum.hpp"
+#include "engine/measure/walls/turning.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr double kColumn = 2;  // diameters, width and depth
@@ -127,6 +132,75 @@ BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame) 
     BedOutline surface = columns.surface();
     fill_gaps(surface.height);
     return surface;
+}
+
+namespace {
+
+constexpr double kSettled = 0.6;  // solid fraction of a bed at rest
+
+}  // namespace
+
+SurfaceFrame surface_frame(const Scene& scene) {
+    SurfaceFrame frame;
+    const Container& c = scene.container;
+    if (c.shape == Container::Shape::none || turns_over(scene)) return frame;
+    frame.diameter = mean_diameter(scene);
+    const double filled = fill_height(scene, kSettled);
+    frame.right = c.half_width_at(filled);
+    frame.left = -frame.right;
+    frame.front = c.shape == Container::Shape::cylinder ? c.half_width
+                  : c.shape == Container::Shape::mesh   ? c.room->half_depth_at(filled)
+                                                        : 0.5 * c.depth;
+    frame.back = -frame.front;
+    frame.period = period_of_depth(c);
+    return frame;
+}
+
+namespace {
+
+constexpr std::size_t kLeastBins = 6;
+
+// Slope over the bins from `first` to the one before `end`.
+double slope_of(const BedOutline& s, std::size_t first, std::size_t end) {
+    const auto count = static_cast<double>(end - first);
+    double places = 0, heights = 0;
+    for (std::size_t i = first; i < end; ++i) {
+        places += s.place(i) / count;
+        heights += s.height[i] / count;
+    }
+    double together = 0, squares = 0;
+    for (std::size_t i = first; i < end; ++i) {
+        together += (s.place(i) - places) * (s.height[i] - heights);
+        squares += (s.place(i) - places) * (s.place(i) - places);
+    }
+    return together / squares;
+}
+
+// Mean height between two places; a bin counts by the part of it that lies between them.
+double mean_between(const BedOutline& s, double from, double to) {
+    double sum = 0, width = 0;
+    for (std::size_t i = 0; i < s.height.size(); ++i) {
+        const double low = std::max(from, s.place(i) - 0.5 * s.bin),
+                     high = std::min(to, s.place(i) + 0.5 * s.bin);
+        if (high <= low) continue;
+        sum += (high - low) * s.height[i];
+        width += high - low;
+    }
+    return sum / width;
+}
+
+}  // namespace
+
+Mound mound_of(const BedOutline& s) {
+    const std::size_t count = s.height.size();
+    if (count < kLeastBins) return {kNoValue, kNoValue, kNoValue};
+    const double sixth = s.width() / 6, right = s.left + s.width();
+    const double middle = mean_between(s, s.left + 2 * sixth, right - 2 * sixth);
+    const double edges =
+        0.5 * (mean_between(s, s.left, s.left + sixth) + mean_between(s, right - sixth, right));
+    const std::size_t half = count / 2;  // of an odd number the middle bin belongs to neither half
+    return {middle - edges, 0.5 * (slope_of(s, 0, half) - slope_of(s, count - half, count)),
+            slope_of(s, 0, count)};
 }
 
 }  // namespace grainreel

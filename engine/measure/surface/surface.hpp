@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
 
 namespace grainreel {
@@ -34,5 +35,23 @@ std::size_t bins_across(const SurfaceFrame& frame);
 // into. Columns that no grain reaches up to their middle have no say: they are beside the bed. A bin without
 // others takes the mean of the nearest ones. Empty without grains.
 BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
+
+// Where the surface of a scene's bed is looked for.
+
+// The frame of the container at rest, as wide as it is free at the height that the grains fill. Bins go by
+// the mean diameter of all grains. It has no width in empty space, nor in a drum (drum_surface.hpp).
+SurfaceFrame surface_frame(const Scene& scene);
+
+// How far a surface is heaped up.
+
+struct Mound {
+    double height = 0;  // m: mean of the middle third less that of the two outer sixths
+    double slope = 0;   // tangent: mean rise of both halves towards the middle
+    double tilt = 0;    // tangent: rise of the whole surface from left to right
+};
+
+// Slopes are those of least-squares lines through the bins. A tent of slope s over the width W has s, no
+// tilt, and the height s W / 3; a plane has no slope. NaN with fewer than six bins.
+Mound mound_of(const BedOutline& surface);
 
 }  // namespace grainreel

@@ -9,10 +9,9 @@
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
-#include "engine/measure/surface/mound.hpp"
 #include "engine/measure/surface/spectrum.hpp"
 #include "engine/measure/surface/subharmonics.hpp"
-#include "engine/measure/surface/surface_frame.hpp"
+#include "engine/measure/surface/surface.hpp"
 
 namespace grainreel::observers {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/measure/segregation/unlike_neighbours.hpp"
-#include "engine/measure/surface/surface_frame.hpp"
+#include "engine/measure/surface/surface.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/state/container_faces.hpp"
 

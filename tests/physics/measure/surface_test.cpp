@@ -6,11 +6,9 @@
 #include <numbers>
 
 #include "engine/base/random.hpp"
-#include "engine/measure/surface/mound.hpp"
 #include "engine/measure/surface/spectrum.hpp"
 #include "engine/measure/surface/subharmonics.hpp"
 #include "engine/measure/surface/surface.hpp"
-#include "engine/measure/surface/surface_frame.hpp"
 
 namespace grainreel {
 namespace {
