@@ -10,7 +10,6 @@
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 #include "engine/measure/surface/spectrum.hpp"
-#include "engine/measure/surface/subharmonics.hpp"
 #include "engine/measure/surface/surface.hpp"
 
 namespace grainreel::observers {

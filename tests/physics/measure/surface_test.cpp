@@ -7,7 +7,6 @@
 
 #include "engine/base/random.hpp"
 #include "engine/measure/surface/spectrum.hpp"
-#include "engine/measure/surface/subharmonics.hpp"
 #include "engine/measure/surface/surface.hpp"
 
 namespace grainreel {
