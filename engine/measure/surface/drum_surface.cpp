@@ -7,6 +7,7 @@
 #include "engine/measure/no_value.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr std::size_t kFewest = 20;  // grains

@@ -6,11 +6,16 @@
 // Phys. Rev. E 64, 031302). The surface is that of surface.hpp, so grains in flight have no say.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <span>
 
 #include "engine/base/vector.hpp"
+#include "engine/measure/no_value.hpp"
+#include "engine/measure/observer.hpp"
 #include "engine/measure/surface/surface.hpp"
+#include "engine/measure/walls/turning.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/scene/motion/turn.hpp"
 #include "engine/state/grains.hpp"
 
@@ -34,3 +39,50 @@ double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, doub
 double froude_number(double rate, double radius, double gravity);
 
 }  // namespace grainreel
+
+// A drum, or whatever else turns the grains: how far it has turned, and how the bed's surface lies in it.
+
+namespace grainreel::observers {
+
+class Drum final : public Observer {
+  public:
+    static constexpr const char* instrument = "drum";
+
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {
+            {{{"revolutions", "revolutions"}},
+             "1",
+             "of what turns since it began: of the container, or of the mesh that is the container, or of "
+             "the "
+             "first mesh that turns; NaN without one. Whatever else is measured can be drawn against it"},
+            {{{"repose_angle_degree", "dynamic angle of repose", Dimension::degrees}},
+             "degrees",
+             "of the bed's surface against the horizontal, seen along the axis: of the line of least squares "
+             "through the middle third of it, above 0 where the drum carries the bed up (Yamane et al. "
+             "1998); "
+             "NaN where the axis stands"},
+            {{{"froude_number", "Froude number"}},
+             "1",
+             "square of the rate times the drum's radius over gravity, now; below 1e-4 the bed slumps, then "
+             "it "
+             "rolls and cascades, from about 0.1 on it cataracts, and at 1 it goes round with the drum "
+             "(Mellmann 2001)"}};
+    }
+    Drum(const Scene& scene, const Plan&) : drum_(turning_body(scene)), diameter_(mean_diameter(scene)) {}
+
+    void look(const Moment& m, std::vector<double>& row) override {
+        if (!drum_) return add_no_values(row, 3);
+        const BodyTurn& turn = drum_->turn;
+        const auto axes = drum_axes(turn, m.gravity);
+        const double angle = axes ? angle_of_repose(m.grains.place, *axes, diameter_) : kNoValue;
+        row.insert(row.end(), {std::abs(turn.angle_at(m.pose.time)) / (2 * std::numbers::pi),
+                               angle * 180 / std::numbers::pi,
+                               froude_number(turn.rate_at(m.pose.time), drum_->radius, m.gravity.norm())});
+    }
+
+  private:
+    const std::optional<TurningBody> drum_;
+    const double diameter_;  // m
+};
+
+}  // namespace grainreel::observers
