@@ -1,4 +1,4 @@
-#include "engine/measure/flow/fed_mass.hpp"
+#include "engine/measure/flow/outflow_observer.hpp"
 
 #include <algorithm>
 #include <cmath>
