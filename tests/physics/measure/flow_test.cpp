@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "engine/measure/flow/drift.hpp"
-#include "engine/measure/flow/velocity_grid.hpp"
 
 namespace grainreel {
 namespace {
