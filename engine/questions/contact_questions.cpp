@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/questions/forces.hpp"
 #include "engine/questions/questions.hpp"

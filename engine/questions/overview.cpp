@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/columns.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/forces.hpp"
 #include "engine/questions/questions.hpp"

@@ -12,7 +12,7 @@
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 #include "engine/measure/segregation/segregation.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/plan/rhythm.hpp"
 #include "engine/scene/bed.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/measure/fields/inside_mesh.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/no_value.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 
 namespace grainreel {
 

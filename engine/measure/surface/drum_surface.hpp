@@ -14,7 +14,7 @@
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/surface/surface.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/motion/turn.hpp"
 #include "engine/state/grains.hpp"

@@ -7,7 +7,7 @@
 #include "engine/base/numbers.hpp"
 #include "engine/measure/no_value.hpp"
 #include "engine/measure/surface/spectrum.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/state/container_faces.hpp"
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/motion/turn.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -19,5 +22,27 @@ struct WallBody {
     Vec3 axis{0, 0, 0};    // unit
 };
 std::vector<WallBody> wall_bodies(const Scene& scene);
+
+// Which bodies of a scene turn, and which one the drum is.
+
+// Which of the scene's meshes is the container; empty where none is.
+std::optional<std::size_t> vessel_of(const Scene& scene);
+
+// Whether the container turns about an axis that does not stand, so that left, right and floor mean nothing.
+bool turns_over(const Scene& scene);
+
+// m, at rest: the moment of the grains on a mesh counts about it. It moves with the mesh.
+Vec3 moment_point(const SceneMesh& mesh);
+
+// A body that turns about an axis.
+struct TurningBody {
+    std::int32_t body = 0;  // its number
+    BodyTurn turn;
+    double radius = 0;  // m, of its farthest point from the axis
+};
+
+// What the grains are turned by: the container, else the mesh that is the container, else the first mesh that
+// turns. Empty where nothing turns.
+std::optional<TurningBody> turning_body(const Scene& scene);
 
 }  // namespace grainreel

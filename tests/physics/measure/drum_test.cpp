@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/measure/surface/drum_surface.hpp"
-#include "engine/measure/walls/turning.hpp"
+#include "engine/measure/walls/wall_bodies.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
 
 namespace grainreel {
