@@ -1,4 +1,4 @@
-#include "engine/measure/walls/wear_tally.hpp"
+#include "engine/measure/walls/wear_observer.hpp"
 
 #include <algorithm>
 #include <cmath>
