@@ -2,12 +2,14 @@
 // its floor is now.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/field_output.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -43,5 +45,57 @@ FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields);
 // How much of each cell is inside the container at rest, 0 to 1. Where the floor alone moves, the container
 // counts from the floor's lowest place. Planes of the scene cut nothing off.
 std::vector<double> inside_shares(const FieldGrid& grid, const Scene& scene);
+
+// The kernels of coarse-graining: how a grain, which is a point, is spread over its surroundings.
+//
+// Both are radial, in two or three dimensions, and end at a cutoff. Only their shape matters here: a
+// footprint (footprint.hpp) scales the values to a sum of one over the cells of its grid.
+
+// Value at a distance of q cutoffs, 0 <= q < 1; 1 in the middle.
+// Gaussian: exp(-r2 / 2 w2), with its cutoff at 3 w (Weinhart, Hartkamp, Thornton & Luding 2013, Phys. Fluids
+// 25, 070605). Lucy (1977, Astron. J. 82, 1013): (1 + 3 q)(1 - q)^3.
+double kernel_value(FieldOutput::Kernel kind, double q);
+
+// m, of the kernel that a grain of this radius is spread with, where the fields ask for `width`: its own
+// radius at least. A narrower kernel has more in its middle than the grain's volume has room for, and a solid
+// fraction above 1. From half a diameter on fields hardly depend on the width (Goldenberg, Atman, Claudin,
+// Combe & Goldhirsch 2006, Phys. Rev. Lett. 96, 168001; Weinhart, Hartkamp, Thornton & Luding 2013), so that
+// each grain has a kernel of that size: what adaptive kernels are in density estimation (Silverman 1986,
+// Density Estimation, section 5.3).
+inline double kernel_width(double width, double radius) {
+    return std::max(width, radius);
+}
+
+class FieldKernel {
+  public:
+    // width: m, the standard deviation along one axis: exactly with Lucy's kernel, before the cutoff with the
+    // Gaussian. dimensions: 2 or 3.
+    FieldKernel(FieldOutput::Kernel kind, double width, int dimensions);
+
+    double width() const { return width_; }    // m
+    double cutoff() const { return cutoff_; }  // m
+
+    // Whether at(a + b) = at(a) at(b) within the cutoff.
+    bool is_product() const { return is_product_; }
+
+    // Value at a distance whose square (m2) is given; 0 from the cutoff on. From a table over the square,
+    // within 2e-5 of the formula.
+    double at(double square) const {
+        const double exact = square * places_;
+        const double place =
+            exact < kEntries ? exact : kEntries + 1.0;  // no jump: it is as often one as the other
+        const auto entry = static_cast<std::size_t>(place);
+        const double share = place - static_cast<double>(entry);
+        return values_[entry] + share * (values_[entry + 1] - values_[entry]);
+    }
+
+  private:
+    static constexpr int kEntries = 4096;
+
+    bool is_product_;
+    double width_, cutoff_;       // m
+    double places_;               // 1/m2, entries for each square metre
+    std::vector<double> values_;  // with zeros behind
+};
 
 }  // namespace grainreel

@@ -8,7 +8,6 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/measure/fields/field_grid.hpp"
-#include "engine/measure/fields/kernel.hpp"
 
 namespace grainreel {
 

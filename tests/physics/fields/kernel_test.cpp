@@ -1,4 +1,4 @@
-#include "engine/measure/fields/kernel.hpp"
+#include "engine/measure/fields/field_grid.hpp"
 
 #include <gtest/gtest.h>
 
