@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/observer_list.hpp"
 
 namespace grainreel {
+
 namespace {
 
 bool gathers(const Observer& observer) {
@@ -149,6 +151,20 @@ void Observers::load(const Moment& moment, Bytes& in) {
         if (own.failed() || own.left() > 0 || found->started) return in.fail();
         found->started = true;
     }
+}
+
+namespace {
+
+template <class... Each>
+std::vector<ObserverEntry> entries_of(ObserverList<Each...>) {
+    return {entry_of<Each>()...};
+}
+
+}  // namespace
+
+const std::vector<ObserverEntry>& all_observers() {
+    static const std::vector<ObserverEntry> all = entries_of(RowObservers());
+    return all;
 }
 
 }  // namespace grainreel
