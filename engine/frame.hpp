@@ -11,7 +11,7 @@
 
 namespace grainreel {
 
-class MeasureTable;  // engine/measure/measure_table.hpp
+class MeasureTable;  // engine/measure/measures.hpp
 struct MeshWear;     // engine/measure/walls/mesh_wear.hpp
 
 // Two bodies that push each other.

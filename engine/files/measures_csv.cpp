@@ -15,7 +15,6 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/measure/no_value.hpp"
 
 namespace grainreel {
 namespace {

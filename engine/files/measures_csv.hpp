@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/base/plain_file.hpp"
-#include "engine/measure/measure_table.hpp"
 #include "engine/measure/measures.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

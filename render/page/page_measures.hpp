@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@
 #include <functional>
 #include <random>
 
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/scene/colours.hpp"
 #include "tests/draw/support.hpp"

@@ -7,7 +7,7 @@
 
 #include "engine/measure/column_axis.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/marks/trails.hpp"

@@ -14,7 +14,7 @@
 #include <random>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/gl/objects.hpp"
 #include "render/picture/words/captions.hpp"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/plan/reach.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/panels/panel_plots.hpp"

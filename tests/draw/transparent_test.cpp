@@ -1,7 +1,7 @@
 // Films without a background: their words read on any paper.
 #include <gtest/gtest.h>
 
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/numbers_plan.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

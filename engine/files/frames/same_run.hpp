@@ -8,7 +8,7 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

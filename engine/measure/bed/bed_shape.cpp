@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/numbers.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/surface/surface.hpp"
 #include "engine/state/container_faces.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/binary.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 #include "engine/scene/scene.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 
 namespace grainreel {

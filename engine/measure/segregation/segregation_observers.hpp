@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "engine/measure/heights.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 
 namespace grainreel {
 

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "engine/base/vector.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/surface/surface.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"

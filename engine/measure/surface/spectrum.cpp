@@ -6,7 +6,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 
 namespace grainreel {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/base/numbers.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/surface/spectrum.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/scene/bed.hpp"

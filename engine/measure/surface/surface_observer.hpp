@@ -6,7 +6,7 @@
 #include <deque>
 #include <optional>
 
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 #include "engine/measure/surface/spectrum.hpp"

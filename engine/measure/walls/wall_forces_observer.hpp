@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/rows.hpp"
 #include "engine/measure/walls/wall_faces.hpp"

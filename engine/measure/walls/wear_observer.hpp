@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/scene/scene.hpp"

@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/files/trajectory_info.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/run/resume/kept_files.hpp"
 
 namespace grainreel {

@@ -15,7 +15,6 @@
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/outflow_record.hpp"
 #include "engine/files/trajectory.hpp"
-#include "engine/measure/measure_table.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation/simulation.hpp"

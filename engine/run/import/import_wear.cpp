@@ -6,7 +6,7 @@
 
 #include "engine/files/fields_file.hpp"
 #include "engine/files/foreign/meaning/names.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/state/container_faces.hpp"
 

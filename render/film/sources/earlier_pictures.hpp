@@ -10,7 +10,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/wear_file.hpp"
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/frame_source.hpp"

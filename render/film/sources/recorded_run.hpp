@@ -10,7 +10,7 @@
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/files/outflow_record.hpp"
 #include "engine/files/wear_file.hpp"
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/questions/record.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sources/frame_source.hpp"

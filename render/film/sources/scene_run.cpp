@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/files/run_names.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
 
 namespace grainreel {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/page/bed/bed_frames.hpp"
 #include "render/page/bed/page_meshes.hpp"

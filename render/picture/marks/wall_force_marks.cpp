@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/state/container_faces.hpp"
 #include "render/picture/marks/arrow.hpp"

@@ -8,8 +8,7 @@
 #include <optional>
 
 #include "engine/measure/column_axis.hpp"
-#include "engine/measure/measure_table.hpp"
-#include "engine/measure/no_value.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/scene/text/fitting_unit.hpp"
 #include "render/picture/plots/axis_drawing.hpp"
 #include "render/picture/plots/ticks.hpp"

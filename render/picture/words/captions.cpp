@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/scene/drive/drive_schedule.hpp"
 #include "engine/scene/drive/grown_share.hpp"
 #include "render/scene/live_text.hpp"

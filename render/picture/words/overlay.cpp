@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/measure_table.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/first_gutter.hpp"
 #include "render/picture/words/halo.hpp"
