@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 
-#include "engine/measure/column_axis.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/bed.hpp"

@@ -15,7 +15,6 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
-#include "engine/measure/column_axis.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/fitting_unit.hpp"
 #include "render/app/print/curve.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/measure/column_axis.hpp"
+#include "engine/measure/columns.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/measure/column_axis.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/text/fitting_unit.hpp"
 #include "render/picture/plots/axis_drawing.hpp"
