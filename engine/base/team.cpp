@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/ticks.hpp"
+#include "engine/base/processor.hpp"
 
 namespace grainreel {
 

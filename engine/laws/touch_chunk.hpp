@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "engine/base/ahead.hpp"
+#include "engine/base/processor.hpp"
 
 namespace grainreel {
 

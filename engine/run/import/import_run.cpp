@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/large_array.hpp"
+#include "engine/base/processor.hpp"
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/clock_of.hpp"

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/base/ahead.hpp"
+#include "engine/base/processor.hpp"
 #include "engine/laws/touch_chunk.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/lists/contact_table.hpp"

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/base/large_array.hpp"
+#include "engine/base/processor.hpp"
 #include "engine/laws/touch_chunk.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_rules.hpp"

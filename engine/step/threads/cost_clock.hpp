@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/base/ticks.hpp"
+#include "engine/base/processor.hpp"
 
 namespace grainreel {
 

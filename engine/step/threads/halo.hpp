@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/large_array.hpp"
+#include "engine/base/processor.hpp"
 #include "engine/laws/touch_chunk.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/integrate.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/base/flush_denormals.hpp"
+#include "engine/base/processor.hpp"
 #include "render/picture/spheres/pixel.hpp"
 
 namespace grainreel {

@@ -1,0 +1,134 @@
+// A vector whose memory, when it is large, comes in pages of 2 MiB where the system has them: arrays of a
+// large bed are read at many places at once, and the processor finds few small pages without looking them up
+// in memory. 5 to 10 % of a step of a million grains (docs/notes/performance.md).
+#pragma once
+
+#include <xmmintrin.h>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace grainreel {
+
+template <class T>
+struct LargePages {
+    using value_type = T;
+    static constexpr std::size_t kPage = std::size_t{2} << 20, kLarge = 2 * kPage;  // bytes
+
+    LargePages() = default;
+    template <class U>
+    LargePages(const LargePages<U>&) {}
+
+    T* allocate(std::size_t count) {
+        const std::size_t bytes = count * sizeof(T);
+        if (bytes < kLarge) return static_cast<T*>(::operator new(bytes, std::align_val_t(alignof(T))));
+        const std::size_t whole = (bytes + kPage - 1) / kPage * kPage;
+        void* memory = std::aligned_alloc(kPage, whole);
+        if (!memory) throw std::bad_alloc();
+#if defined(MADV_HUGEPAGE)
+        madvise(memory, whole, MADV_HUGEPAGE);  // a hint: where it is refused, small pages do
+#endif
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t count) {
+        if (count * sizeof(T) < kLarge)
+            ::operator delete(memory, std::align_val_t(alignof(T)));
+        else
+            std::free(memory);
+    }
+    friend bool operator==(const LargePages&, const LargePages&) {
+        return true;
+    }
+};
+
+template <class T>
+using LargeArray = std::vector<T, LargePages<T>>;
+
+}  // namespace grainreel
+namespace grainreel {
+
+// A line of memory asked for ahead.
+
+// To write to it: another processor that has the line gives it up. (GCC's __builtin_prefetch has an
+// instruction for this only where the processor is known not to be older than 2014, when it does nothing.)
+[[gnu::always_inline]] inline void fetch_to_write(const void* at) {
+#if defined(__x86_64__)
+    asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(at)));
+#else
+    __builtin_prefetch(at, 1);
+#endif
+}
+
+// What is wanted soon of arrays larger than the caches, fetched to the second level a few lines at a time
+// between other work: the processor has room for some 16 lines under way, and waits when it is asked for
+// more.
+
+class Ahead {
+  public:
+    // Nothing to fetch; what is added then comes within so many calls of fetch_some().
+    void start(int calls) {
+        count_ = 0;
+        calls_ = calls;
+    }
+    template <class Array>
+    void add(const Array& array, std::int32_t begin, std::int32_t end) {
+        Stretch& s = stretches_[count_++];
+        s.next = reinterpret_cast<std::uintptr_t>(array.data() + begin) / kLine * kLine;
+        s.end = reinterpret_cast<std::uintptr_t>(array.data() + end);
+        s.each = ((s.end - s.next) / kLine / calls_ + 1) * kLine;
+    }
+    // (Inlined by force: GCC 12 takes a function that only prefetches for one without effect, and leaves out
+    // its calls.)
+    [[gnu::always_inline]] inline void fetch_some() {
+        for (int k = 0; k < count_; ++k) {
+            Stretch& s = stretches_[k];
+            const std::uintptr_t last = s.next + s.each < s.end ? s.next + s.each : s.end;
+            for (; s.next < last; s.next += kLine)
+                __builtin_prefetch(reinterpret_cast<const void*>(s.next), 0, 2);
+        }
+    }
+
+  private:
+    static constexpr std::uintptr_t kLine = 64;
+    struct Stretch {
+        std::uintptr_t next, end, each;
+    };
+    std::array<Stretch, 4> stretches_{};
+    int count_ = 0;
+    std::uintptr_t calls_ = 1;
+};
+
+// Numbers too small for full precision count as zero while this lives: a processor takes a hundred times as
+// long over them, and grains at rest make many, in single precision above all.
+
+class FlushDenormals {
+  public:
+    FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | results_to_zero | inputs_to_zero); }
+    ~FlushDenormals() { _mm_setcsr(before_); }
+    FlushDenormals(const FlushDenormals&) = delete;
+    FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+  private:
+    static constexpr unsigned results_to_zero = 0x8000, inputs_to_zero = 0x0040;
+    unsigned before_;
+};
+
+// The processor's own clock: cheap to read, in ticks of no known length, for shares of time only.
+
+inline std::uint64_t ticks() {
+#if defined(__x86_64__)
+    return __builtin_ia32_rdtsc();
+#else
+    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+#endif
+}
+
+}  // namespace grainreel
