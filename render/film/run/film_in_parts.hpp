@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/drawn_part.hpp"
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/run_json.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/production/film_parts.hpp"
 #include "render/film/request/film_request.hpp"

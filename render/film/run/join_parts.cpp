@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/files/drawn_part.hpp"
+#include "engine/files/run_json.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/codec/join_films.hpp"
 #include "render/scene/keys/words.hpp"
