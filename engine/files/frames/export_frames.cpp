@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/fields_reader.hpp"
+#include "engine/files/fields_file.hpp"
 #include "engine/files/frames/write_frames.hpp"
 
 namespace grainreel {

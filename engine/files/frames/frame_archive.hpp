@@ -16,7 +16,7 @@
 
 namespace grainreel {
 
-class FieldsReader;  // engine/files/fields_reader.hpp
+class FieldsReader;  // engine/files/fields_file.hpp
 
 // What the frames of a record have beside ids, species, radii and places.
 struct FrameSupply {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/fields_reader.hpp"
+#include "engine/files/fields_file.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/frames/clock_of.hpp"
 #include "engine/files/frames/same_run.hpp"
