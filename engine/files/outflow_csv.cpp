@@ -1,14 +1,18 @@
 #include "engine/files/outflow_csv.hpp"
 
 #include <fmt/format.h>
-
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <string>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -49,6 +53,62 @@ void OutflowWriter::write(const std::vector<Departure>& gone, const Clock& clock
     }
     file_.write({text.data(), text.size()});
     rows_ += std::ssize(gone);
+}
+
+namespace {
+
+constexpr double rounding = 1e-9;  // s, between times that were written and read
+
+std::vector<double> column_called(const MeasureTable& table, const char* name,
+                                  const std::filesystem::path& file) {
+    const std::vector<std::string>& all = table.columns();
+    const auto found = std::find(all.begin(), all.end(), name);
+    if (found == all.end()) throw UserError(fmt::format("{}: has no column {}", file.string(), name));
+    return table.values(static_cast<std::size_t>(found - all.begin()), 0, table.rows());
+}
+
+}  // namespace
+
+bool grains_leave(const Scene& scene) {
+    return (scene.container.outlet && !scene.container.tray) || !scene.exits.empty();
+}
+
+OutflowRecord::OutflowRecord(const Scene& scene) {
+    for (const Species& species : scene.species) densities_.push_back(species.density);
+}
+
+std::optional<OutflowRecord> OutflowRecord::read(const std::filesystem::path& file, const Scene& scene) {
+    const auto [table, fault] = read_measures_file(file);
+    if (!table) return std::nullopt;
+    if (!fault.empty()) throw UserError(fmt::format("{}; film.outflow = false draws without it", fault));
+    const std::vector<double> times = column_called(*table, "time_s", file),
+                              types = column_called(*table, "type", file),
+                              radii = column_called(*table, "radius", file);
+    OutflowRecord record(scene);
+    const auto species = static_cast<double>(scene.species.size());
+    for (std::size_t row = 0; row < times.size(); ++row) {
+        const bool in_order = std::isfinite(times[row]) && (row == 0 || times[row] >= times[row - 1]);
+        const bool known = types[row] >= 1 && types[row] <= species && types[row] == std::floor(types[row]);
+        if (!in_order || !known || !(radii[row] > 0 && std::isfinite(radii[row])))
+            throw UserError(
+                fmt::format("{}:{}: is of another scene or damaged; film.outflow = false draws without it",
+                            file.string(), row + 2));
+        record.add(times[row], static_cast<std::int32_t>(types[row]) - 1, radii[row]);
+    }
+    return record;
+}
+
+void OutflowRecord::add(double time, std::int32_t species, double radius) {
+    const double volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+    const double before = mass_.empty() ? 0 : mass_.back();
+    times_.push_back(time);
+    mass_.push_back(before + volume * densities_.at(static_cast<std::size_t>(species)));
+}
+
+FlowedOut OutflowRecord::until(double time) const {
+    const auto after = std::upper_bound(times_.begin(), times_.end(), time + rounding);
+    const std::ptrdiff_t gone = after - times_.begin();
+    return {gone, gone > 0 ? mass_[static_cast<std::size_t>(gone - 1)] : 0};
 }
 
 }  // namespace grainreel

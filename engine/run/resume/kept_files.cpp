@@ -10,7 +10,6 @@
 #include "engine/files/fields_file.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/outflow_csv.hpp"
-#include "engine/files/outflow_record.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/files/trajectory_info.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/files/frames/run_archive.hpp"
-#include "engine/files/outflow_record.hpp"
+#include "engine/files/outflow_csv.hpp"
 #include "engine/files/wear_file.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/questions/record.hpp"

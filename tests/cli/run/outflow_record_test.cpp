@@ -1,5 +1,5 @@
 // How much has flowed out, from outflow.csv and on the frame.
-#include "engine/files/outflow_record.hpp"
+#include "engine/files/outflow_csv.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

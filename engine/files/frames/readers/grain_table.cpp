@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_reader.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/files/outflow_record.hpp"
+#include "engine/files/outflow_csv.hpp"
 #include "engine/grain_table.hpp"
 
 namespace grainreel {
