@@ -1,8 +1,7 @@
 #include "engine/files/frame_faults.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
+#include <cmath>
 
 namespace grainreel {
 

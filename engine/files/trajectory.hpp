@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "engine/files/file_facts.hpp"
-#include "engine/files/frames/damaged_frame.hpp"
+#include "engine/files/frame_faults.hpp"
 #include "engine/files/netcdf/kept_records.hpp"
 #include "engine/frame.hpp"
 #include "engine/mesh/triangle_mesh.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/damaged_frame.hpp"
+#include "engine/files/frame_faults.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/expression.hpp"
 #include "engine/questions/grain_list.hpp"

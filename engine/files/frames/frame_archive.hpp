@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/damaged_frame.hpp"
+#include "engine/files/frame_faults.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
 #include "engine/state/contact_record.hpp"

@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/frames/damaged_frame.hpp"
+#include "engine/files/frame_faults.hpp"
 #include "engine/questions/answer_forces.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
