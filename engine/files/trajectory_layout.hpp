@@ -1,8 +1,8 @@
 // The variables of trajectory.nc, named once for the one who writes and the one who reads.
 #pragma once
 
+#include <fmt/format.h>
 #include <netcdf.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "engine/files/checksum.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
+#include "engine/files/trajectory.hpp"
 
 namespace grainreel {
 
@@ -169,5 +169,20 @@ inline Checksum begin_checksum(std::size_t frame, std::size_t places, const std:
     sum.add(names.data(), names.size());
     return sum;
 }
+
+// The shapes of meshes in a trajectory's file: once, at rest. The names of variables and dimensions are in
+// trajectory_layout.hpp.
+
+// In define mode, of meshes that have triangles. spatial, checksum: the numbers of the file's dimensions.
+void define_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes, int spatial, int checksum);
+void write_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes);
+
+// None of a file without meshes. path: the file's; bodies: how many it has, container and floor counted.
+// Throws UserError when they are damaged.
+std::vector<TrajectoryMesh> read_meshes(const NetcdfFile& file, const std::filesystem::path& path,
+                                        std::size_t bodies);
+
+// Whether shapes and bodies are the same, bit by bit.
+bool same_meshes(const std::vector<TrajectoryMesh>& a, const std::vector<TrajectoryMesh>& b);
 
 }  // namespace grainreel

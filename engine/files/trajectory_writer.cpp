@@ -10,7 +10,6 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/files/trajectory_layout.hpp"
-#include "engine/files/trajectory_meshes.hpp"
 
 namespace grainreel {
 

@@ -1,15 +1,12 @@
-#include "engine/files/trajectory_meshes.hpp"
+#include "engine/files/trajectory_layout.hpp"
 
+#include <fmt/format.h>
 #include <netcdf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
-#include "engine/files/trajectory_layout.hpp"
 
 namespace grainreel {
 
