@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/files/folder_lock.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -60,5 +61,16 @@ class RunFolder {
     bool adopted_ = false;  // the folder was there before, empty
     bool goes_on_ = false;  // it was there before, with a run
 };
+
+// Copies of the files of meshes and paths in the folder of a run.
+
+// Puts each of kept_files() into the run's folder, unless it is there. previous: where the folder that had
+// this name before is now, for files that lie in there; empty: there was none. Throws UserError where a file
+// is no longer what was read of it, and RunError where it cannot be written.
+void keep_mesh_files(const Scene& scene, const std::filesystem::path& folder,
+                     const std::filesystem::path& previous = {});
+
+// One file to a place of that name, whose folder is made. Throws as above.
+void keep_file(const std::filesystem::path& from, const std::string& hash, const std::filesystem::path& to);
 
 }  // namespace grainreel

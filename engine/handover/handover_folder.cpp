@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/files/mesh_copies.hpp"
+#include "engine/files/run_folder.hpp"
 #include "engine/handover/deck_parts.hpp"
 #include "engine/handover/lammps_deck.hpp"
 #include "engine/handover/liggghts_deck.hpp"

@@ -6,7 +6,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/former_run.hpp"
-#include "engine/files/mesh_copies.hpp"
+#include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"

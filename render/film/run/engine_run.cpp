@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
-#include "engine/files/mesh_copies.hpp"
+#include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/handover/back/trim_dump.hpp"
 #include "engine/handover/deck_parts.hpp"

@@ -4,7 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/files/mesh_copies.hpp"
+#include "engine/files/run_folder.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/run/folder/run_scene.hpp"
 #include "tests/scene/meshes_by_hand.hpp"

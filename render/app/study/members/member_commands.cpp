@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/files/mesh_copies.hpp"
+#include "engine/files/run_folder.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel {
