@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/files/file_facts.hpp"
-#include "engine/files/netcdf/kept_records.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/state/contact_record.hpp"
 

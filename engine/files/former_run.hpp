@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/netcdf/kept_records.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
 
 namespace grainreel {
 

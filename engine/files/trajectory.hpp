@@ -25,7 +25,7 @@
 
 #include "engine/files/file_facts.hpp"
 #include "engine/files/frame_faults.hpp"
-#include "engine/files/netcdf/kept_records.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 

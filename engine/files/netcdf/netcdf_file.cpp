@@ -1,9 +1,9 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <netcdf.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -11,8 +11,6 @@
 #include <system_error>
 #include <thread>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"

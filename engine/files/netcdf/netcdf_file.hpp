@@ -8,10 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/netcdf/kept_records.hpp"
 #include "engine/files/netcdf/netcdf_header.hpp"
 
 namespace grainreel {
+
+// How much of a NetCDF file stays when the run that wrote it goes on.
+
+struct KeptRecords {
+    std::size_t records = 0;
+    std::uintmax_t bytes = 0;  // of the file up to there
+};
 
 // CDF-2 holds records of up to 4 GiB a variable; CDF-5 any.
 enum class NetcdfFormat { cdf2, cdf5 };
