@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

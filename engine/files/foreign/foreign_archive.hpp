@@ -12,7 +12,6 @@
 #include "engine/files/foreign/series/raw_series.hpp"
 #include "engine/files/foreign/series/wall_motion.hpp"
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/frames/reading_options.hpp"
 
 namespace grainreel {
 

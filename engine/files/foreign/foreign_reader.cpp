@@ -1,6 +1,6 @@
 // Runs of other programs: files, series, folders and patterns that some reader of engine/files/foreign takes.
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/files/foreign/raw_frame.hpp"
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,5 +94,64 @@ class FrameArchive {
 
 // A frame without its grains.
 Frame moment_of(const Frame& frame);
+
+// What a user says of files of other programs, where these do not say it themselves.
+
+struct ReadingOptions {
+    // --columns "radius=c_rad,type=mol": the file's column for a meaning. Meanings are id, type, x, y, z, vx,
+    // vy, vz, wx, wy, wz, radius, diameter, density, mass, qw, qx, qy, qz, step, time, id1, id2, force.
+    std::map<std::string, std::string> columns{};
+    // --radius 2mm, or 1=2mm,2=5mm by type. m
+    std::optional<double> radius{};
+    std::map<std::string, double> radius_of_type{};
+    std::optional<double> time_step{};  // --time-step, s
+    std::string units{};                // --units lj|si|cgs|micro; empty: as the file says, else SI
+    std::map<std::string, std::string> species{};  // --species "1=small,2=big": name of a type
+    std::optional<double> density{};               // --density, kg/m3
+    bool one = false;                              // --one: this file alone, without its series
+    std::vector<std::string> contacts{};           // --contacts: files or patterns of contacts
+    std::vector<std::string> walls{};              // --walls: files or patterns of surfaces
+    std::optional<double> walls_scale{};           // m in one unit of the walls' files
+    std::filesystem::path container{};             // --container scene.toml: its walls and its drive
+    bool moves_with_container = false;             // --moves-with container
+};
+
+// Paths that name many files.
+
+// Whether a text is a pattern (* ? [) and no file has that name.
+inline bool is_pattern(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return path.string().find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path, ignored);
+}
+
+// What reads one format of frames. A reader is a file in engine/files/frames/readers and a line in the list
+// of open_frames.cpp.
+
+// What lies under a name, and how it begins.
+struct FileHead {
+    std::filesystem::path path;
+    bool folder = false;
+    std::uintmax_t size = 0;  // bytes
+    std::string bytes;        // the first kHeadBytes of them
+};
+inline constexpr std::size_t kHeadBytes = 65536;
+
+struct FrameRequest {
+    // The name of the reader, for who knows what a file must be; empty: its content decides.
+    std::string format{};
+    // Reads the scene.toml of a run's folder; none: as the engine reads it.
+    std::function<Scene(const std::filesystem::path& folder)> scene_of_run{};
+    // What the user says of files of other programs.
+    ReadingOptions reading{};
+};
+
+struct FrameReader {
+    const char* name;   // "trajectory"
+    const char* about;  // "a trajectory.nc of a run", for the list of what can be read
+    // By content: the name of a file says nothing.
+    bool (*takes)(const FileHead& head);
+    // Throws UserError when it cannot be read.
+    std::unique_ptr<FrameArchive> (*open)(const std::filesystem::path& path, const FrameRequest& request);
+};
 
 }  // namespace grainreel

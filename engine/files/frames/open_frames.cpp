@@ -8,8 +8,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/own_readers.hpp"
-#include "engine/files/frames/path_pattern.hpp"
 
 // All readers, a line each, in the order in which they are asked: FrameReader NAME_reader() in
 // engine/files/frames/readers.

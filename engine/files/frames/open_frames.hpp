@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/frames/frame_reader.hpp"
 
 namespace grainreel {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

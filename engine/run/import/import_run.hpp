@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/reading_options.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

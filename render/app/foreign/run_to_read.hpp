@@ -7,7 +7,7 @@
 
 #include <CLI/App.hpp>
 
-#include "engine/files/frames/reading_options.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "render/app/report/reporter.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "engine/files/frames/reading_options.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/questions/record.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/sources/recorded_run.hpp"

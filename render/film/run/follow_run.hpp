@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/frames/reading_options.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/scene/text/assignment.hpp"
 #include "render/film/run/film_run.hpp"
 #include "render/scene/filmed_scene.hpp"

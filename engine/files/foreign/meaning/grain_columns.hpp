@@ -12,7 +12,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/meaning/units.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/frames/reading_options.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/files/foreign/raw_frame.hpp"
-#include "engine/files/frames/reading_options.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/path_pattern.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,7 @@
 #include "engine/base/numbers.hpp"
 #include "engine/files/frame_faults.hpp"
 #include "engine/files/frames/clock_of.hpp"
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/state/checkpoint_file.hpp"
 #include "engine/state/wall_motion.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/grain_table.hpp"

@@ -1,7 +1,7 @@
 // The folder of a run: its scene.toml, its trajectory.nc and what lies beside them.
 #include <system_error>
 
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/files/frames/frame_reader.hpp"
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/trajectory_world.hpp"
 
 namespace grainreel {
