@@ -8,7 +8,6 @@
 
 #include "engine/files/frames/export_frames.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/files/frames/own_readers.hpp"
 #include "engine/files/frames/write_frames.hpp"
 
 namespace grainreel::v1 {

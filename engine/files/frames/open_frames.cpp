@@ -1,15 +1,15 @@
 #include "engine/files/frames/open_frames.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <system_error>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/frames/own_readers.hpp"
 
 // All readers, a line each, in the order in which they are asked: FrameReader NAME_reader() in
 // engine/files/frames/readers.
@@ -101,6 +101,37 @@ std::unique_ptr<FrameArchive> open_frames(const fs::path& path, const FrameReque
     for (const FrameReader& reader : frame_readers())
         if (request.format == reader.name) return reader.open(path, request);
     throw UserError(fmt::format("{}: there is no reader called {}", path.string(), request.format));
+}
+
+}  // namespace grainreel
+namespace grainreel {
+
+namespace {
+
+struct GivenReaders {
+    std::mutex guard;
+    std::vector<std::shared_ptr<const OwnReader>> all;
+};
+
+GivenReaders& given_readers() {
+    static GivenReaders readers;
+    return readers;
+}
+
+}  // namespace
+
+void add_own_reader(std::shared_ptr<const OwnReader> reader) {
+    GivenReaders& given = given_readers();
+    const std::string name = reader->name();
+    const std::scoped_lock lock(given.guard);
+    std::erase_if(given.all, [&](const auto& one) { return one->name() == name; });
+    given.all.insert(given.all.begin(), std::move(reader));
+}
+
+std::vector<std::shared_ptr<const OwnReader>> own_readers() {
+    GivenReaders& given = given_readers();
+    const std::scoped_lock lock(given.guard);
+    return given.all;
 }
 
 }  // namespace grainreel
