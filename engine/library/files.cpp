@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/files/frames/export_frames.hpp"
+#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/files/frames/write_frames.hpp"
 
 namespace grainreel::v1 {
 namespace {

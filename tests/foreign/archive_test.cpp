@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/export_frames.hpp"
+#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

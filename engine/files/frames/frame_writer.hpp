@@ -2,8 +2,13 @@
 // of write_frames.cpp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/world.hpp"
@@ -37,5 +42,32 @@ struct FrameFormat {
     // Nothing is written before begin().
     std::unique_ptr<FrameWriter> (*make)(const std::filesystem::path& path);
 };
+
+// Writes frames in any format that there is.
+
+const std::vector<FrameFormat>& frame_formats();
+
+// Throws UserError, with a list of the names, where there is no such format.
+std::unique_ptr<FrameWriter> frame_writer(const std::string& format, const std::filesystem::path& path);
+
+// Writes the frames of any record in any format: what a converter does.
+
+struct ExportChoice {
+    std::optional<double> from, until, at;  // s
+    std::int64_t every = 1;                 // one of so many frames
+};
+
+struct Exported {
+    std::filesystem::path path;  // file or folder
+    std::int64_t frames = 0;
+    std::uintmax_t bytes = 0;
+};
+
+// format: a name of frame_formats(). The result gets its name only when it is whole. Throws UserError where
+// no frame is chosen, where `path` is there already (unless `replace`) or cannot be made, RunError where the
+// disk is full. watcher: called with the share that is done; false stops, and nothing is left.
+Exported export_frames(const FrameArchive& frames, const std::string& format,
+                       const std::filesystem::path& path, const ExportChoice& choice, bool replace,
+                       const std::function<bool(double)>& watcher);
 
 }  // namespace grainreel

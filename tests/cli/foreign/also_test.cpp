@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/files/frames/write_frames.hpp"
 #include "engine/scene/also_formats.hpp"
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"

@@ -7,9 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/files/frames/export_frames.hpp"
+#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/files/frames/write_frames.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
 #include "tests/cli/small_scene.hpp"
 

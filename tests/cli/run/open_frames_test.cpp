@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/write_frames.hpp"
+#include "engine/files/frames/frame_writer.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/questions/questions.hpp"
