@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "engine/files/frames/clock_of.hpp"
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/state/checkpoint_file.hpp"
 

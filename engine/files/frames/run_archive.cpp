@@ -11,7 +11,6 @@
 #include "engine/base/error.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/files/folder_lock.hpp"
-#include "engine/files/frames/clock_of.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/trajectory_world.hpp"

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "engine/base/clock.hpp"
+#include "engine/frame.hpp"
 #include "engine/scene/file/reader.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/assignment.hpp"
@@ -27,5 +30,13 @@ struct CheckpointScene {
 };
 CheckpointScene scene_in_checkpoint(const std::filesystem::path& checkpoint);
 Scene scene_of_checkpoint(const std::filesystem::path& checkpoint);
+
+// The clock of a record's moments.
+
+// A clock with steps of that length (s). With 0 it stands still.
+Clock clock_of_steps(const Scene& scene, double step);
+
+// The clock of a trajectory's frames, of which only the moments count. Its step is 0 when all are at step 0.
+Clock clock_of(const Scene& scene, const std::vector<Frame>& moments);
 
 }  // namespace grainreel

@@ -9,7 +9,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/files/frame_faults.hpp"
-#include "engine/files/frames/clock_of.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/state/checkpoint_file.hpp"
