@@ -1,10 +1,13 @@
 // trajectory.nc, and the other files of moments that a run writes in its format, without what lies beside
 // them.
-#include <utility>
 
 #include <fmt/format.h>
+#include <system_error>
+#include <utility>
 
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/run_archive.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/trajectory_world.hpp"
 
 namespace grainreel {
@@ -67,6 +70,35 @@ std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest&) {
 
 FrameReader trajectory_reader() {
     return {"trajectory", "the trajectory.nc of a run", takes, open};
+}
+
+// The folder of a run: its scene.toml, its trajectory.nc and what lies beside them.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool takes(const FileHead& head) {
+    std::error_code ignored;
+    return head.folder && (fs::exists(head.path / "scene.toml", ignored) ||
+                           fs::exists(head.path / "trajectory.nc", ignored));
+}
+
+std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest& request) {
+    const fs::path folder = folder_of_run(path);
+    const bool for_questions = true;
+    auto run = std::make_unique<RunArchive>(
+        folder, request.scene_of_run ? request.scene_of_run(folder) : plain_scene_of_run(folder),
+        for_questions);
+    std::error_code ignored;
+    if (fs::exists(folder / "contacts.nc", ignored)) run->read_contacts(true);
+    return run;
+}
+
+}  // namespace
+
+FrameReader run_folder_reader() {
+    return {"run", "the folder of a run (scene.toml and trajectory.nc)", takes, open};
 }
 
 }  // namespace grainreel
