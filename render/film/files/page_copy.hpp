@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "render/film/codec/colour_conversion.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/ffmpeg_handles.hpp"
 #include "render/picture/base/picture.hpp"
