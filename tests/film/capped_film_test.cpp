@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
-#include "render/film/codec/smaller_film.hpp"
+#include "render/film/codec/film_writer.hpp"
 #include "render/scene/keys/words.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"

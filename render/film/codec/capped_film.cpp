@@ -7,8 +7,8 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/film/codec/film_reader.hpp"
+#include "render/film/codec/film_writer.hpp"
 #include "render/film/codec/remux.hpp"
-#include "render/film/codec/smaller_film.hpp"
 
 namespace grainreel {
 namespace {

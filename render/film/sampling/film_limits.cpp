@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
 #include "render/film/codec/codec.hpp"
-#include "render/film/codec/smaller_film.hpp"
+#include "render/film/codec/film_writer.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/filmed_scene.hpp"
