@@ -1,4 +1,4 @@
-#include "render/film/codec/capped_film.hpp"
+#include "render/film/codec/spooled_films.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

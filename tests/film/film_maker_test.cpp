@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "engine/base/error.hpp"
-#include "render/film/codec/work_folder.hpp"
+#include "render/film/codec/spooled_films.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"

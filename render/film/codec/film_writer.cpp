@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "render/film/codec/capped_film.hpp"
 #include "render/film/codec/encoder.hpp"
-#include "render/film/codec/gif_film.hpp"
+#include "render/film/codec/spooled_films.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -1,0 +1,132 @@
+// A film that must not be larger than so many bytes. It is made at its quality, and that is all when it fits.
+// If it does not, two-pass encoding brings it to the cap, as long as the words on it can be read: what the
+// film needs for that is found by encoding it at the least legible quality. Encoding anew needs the pictures
+// once more, and they cannot be drawn again: the trajectory does not have the film's steps. So an exact copy
+// of them, in the pixels of the codec, is kept on disk until the film is complete.
+#pragma once
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "render/film/codec/encoder.hpp"
+#include "render/film/codec/film_writer.hpp"
+
+namespace grainreel {
+
+// What a film needs beside itself while it is made: a folder next to it that goes with the writer. Another
+// folder that has got its name meanwhile is left alone.
+
+class WorkFolder {
+  public:
+    // Throws RunError.
+    explicit WorkFolder(const std::filesystem::path& film) : path_(film.parent_path() / "movie.work") {
+        const std::error_code error = make_plain_folder(path_);
+        if (error)
+            throw RunError(fmt::format("{}: cannot make the folder: {}", path_.string(), error.message()));
+        made_ = identity();
+    }
+    ~WorkFolder() {
+        if (!kept_) remove();
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+
+    std::filesystem::path file(const char* name) const { return path_ / name; }
+    // From now on it stays, since it holds the only copy of the film; until remove().
+    void keep() { kept_ = true; }
+    void remove() {
+        std::error_code ignored;
+        if (identity() == made_) std::filesystem::remove_all(path_, ignored);
+        kept_ = true;
+    }
+
+  private:
+    // Device and number of what has the name now; zeros for nothing.
+    std::pair<dev_t, ino_t> identity() const {
+        struct stat named {};
+        return ::stat(path_.c_str(), &named) == 0 ? std::pair(named.st_dev, named.st_ino)
+                                                  : std::pair<dev_t, ino_t>();
+    }
+
+    std::filesystem::path path_;
+    std::pair<dev_t, ino_t> made_;
+    bool kept_ = false;
+};
+
+class CappedFilm final : public FilmWriter {
+  public:
+    // cap: bytes of the file, its container counted. Throws RunError.
+    CappedFilm(const EncoderSettings& settings, std::int64_t cap);
+
+    void add(const Picture& picture) override;
+    // The film has at most `cap` bytes then, and at least nine tenths of them unless it is smaller at its
+    // quality. Throws RunError when the cap is below the size of the film at the least legible quality, and
+    // says what would fit; the film at its own quality is left then.
+    void finish() override;
+
+    std::string description() const override;
+    std::vector<std::string> notes() const override { return notes_; }
+
+  private:
+    void fit(std::int64_t size);
+    void fill(double overhead);
+    [[noreturn]] void refuse(std::int64_t size, std::int64_t floor, double overhead) const;
+    void take_fitted() const;
+    std::string first_pass() const;
+    // Bytes of the film encoded anew: as told, at the least legible quality, at that rate (bits/s).
+    std::int64_t encode(EncoderSettings settings) const;
+    std::int64_t encode_legible() const;
+    std::int64_t encode_at(std::int64_t bit_rate, const std::string& log) const;
+
+    EncoderSettings settings_;
+    std::int64_t cap_;
+    WorkFolder work_;
+    std::unique_ptr<Encoder> film_, spool_;
+    std::string description_, result_;
+    std::vector<std::string> notes_;
+};
+
+// A GIF, whose 256 colours are chosen when all pictures are known: until then they lie on disk as an exact
+// copy, movie.work/spool.mkv, which plays when the run is killed. Under a cap it gets fewer colours.
+
+struct GifColours {
+    int count;
+    const char *dither, *words;
+};
+
+class GifFilm final : public FilmWriter {
+  public:
+    // cap: bytes of the file.
+    explicit GifFilm(const EncoderSettings& settings, std::optional<std::int64_t> cap = {});
+
+    void add(const Picture& picture) override { spool_->add(picture); }
+    // Throws RunError also when the cap is below what the fewest colours need, and says what would fit; the
+    // film in all its colours is left then.
+    void finish() override;
+
+    std::string description() const override { return description_; }
+    std::vector<std::string> notes() const override { return {}; }
+    // Beside the GIF: the exact copy, which is all there is without finish().
+    static const char* spool_name() { return "movie.work/spool.mkv"; }
+
+  private:
+    std::int64_t write(const GifColours& colours, const std::filesystem::path& path);
+    void take(const std::filesystem::path& made);
+
+    EncoderSettings settings_;
+    std::optional<std::int64_t> cap_;
+    WorkFolder work_;
+    std::unique_ptr<Encoder> spool_;
+    std::string description_;
+};
+
+}  // namespace grainreel
