@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "render/film/codec/encoder.hpp"
-#include "render/film/codec/film_reader.hpp"
+#include "render/film/codec/film_file.hpp"
 #include "render/film/files/png.hpp"
 #include "render/page/film/page_film.hpp"
 #include "render/scene/filmed_scene.hpp"

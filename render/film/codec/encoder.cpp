@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "render/film/codec/bt709.hpp"
-#include "render/film/codec/remux.hpp"
+#include "render/film/codec/film_file.hpp"
 
 namespace grainreel {
 

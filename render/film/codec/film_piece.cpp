@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/film/codec/remux.hpp"
+#include "render/film/codec/film_file.hpp"
 
 namespace grainreel {
 

@@ -7,8 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "render/film/codec/film_file.hpp"
 #include "render/film/codec/film_piece.hpp"
-#include "render/film/codec/remux.hpp"
 
 namespace grainreel {
 

@@ -6,10 +6,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/text/data_size.hpp"
-#include "render/film/codec/film_reader.hpp"
+#include "render/film/codec/film_file.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/codec/filter_graph.hpp"
-#include "render/film/codec/remux.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 #include "engine/scene/text/data_size.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/encoder.hpp"
-#include "render/film/codec/film_reader.hpp"
+#include "render/film/codec/film_file.hpp"
 #include "render/film/codec/filter_graph.hpp"
 #include "render/page/embed/read_bytes.hpp"
 #include "render/page/film/small_jpeg.hpp"
