@@ -1,4 +1,4 @@
-// Pixels as a PNG file. Films have a faster way (render/film/files/png.hpp), which needs more libraries.
+// Pixels as a PNG file. Films have a faster way (render/film/codec/png.hpp), which needs more libraries.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "render/film/files/png.hpp"
+#include "render/film/codec/png.hpp"
 
 #include <gmock/gmock.h>
 

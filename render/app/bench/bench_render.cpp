@@ -20,7 +20,7 @@
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"
 #include "render/film/codec/encoder.hpp"
-#include "render/film/files/png.hpp"
+#include "render/film/codec/png.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/spheres/light/lamp.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/film/files/png.hpp"
+#include "render/film/codec/png.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/request/thread_plan.hpp"
 #include "render/picture/grains/shown_grains.hpp"

@@ -10,9 +10,9 @@
 
 #include "engine/frame.hpp"
 #include "render/film/codec/film_writer.hpp"
+#include "render/film/codec/png.hpp"
 #include "render/film/files/flash_watch.hpp"
 #include "render/film/files/page_copy.hpp"
-#include "render/film/files/png.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/panels/contact_sheet.hpp"

@@ -9,7 +9,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "render/film/files/png.hpp"
+#include "render/film/codec/png.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -1,9 +1,8 @@
-#include "render/film/files/png.hpp"
+#include "render/film/codec/png.hpp"
 
 #include <fmt/format.h>
 #include <libdeflate.h>
 #include <png.h>
-
 #include <cerrno>
 #include <csetjmp>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include "engine/base/plain_file.hpp"
 
 namespace grainreel {
+
 namespace {
 
 // libdeflate's, with PNG's filter Up. Against libpng's own way at zlib's level 2 with the filter Sub, in turn
