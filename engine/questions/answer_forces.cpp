@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/questions/forces.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 namespace {

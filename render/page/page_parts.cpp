@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/file/scene_file.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/page/embed/base64.hpp"
 #include "render/page/embed/html.hpp"
 #include "render/page/facts/methods.hpp"

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/grain_values.hpp"
 
 namespace grainreel {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 namespace {

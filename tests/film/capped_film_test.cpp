@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/scene/keys/words.hpp"
 #include "tests/film/film_fixture.hpp"

@@ -11,7 +11,7 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/grain_values.hpp"
 #include "tests/scene/scene_text.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/keys/words.hpp"
 #include "tests/scene/scene_text.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <udunits2.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,11 +9,14 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <string_view>
+#include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 
 namespace grainreel {
+
 namespace {
 
 struct FreeUnit {
@@ -196,6 +198,73 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
     const double parts = std::round(1 / *scale), times = std::round(*scale);
     if (parts > 1 && std::abs(parts * *scale - 1) < rounding) return value / parts;
     return times >= 1 && std::abs(*scale / times - 1) < rounding ? value * times : value * *scale;
+}
+
+namespace {
+
+std::vector<std::string> usual_units(Dimension dimension) {
+    switch (dimension) {
+        case Dimension::length:
+            return {"m", "mm", "µm"};
+        case Dimension::speed:
+            return {"m/s", "mm/s", "µm/s"};
+        case Dimension::energy:
+            return {"J", "mJ", "µJ", "nJ"};
+        case Dimension::force:
+            return {"kN", "N", "mN", "µN"};
+        case Dimension::mass:
+            return {"kg", "g", "mg", "µg"};
+        case Dimension::moment:
+            return {"N.m", "mN.m", "µN.m", "nN.m"};
+        case Dimension::pressure:
+            return {"MPa", "kPa", "Pa"};
+        case Dimension::number:
+            return {""};
+        default:
+            return {text_of(dimension).unit};
+    }
+}
+
+}  // namespace
+
+double unit_size(const std::string& unit, Dimension dimension) {
+    return unit.empty() ? 1.0 : parse_quantity("1 " + unit, dimension);
+}
+
+std::string fitting_unit(double value, Dimension dimension) {
+    const std::vector<std::string> units = usual_units(dimension);
+    for (const std::string& unit : units)
+        if (std::abs(value) >= 0.5 * unit_size(unit, dimension)) return unit;
+    return units.back();
+}
+
+std::optional<std::int64_t> parse_data_size(const std::string& text) {
+    double number = 0;
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number, std::chars_format::fixed);
+    if (read.ec != std::errc()) return std::nullopt;
+    std::string_view unit(read.ptr, static_cast<std::size_t>(end - read.ptr));
+    while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+    constexpr double k = 1000, ki = 1024;
+    const std::array<std::pair<std::string_view, double>, 7> units{{{"B", 1},
+                                                                    {"kB", k},
+                                                                    {"MB", k * k},
+                                                                    {"GB", k * k * k},
+                                                                    {"KiB", ki},
+                                                                    {"MiB", ki * ki},
+                                                                    {"GiB", ki * ki * ki}}};
+    for (const auto& [name, bytes] : units) {
+        const double size = number * bytes;
+        if (unit == name && size >= 1 && size < 1e15) return static_cast<std::int64_t>(std::floor(size));
+    }
+    return std::nullopt;
+}
+
+std::string data_size_text(double bytes) {
+    constexpr std::array<const char*, 5> units{"B", "kB", "MB", "GB", "TB"};
+    std::size_t unit = 0;
+    for (; bytes >= 1000 && unit + 1 < units.size(); ++unit) bytes /= 1000;
+    return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
 }  // namespace grainreel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,5 +56,24 @@ struct AnyUnit {
 // Empty for text that is no unit, and for one of what has no place here (temperature, current). Safe from
 // several threads.
 std::optional<AnyUnit> parse_unit(std::string_view text);
+
+// The unit that a number reads well in.
+
+// SI units in one of `unit`, 0.01 for "cm/s"; 1 for an empty one. Throws UserError, without a place, when it
+// is not a unit of the dimension.
+double unit_size(const std::string& unit, Dimension dimension);
+
+// The largest of the dimension's usual units in which `value` is not below 0.5; the smallest of them for
+// less.
+std::string fitting_unit(double value, Dimension dimension);
+
+// Sizes of files: "10 MB".
+
+// Bytes of "10 MB", "1.5GB" or "9 MiB": B, kB, MB, GB by thousands, KiB, MiB, GiB by 1024, rounded down. None
+// for what is no positive size.
+std::optional<std::int64_t> parse_data_size(const std::string& text);
+
+// "9.31 MB", by thousands.
+std::string data_size_text(double bytes);
 
 }  // namespace grainreel

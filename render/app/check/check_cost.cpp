@@ -6,7 +6,7 @@
 
 #include "engine/base/team.hpp"
 #include "engine/handover/peer_rates.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/app/check/check_parts.hpp"
 #include "render/app/estimate/cost_estimate.hpp"
 #include "render/app/estimate/disk_estimate.hpp"

@@ -16,7 +16,7 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/app/print/curve.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/page/facts/run_names.hpp"

@@ -10,7 +10,7 @@
 #include "engine/files/foreign/series/file_groups.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"

@@ -17,7 +17,7 @@
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/folder/listener.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/stop_signal.hpp"

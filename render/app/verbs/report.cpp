@@ -8,7 +8,7 @@
 #include <CLI/App.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/paper_options.hpp"

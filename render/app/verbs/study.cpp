@@ -13,7 +13,7 @@
 #include "engine/base/text.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/run/driver/pace.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/app/check/study_estimate.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/paper_options.hpp"

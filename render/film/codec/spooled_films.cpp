@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/film/codec/film_file.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/codec/filter_graph.hpp"

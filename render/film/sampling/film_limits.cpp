@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/picture/words/layout.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/page/bed/slabs.hpp"
 #include "render/picture/base/colour_map.hpp"
 #include "render/picture/base/colour_scale.hpp"

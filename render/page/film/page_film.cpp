@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/film_file.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/picture/base/colour_map.hpp"
 #include "render/scene/grain_values.hpp"
 #include "render/scene/wall_values.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/film_look.hpp"
 #include "render/scene/film_shows.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/picture/marks/marks.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"

@@ -9,7 +9,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/picture/plots/axis_drawing.hpp"
 #include "render/picture/plots/ticks.hpp"
 #include "render/picture/text/text.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/grains/velocity_field.hpp"
 #include "render/picture/plots/axis_drawing.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/plots/ticks.hpp"
 #include "render/picture/words/writer.hpp"

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/fitting_unit.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/grain_values.hpp"
 #include "render/scene/keys/film_keys.hpp"
 

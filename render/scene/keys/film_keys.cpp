@@ -9,7 +9,7 @@
 
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
-#include "engine/scene/text/data_size.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/colours.hpp"
 #include "render/scene/keys/film_file.hpp"
 #include "render/scene/keys/word_kinds.hpp"
