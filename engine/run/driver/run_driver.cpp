@@ -13,7 +13,7 @@
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/packings/packing_cache.hpp"
 #include "engine/scene/file/scene_file.hpp"
-#include "engine/scene/text/comments.hpp"
+#include "engine/scene/text/toml_text.hpp"
 #include "engine/vector/instructions.hpp"
 
 namespace grainreel {

@@ -59,4 +59,10 @@ class SceneText {
     std::map<std::string, std::string> remarks_;
 };
 
+// Comments of a scene file that is written again.
+
+// Both texts are of the scene's writer, a key a line. What `before` says above a key is said above it again,
+// where the key has the value that it had, and nothing is said there yet.
+std::string with_comments_of(std::string_view before, std::string text);
+
 }  // namespace grainreel
