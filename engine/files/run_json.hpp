@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/grain_table.hpp"
-#include "engine/scene/keys/accepted_key.hpp"
+#include "engine/scene/keys/keys.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/keys/accepted_key.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/scene/keys/keys.hpp"
-#include "engine/scene/text/assignment.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

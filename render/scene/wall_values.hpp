@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "engine/scene/keys/words.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/scene/film_look.hpp"

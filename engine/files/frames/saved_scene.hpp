@@ -7,8 +7,8 @@
 #include "engine/base/clock.hpp"
 #include "engine/frame.hpp"
 #include "engine/scene/file/reader.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/assignment.hpp"
 
 namespace grainreel {
 

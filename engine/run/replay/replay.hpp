@@ -14,8 +14,8 @@
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/file/reader.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/assignment.hpp"
 
 namespace grainreel {
 

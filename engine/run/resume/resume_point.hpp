@@ -10,8 +10,8 @@
 #include "engine/files/run_json.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation/simulation.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/assignment.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 
 #include "engine/scene/chapters/reasons.hpp"
 #include "engine/scene/keys/document.hpp"
-#include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/toml_text.hpp"
 

@@ -11,7 +11,7 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/vessel_leak.hpp"
 
 namespace grainreel {

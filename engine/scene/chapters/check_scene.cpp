@@ -17,7 +17,7 @@
 #include "engine/scene/chapters/wall_grain_keys.hpp"
 #include "engine/scene/drive/stage_keys.hpp"
 #include "engine/scene/free_space.hpp"
-#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/measure_columns.hpp"
 
 namespace grainreel {

@@ -1,7 +1,7 @@
 // The words that scenes use for choices, once for the reader, the writer and the list of keys.
 #pragma once
 
-#include "engine/scene/keys/words.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/assignment.hpp"
 
 namespace grainreel {
 

@@ -12,9 +12,7 @@
 #include <vector>
 
 #include "engine/scene/keys/document.hpp"
-#include "engine/scene/keys/key_parts.hpp"
-#include "engine/scene/keys/key_path.hpp"
-#include "engine/scene/keys/words.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel::keys {

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/scene/keys/key_path.hpp"
+#include "engine/scene/keys/keys.hpp"
 
 namespace grainreel {
 namespace {

@@ -17,7 +17,6 @@
 #include "engine/base/vector.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/text/assignment.hpp"
 
 namespace grainreel {
 

@@ -2,9 +2,13 @@
 // in docs/reference/scenes.md all live on it. Another kind of file (a study) has a list of its own.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/text/units.hpp"
@@ -85,5 +89,149 @@ std::string table_of(std::string_view path);
 
 // The table of all keys in Markdown, as in docs/reference/scenes.md and docs/reference/studies.md.
 std::string key_table_markdown(const std::vector<Key>& keys = scene_keys());
+
+// Paths of keys as text, "species[1].count".
+
+inline std::string join_path(std::string_view table, std::string_view name) {
+    return table.empty() ? std::string(name) : std::string(table) + "." + std::string(name);
+}
+
+inline std::string parent_of(std::string_view path) {
+    const auto dot = path.rfind('.');
+    return dot == std::string_view::npos ? std::string() : std::string(path.substr(0, dot));
+}
+
+// The last name: "count".
+inline std::string name_of(std::string_view path) {
+    const auto dot = path.rfind('.');
+    return std::string(dot == std::string_view::npos ? path : path.substr(dot + 1));
+}
+
+// A list of choices: the word that a scene uses for each value.
+
+template <class T>
+using Words = std::vector<std::pair<std::string, T>>;
+
+template <class T>
+const std::string& word_of(T value, const Words<T>& words) {
+    std::size_t k = 0;
+    while (words[k].second != value) ++k;
+    return words[k].first;
+}
+
+template <class T>
+std::vector<std::string> all_of(const Words<T>& words) {
+    std::vector<std::string> all;
+    for (const auto& word : words) all.push_back(word.first);
+    return all;
+}
+
+}  // namespace grainreel
+
+// What the list of keys is put together from. Internal.
+
+namespace grainreel::keys {
+
+struct Fallback {
+    std::string literal, note;
+};
+inline Fallback required() {
+    return {"", "required"};
+}
+inline Fallback literal(const char* text) {
+    return {text, ""};
+}
+inline Fallback note(const char* text) {
+    return {"", text};
+}
+
+inline constexpr double most_grains = 2147483647;
+
+inline const Range any{};
+inline const Range positive{0, std::numeric_limits<double>::infinity(), true, false};
+inline const Range positive_or_tiny{0, std::numeric_limits<double>::infinity(), true, false, true};
+inline const Range not_negative{0, std::numeric_limits<double>::infinity(), false, false};
+inline const Range not_negative_or_infinite{0, std::numeric_limits<double>::infinity(), false, true};
+inline const Range share{0, 1, true, false};
+
+inline Key entry(std::string path, KeyKind kind, Fallback fallback, const char* about) {
+    Key key;
+    key.path = std::move(path);
+    key.kind = kind;
+    key.fallback = std::move(fallback.literal);
+    key.fallback_note = std::move(fallback.note);
+    key.about = about;
+    return key;
+}
+
+inline Key quantity(std::string path, Dimension dimension, const Range& range, Fallback fallback,
+                    const char* about) {
+    Key key = entry(std::move(path), KeyKind::quantity, std::move(fallback), about);
+    key.dimension = dimension;
+    key.range = range;
+    return key;
+}
+
+inline Key integer(std::string path, double low, double high, Fallback fallback, const char* about) {
+    Key key = entry(std::move(path), KeyKind::integer, std::move(fallback), about);
+    key.range = {low, high, false, false};
+    return key;
+}
+
+inline Key choice(std::string path, std::vector<std::string> choices, Fallback fallback, const char* about) {
+    Key key = entry(std::move(path), KeyKind::choice, std::move(fallback), about);
+    key.choices = std::move(choices);
+    return key;
+}
+
+inline Key of_dimension(Key key, Dimension dimension, const Range& range) {
+    key.dimension = dimension;
+    key.range = range;
+    return key;
+}
+
+inline Key of_choices(Key key, std::vector<std::string> choices) {
+    key.choices = std::move(choices);
+    return key;
+}
+
+inline Key of_length(Key key, std::size_t most_letters) {
+    key.most_letters = most_letters;
+    return key;
+}
+
+using Keys = std::vector<Key>;
+
+}  // namespace grainreel::keys
+namespace grainreel {
+
+// A key that `resume --accept` changed at a step of a run. Checkpoints from before have it as it was.
+
+struct AcceptedKey {
+    std::int64_t step = 0;
+    std::string key, then, now;  // values as TOML; empty: not there
+};
+
+// Values that take precedence over those of a scene file, and who said them.
+
+struct Assignment {
+    Assignment(std::string assignment, std::string said_by = "")
+        : text(std::move(assignment)), option(std::move(said_by)) {}
+    Assignment(const char* assignment) : text(assignment) {}
+
+    std::string text;    // "drive.frequency=30 Hz"
+    std::string option;  // that was typed, "--size"; empty: --set
+
+    std::string key() const;    // "drive.frequency"
+    std::string value() const;  // "30 Hz"
+    std::string place() const;  // for messages: "--size", "--set drive.frequency"
+};
+
+// The later of two assignments to one key wins.
+class Assignments : public std::vector<Assignment> {
+  public:
+    using std::vector<Assignment>::vector;
+    Assignments(const std::vector<std::string>& all) : std::vector<Assignment>(all.begin(), all.end()) {}
+};
 
 }  // namespace grainreel

@@ -9,7 +9,7 @@
 
 #include <CLI/App.hpp>
 
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/scene/film.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/app/report/reporter.hpp"
 #include "render/film/request/film_request.hpp"
 #include "render/page/live/watch.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/app/study/results/reduction.hpp"
 
 namespace grainreel {

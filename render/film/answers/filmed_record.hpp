@@ -7,7 +7,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/questions/record.hpp"
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/film/sources/recorded_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -9,7 +9,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/words/captions.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

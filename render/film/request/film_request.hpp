@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/run/folder/folder_run.hpp"
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/film/request/print_size.hpp"
 #include "render/picture/gl/provider.hpp"
 

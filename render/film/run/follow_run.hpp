@@ -8,7 +8,7 @@
 
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/film/run/film_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/recorded_run.hpp"
 

@@ -12,7 +12,7 @@
 #include "engine/files/wear_file.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/questions/record.hpp"
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"
 #include "render/scene/filmed_scene.hpp"

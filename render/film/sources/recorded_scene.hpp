@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -13,7 +13,7 @@
 
 #include "engine/questions/reachable_moments.hpp"
 #include "engine/run/driver/kept_moments.hpp"
-#include "engine/scene/text/assignment.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_of_run.hpp"
 #include "render/film/sources/recorded_run.hpp"

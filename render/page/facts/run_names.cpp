@@ -10,7 +10,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/file/scene_file.hpp"
-#include "engine/scene/keys/key_path.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/page/facts/differences.hpp"
 #include "render/scene/read_scene.hpp"

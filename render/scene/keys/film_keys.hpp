@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/scene/keys/document.hpp"
-#include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/scene/filmed_scene.hpp"
 

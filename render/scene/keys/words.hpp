@@ -1,7 +1,7 @@
 // The words that scenes use for choices of their film, once for the reader, the writer and the list of keys.
 #pragma once
 
-#include "engine/scene/keys/words.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/scene/film.hpp"
 
 namespace grainreel {

@@ -1,6 +1,6 @@
 #include "render/app/study/file/study_keys.hpp"
 
-#include "engine/scene/keys/key_parts.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "render/app/study/file/values.hpp"
 
 namespace grainreel {

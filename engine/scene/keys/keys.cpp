@@ -1,14 +1,14 @@
 // Finding keys in the list, the right ones and the nearest ones, and describing them.
-#include <fmt/format.h>
+#include "engine/scene/keys/keys.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/text.hpp"
-#include "engine/scene/keys/key_path.hpp"
-#include "engine/scene/keys/keys.hpp"
 
 namespace grainreel {
+
 namespace {
 
 // "species[1].count" -> "species[].count"
@@ -208,6 +208,28 @@ std::string key_table_markdown(const std::vector<Key>& keys) {
         text += fmt::format("| `{}` | {} | {} | {} |\n", name, value, fallback, key.about);
     }
     return text;
+}
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+std::string Assignment::key() const {
+    return trimmed(text.substr(0, text.find('=')));
+}
+
+std::string Assignment::value() const {
+    const auto equals = text.find('=');
+    return equals == std::string::npos ? "" : trimmed(text.substr(equals + 1));
+}
+
+std::string Assignment::place() const {
+    return option.empty() ? "--set " + excerpt(key()) : option;
 }
 
 }  // namespace grainreel
