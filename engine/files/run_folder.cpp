@@ -17,7 +17,7 @@
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/mesh/load_mesh.hpp"
-#include "engine/scene/file/kept_files.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel {

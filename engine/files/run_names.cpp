@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/scene/file/kept_files.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel::v1 {

@@ -1,7 +1,6 @@
 #include "engine/plan/resolved_scene.hpp"
 
-#include "engine/scene/file/kept_files.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {

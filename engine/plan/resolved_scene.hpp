@@ -4,8 +4,8 @@
 #include <string>
 
 #include "engine/plan/plan.hpp"
-#include "engine/scene/chapters/reasons.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

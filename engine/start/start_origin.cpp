@@ -5,7 +5,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/surroundings.hpp"
 

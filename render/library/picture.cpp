@@ -11,7 +11,7 @@
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/mesh/surface.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/library/png_file.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/plain_film.hpp"

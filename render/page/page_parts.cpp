@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/page/embed/base64.hpp"
 #include "render/page/embed/html.hpp"

@@ -7,8 +7,8 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/table_reader.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/scene/colours.hpp"
 #include "render/scene/keys/film_keys.hpp"
 

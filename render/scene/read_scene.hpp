@@ -13,7 +13,7 @@ namespace grainreel {
 // All keys of a scene file: the engine's and those of [film].
 const std::vector<Key>& filmed_scene_keys();
 
-// As read_scene() of engine/scene/file/reader.hpp, with [film] and the species' colours. measurable: what
+// As read_scene() of engine/scene/scene_file.hpp, with [film] and the species' colours. measurable: what
 // plots and live words may name, too.
 FilmedScene read_filmed_scene(const std::filesystem::path& file, const Assignments& sets = {},
                               const MeasurableIn& measurable = nullptr);

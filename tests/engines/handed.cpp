@@ -8,7 +8,7 @@
 #include "engine/handover/runner/engine_program.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel::test {
 

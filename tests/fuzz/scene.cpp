@@ -2,8 +2,7 @@
 // back.
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/fuzz/scratch.hpp"
 #include "tests/fuzz/targets.hpp"

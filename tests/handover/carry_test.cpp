@@ -4,7 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/handover/carry.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {

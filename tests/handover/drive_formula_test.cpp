@@ -9,7 +9,7 @@
 #include "engine/handover/drive_formula.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "tests/handover/peer_expression.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/handover/back/grain_count.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel::test {

@@ -7,7 +7,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,7 +6,7 @@
 #include "engine/lab/bench/bench_run.hpp"
 #include "engine/lab/bench/scene_cases.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {

@@ -13,7 +13,7 @@
 #include "engine/plan/plan_parts.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 

@@ -20,8 +20,7 @@ namespace grainreel {
 namespace {
 
 const std::string page = GRAINREEL_SOURCE "/docs/reference/scenes.md";
-const std::string begin_mark =
-    "<!-- table of keys: generated from engine/scene/file/scene_keys.cpp, begin -->\n";
+const std::string begin_mark = "<!-- table of keys: generated from engine/scene/scene_file.cpp, begin -->\n";
 const std::string end_mark = "<!-- table of keys: end -->\n";
 
 std::string load(const std::string& path) {
@@ -44,7 +43,7 @@ TEST(Keys, DocsTellWhatTheReaderKnows) {
         return;
     }
     EXPECT_EQ(text.substr(start, end - start), key_table_markdown(filmed_scene_keys()))
-        << "docs/reference/scenes.md is not what engine/scene/file/scene_keys.cpp says; write it anew with\n"
+        << "docs/reference/scenes.md is not what engine/scene/scene_file.cpp says; write it anew with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=Keys.DocsTellWhatTheReaderKnows";
 }
 

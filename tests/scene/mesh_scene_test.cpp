@@ -6,9 +6,8 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/file/kept_files.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "engine/scene/free_space.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/scene/meshes_by_hand.hpp"
 
 namespace grainreel {

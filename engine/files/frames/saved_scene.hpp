@@ -6,9 +6,9 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/frame.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include "engine/handover/handover_folder.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

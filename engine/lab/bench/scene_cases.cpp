@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/base/random.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/surroundings.hpp"

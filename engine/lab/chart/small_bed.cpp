@@ -9,7 +9,7 @@
 #include "engine/lab/chart/validation/seed_mean.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

@@ -12,7 +12,7 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/packings/packing_cache.hpp"
-#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "engine/vector/instructions.hpp"
 

@@ -11,9 +11,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
-#include "engine/scene/file/writer.hpp"
 #include "engine/scene/motion/path.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

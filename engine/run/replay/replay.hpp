@@ -13,9 +13,9 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

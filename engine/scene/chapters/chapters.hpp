@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/chapters/reasons.hpp"
 #include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
 
 namespace grainreel {

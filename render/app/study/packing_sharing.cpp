@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 

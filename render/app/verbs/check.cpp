@@ -4,7 +4,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"

@@ -21,7 +21,7 @@
 #include "engine/run/replay/replay.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/run/resume/resume_point.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/continuation.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"

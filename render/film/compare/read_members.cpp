@@ -9,7 +9,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/film/compare/comparison.hpp"
 #include "render/film/compare/vary.hpp"
 #include "render/scene/read_scene.hpp"

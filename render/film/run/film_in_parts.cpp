@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/writer.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/scene/keys/words.hpp"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/page/embed/html.hpp"
 
 namespace grainreel {

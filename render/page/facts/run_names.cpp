@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/file/scene_file.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/page/facts/differences.hpp"
 #include "render/scene/read_scene.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "engine/files/wear_file.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
 
 namespace grainreel {

@@ -14,7 +14,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/packings/packing_cache.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_disk.hpp"
 #include "tests/cli/small_scene.hpp"

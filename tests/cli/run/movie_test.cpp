@@ -9,7 +9,7 @@
 #include "engine/grain_table.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/film_length.hpp"

@@ -7,8 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
 #include "engine/scene/free_space.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/settle.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/continuation.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

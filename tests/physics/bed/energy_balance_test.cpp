@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/plan/damping.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "tests/physics/world.hpp"

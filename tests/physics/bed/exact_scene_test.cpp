@@ -3,7 +3,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/scene/scene_text.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/physics/world.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "engine/base/random.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

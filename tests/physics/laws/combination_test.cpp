@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {

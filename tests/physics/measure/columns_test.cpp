@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
 

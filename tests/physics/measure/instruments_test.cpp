@@ -7,7 +7,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/flow/drift.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/step/fed_grain.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

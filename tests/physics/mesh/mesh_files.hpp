@@ -12,7 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/vector.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 

@@ -17,7 +17,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

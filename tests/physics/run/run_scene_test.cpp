@@ -10,7 +10,7 @@
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"

@@ -9,7 +9,7 @@
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/surroundings.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/cli/temporary_folder.hpp"

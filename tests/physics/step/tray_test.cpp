@@ -6,7 +6,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/start/surroundings.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/cli/temporary_folder.hpp"

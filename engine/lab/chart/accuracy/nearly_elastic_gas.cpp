@@ -7,7 +7,7 @@
 
 #include "engine/lab/chart/gas.hpp"
 #include "engine/measure/energy/energy_balance.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/step/motion/scheme.hpp"
 
 namespace grainreel {

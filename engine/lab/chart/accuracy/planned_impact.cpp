@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {

@@ -8,7 +8,7 @@
 #include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/limits/experiment.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/scene/file/reader.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {

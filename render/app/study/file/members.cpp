@@ -11,8 +11,8 @@
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/file/kept_files.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/scene/read_scene.hpp"
 

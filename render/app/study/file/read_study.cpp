@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/scene_file.hpp"
 #include "render/app/study/file/read_parts.hpp"
 #include "render/app/study/file/study_keys.hpp"
 #include "render/scene/read_scene.hpp"

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/scene/file/scene_file.hpp"
+#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 namespace {
