@@ -12,7 +12,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/chapters/table_reader.hpp"
 #include "engine/scene/drive/shorten.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/chapters/table_reader.hpp"
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/scene/colours.hpp"

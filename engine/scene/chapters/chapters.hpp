@@ -2,6 +2,7 @@
 // chapters of [film] are in render/scene/keys. Internal to the reader and the writer.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -96,5 +97,22 @@ void make_unit(const Document& document, const std::string& path, Vec3& directio
 
 // Throws UserError where the box of a table with 'low' and 'high' has no room.
 void check_corners(const Document& document, const std::string& table, const Vec3& low, const Vec3& high);
+
+// Whoever reads tables of a scene file that the engine only keeps as text, such as [film]. It reads them from
+// the same document, so that a mistake is told with its line, and the first one first.
+
+class TableReader {
+  public:
+    virtual ~TableReader() = default;
+
+    // All keys that the file may have, the engine's among them.
+    virtual const std::vector<Key>& keys() const = 0;
+    // What one species has for it. The engine has read that species.
+    virtual void read_species(Document& document, std::size_t species) = 0;
+    // Its tables. The engine has read all of its own.
+    virtual void read_tables(Document& document) = 0;
+    // What can be wrong between keys that are right by themselves. Throws UserError.
+    virtual void check() const = 0;
+};
 
 }  // namespace grainreel

@@ -1,10 +1,12 @@
 // The keys above all tables, and what several chapters need.
+#include "engine/scene/chapters/chapters.hpp"
+
 #include <cmath>
 
-#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
+
 namespace {
 
 using namespace keys;
