@@ -9,7 +9,7 @@
 
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/chapters/contact_table.hpp"
+#include "engine/scene/chapters/pair_contact_keys.hpp"
 #include "engine/scene/chapters/wall_grain_keys.hpp"
 
 namespace grainreel {

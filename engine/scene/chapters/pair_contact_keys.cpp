@@ -1,9 +1,11 @@
-#include "engine/scene/chapters/contact_table.hpp"
-#include "engine/scene/chapters/words.hpp"
+#include "engine/scene/chapters/pair_contact_keys.hpp"
 
 #include <fmt/format.h>
 
+#include "engine/scene/chapters/words.hpp"
+
 namespace grainreel {
+
 namespace {
 
 using namespace keys;
