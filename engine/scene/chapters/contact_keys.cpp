@@ -9,8 +9,8 @@
 
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/container_keys.hpp"
 #include "engine/scene/chapters/pair_contact_keys.hpp"
-#include "engine/scene/chapters/wall_grain_keys.hpp"
 
 namespace grainreel {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/container_keys.hpp"
 #include "engine/scene/chapters/mesh_files.hpp"
-#include "engine/scene/chapters/turn_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/chapters/wall_grain_keys.hpp"
+#include "engine/scene/chapters/container_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "engine/scene/chapters/tray_keys.hpp"
+#include "engine/scene/chapters/container_keys.hpp"
 
 #include <fmt/format.h>
 

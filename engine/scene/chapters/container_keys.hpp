@@ -27,4 +27,31 @@ keys::BoundKey<T> turn_key(std::optional<BodyTurn> T::*member, const char* about
         .holding(turn_table());
 }
 
+// The keys of container.outlet. Internal to [container].
+
+// Called after all that says the container's size.
+keys::BoundKey<Container> outlet_key();
+
+// Throws UserError where an outlet does not suit its container or the grains.
+void check_outlet(const Scene& scene);
+
+// The keys of container.tray. Internal to [container].
+
+// Called after the outlet.
+keys::BoundKey<Container> tray_key();
+
+// Throws UserError where a tray does not suit its container.
+void check_tray(const Scene& scene);
+
+// The keys of container.wall_grains. Internal to [container].
+
+// Called after all that says the container's size.
+keys::BoundKey<Container> wall_grains_key();
+
+// Throws UserError where glued grains do not suit their container.
+void check_wall_grains(const Scene& scene);
+
+// Whether a species of this number and name is that of the glued grains, before the container is read.
+bool is_glued(Document& document, std::size_t number, const std::string& name);
+
 }  // namespace grainreel
