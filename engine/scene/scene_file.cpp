@@ -12,7 +12,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/drive/shorten.hpp"
+#include "engine/scene/chapters/drive_keys.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
 

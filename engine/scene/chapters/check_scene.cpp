@@ -15,7 +15,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/container_keys.hpp"
-#include "engine/scene/drive/stage_keys.hpp"
+#include "engine/scene/chapters/drive_keys.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/measure_columns.hpp"

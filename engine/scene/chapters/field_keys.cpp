@@ -6,8 +6,8 @@
 
 #include "engine/base/numbers.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/chapters/drive_keys.hpp"
 #include "engine/scene/chapters/words.hpp"
-#include "engine/scene/drive/shorten.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/base/numbers.hpp"
-#include "engine/scene/drive/shorten.hpp"
+#include "engine/scene/chapters/drive_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/keys/film_keys.hpp"
 

@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/shorten.hpp"
+#include "engine/scene/chapters/drive_keys.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/grain_values.hpp"
 #include "render/scene/keys/film_keys.hpp"
