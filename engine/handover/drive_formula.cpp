@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/wall_motion.hpp"

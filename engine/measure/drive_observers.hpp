@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "engine/measure/observer.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
-#include "engine/scene/drive/grown_share.hpp"
+#include "engine/scene/drive_schedule.hpp"
 
 namespace grainreel::observers {
 

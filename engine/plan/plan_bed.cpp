@@ -8,7 +8,7 @@
 #include "engine/plan/rain_plan.hpp"
 #include "engine/plan/wall_speeds.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/warnings.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -25,7 +25,7 @@ class WallMotion {
     Pose at(std::int64_t step) const { return at(step, 0); }
     // Between two steps; `share` of one, from 0 to 1.
     // In a stage z_w = a (sin(p) - sin phi), the last term without a ramp only, where the phase p goes on
-    // from before and a and f are constant, or change as in engine/scene/drive/drive_change.hpp. A tap is z_w
+    // from before and a and f are constant, or change as in engine/scene/drive_schedule.hpp. A tap is z_w
     // = a (1 - cos wt), once up and down from rest to rest.
     Pose at(std::int64_t step, double share) const;
 

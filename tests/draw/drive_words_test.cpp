@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"

@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
 

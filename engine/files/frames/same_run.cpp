@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/wall_motion.hpp"

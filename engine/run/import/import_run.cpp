@@ -20,7 +20,7 @@
 #include "engine/run/import/import_ranges.hpp"
 #include "engine/run/import/import_scene.hpp"
 #include "engine/run/import/import_wear.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/wall_motion.hpp"

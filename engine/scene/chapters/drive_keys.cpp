@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/scene/chapters/chapters.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "render/app/check/check_parts.hpp"
 #include "render/scene/filmed_scene.hpp"

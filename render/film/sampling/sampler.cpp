@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "engine/base/error.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/exit_fade.hpp"
 #include "render/picture/container/lab_marks.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/scene/filmed_scene.hpp"
 

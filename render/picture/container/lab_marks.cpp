@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

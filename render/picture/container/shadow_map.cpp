@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/base/way_of_container.hpp"
 #include "render/scene/filmed_scene.hpp"
 

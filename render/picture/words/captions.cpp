@@ -9,8 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
-#include "engine/scene/drive/grown_share.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/scene/live_text.hpp"
 
 namespace grainreel {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"
 

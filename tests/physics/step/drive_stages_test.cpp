@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/plan/drive_clock.hpp"
-#include "engine/scene/drive/drive_schedule.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "tests/physics/world.hpp"
 
