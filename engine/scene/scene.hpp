@@ -15,8 +15,7 @@
 #include "engine/scene/also_formats.hpp"
 #include "engine/scene/field_output.hpp"
 #include "engine/scene/measure_columns.hpp"
-#include "engine/scene/motion/path.hpp"
-#include "engine/scene/motion/turn.hpp"
+#include "engine/scene/motion.hpp"
 
 namespace grainreel {
 

@@ -1,5 +1,5 @@
 // Motions from files, and turns: positions and velocities against closed forms.
-#include "engine/scene/motion/path.hpp"
+#include "engine/scene/motion.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/motion/turn.hpp"
 #include "tests/scene/meshes_by_hand.hpp"
 
 namespace grainreel {

@@ -16,7 +16,7 @@
 #include "engine/measure/surface/surface.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/motion/turn.hpp"
+#include "engine/scene/motion.hpp"
 #include "engine/state/grains.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/scene/motion/turn.hpp"
+#include "engine/scene/motion.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

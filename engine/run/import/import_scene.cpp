@@ -11,7 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/motion/path.hpp"
+#include "engine/scene/motion.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
