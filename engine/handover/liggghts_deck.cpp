@@ -10,7 +10,7 @@
 #include "engine/handover/dump_pace.hpp"
 #include "engine/handover/liggghts_law.hpp"
 #include "engine/handover/triangle_walls.hpp"
-#include "engine/scene/diameters.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainreel {
 

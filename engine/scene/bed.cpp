@@ -191,4 +191,19 @@ double bed_width(const Scene& scene) {
     return walls_all_round ? std::min(width, c.depth) : width;
 }
 
+double draw_diameter(const SizeSpread& spread, Random& random) {
+    switch (spread.kind) {
+        case SizeSpread::Kind::fixed:
+            return spread.largest;
+        case SizeSpread::Kind::uniform:
+            return random.between(spread.smallest, spread.largest);
+        case SizeSpread::Kind::normal:
+            break;
+    }
+    for (;;) {
+        const double d = spread.mean + spread.deviation * random.normal();
+        if (d >= spread.smallest && d <= spread.largest) return d;
+    }
+}
+
 }  // namespace grainreel

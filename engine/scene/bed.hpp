@@ -1,6 +1,7 @@
 // Sizes of the bed that follow from the scene alone.
 #pragma once
 
+#include "engine/base/random.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -43,5 +44,9 @@ Extent extent_of(const Scene& scene);
 // The tray below an outlet as a container, open above, whose floor lies that deep below that of the scene's
 // container at rest. Only where there is one. It ends where the container's floor comes at its lowest.
 Container tray_container(const Scene& scene);
+
+// Diameters drawn from a species' spread.
+
+double draw_diameter(const SizeSpread& spread, Random& random);  // m
 
 }  // namespace grainreel

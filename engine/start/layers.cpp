@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/scene/diameters.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/step/grid/neighbours.hpp"
 

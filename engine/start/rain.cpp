@@ -12,7 +12,6 @@
 #include "engine/measure/health.hpp"
 #include "engine/plan/rain_plan.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/diameters.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/start/free_places.hpp"
 

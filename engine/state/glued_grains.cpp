@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/base/random.hpp"
-#include "engine/scene/diameters.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainreel {
 

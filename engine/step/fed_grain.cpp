@@ -1,7 +1,7 @@
 #include "engine/step/fed_grain.hpp"
 
 #include "engine/base/random.hpp"
-#include "engine/scene/diameters.hpp"
+#include "engine/scene/bed.hpp"
 
 namespace grainreel {
 
