@@ -1,5 +1,5 @@
 // Vessels that hold their grains, and such that do not.
-#include "engine/scene/vessel_leak.hpp"
+#include "engine/scene/free_space.hpp"
 
 #include <gtest/gtest.h>
 

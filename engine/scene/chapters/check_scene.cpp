@@ -19,7 +19,6 @@
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/measure_columns.hpp"
-#include "engine/scene/vessel_leak.hpp"
 
 namespace grainreel {
 
