@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/output.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -23,7 +23,7 @@
 #include "engine/base/clock.hpp"
 #include "engine/measure/field.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/output.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"

@@ -12,10 +12,8 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/mesh/room.hpp"
-#include "engine/scene/also_formats.hpp"
-#include "engine/scene/field_output.hpp"
-#include "engine/scene/measure_columns.hpp"
 #include "engine/scene/motion.hpp"
+#include "engine/scene/output.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/output.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/output.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/scene/field_output.hpp"
+#include "engine/scene/output.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

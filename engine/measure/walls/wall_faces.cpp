@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/output.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

@@ -18,7 +18,7 @@
 #include "engine/scene/chapters/drive_keys.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/output.hpp"
 
 namespace grainreel {
 

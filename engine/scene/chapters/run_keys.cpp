@@ -7,11 +7,11 @@
 
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
-#include "engine/scene/also_formats.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/drive_keys.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "engine/scene/output.hpp"
 #include "engine/scene/text/units.hpp"
 
 namespace grainreel {

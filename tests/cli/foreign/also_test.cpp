@@ -8,7 +8,7 @@
 
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/scene/also_formats.hpp"
+#include "engine/scene/output.hpp"
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

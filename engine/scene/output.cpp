@@ -1,4 +1,4 @@
-#include "engine/scene/measure_columns.hpp"
+#include "engine/scene/output.hpp"
 
 namespace grainreel {
 

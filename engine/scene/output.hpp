@@ -1,0 +1,87 @@
+// The columns of measures.csv: their names there, what to call them where people read, and what they are.
+//
+// Which there are is said by the observers (engine/measure/observer_list.hpp). The reader of a scene is told
+// them, because plots and live words name them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/text/units.hpp"
+
+namespace grainreel {
+
+struct Scene;
+
+struct MeasureColumn {
+    std::string name;   // "kinetic_J": the unit, when there is one, comes last
+    std::string label;  // "kinetic energy"
+    Dimension dimension = Dimension::number;
+    std::string instrument = {};  // of output.instruments, without which there is no such column; empty: none
+    bool operator==(const MeasureColumn&) const = default;
+};
+
+// Columns that share a line of the documentation.
+struct ColumnGroup {
+    std::vector<MeasureColumn> columns;
+    const char* unit;   // of the documentation: "J", "turns, 0 to 1"
+    const char* about;  // Markdown
+};
+
+// What can be measured in a scene: all columns that its measures.csv can have, in their order, and the
+// instruments, which a scene asks for by name.
+struct Measurable {
+    std::vector<MeasureColumn> columns;
+    std::vector<std::string> instruments;
+};
+// The scene has all but its film by then.
+using MeasurableIn = std::function<Measurable(const Scene&)>;
+
+// A species' name as a part of a column's name.
+std::string column_part(const std::string& name);
+
+// What a scene says of the fields that are kept in fields.nc. Plain values in SI units.
+
+struct FieldOutput {
+    // none: no fields; yz: means over the depth; xyz: in three dimensions.
+    enum class Grid { none, yz, xyz };
+    enum class Kernel { gaussian, lucy };
+    Grid grid = Grid::none;
+    Kernel kernel = Kernel::gaussian;
+    double width = 0;             // m, the kernel's standard deviation along one axis
+    double cell = 0;              // m, largest side of a cell
+    int periods = 10;             // of the drive, that one record is the mean of; 0 without a drive
+    int samples = 16;             // moments in each period; without a drive in each record
+    std::optional<double> phase;  // turns; one moment a period, in place of `samples`
+    double interval = 0;          // s, of one record without a drive; else 0
+
+    bool wanted() const { return grid != Grid::none; }
+    bool operator==(const FieldOutput&) const = default;
+};
+
+// Formats of other programs that a run can leave beside its own files ([output] also). The writers are in
+// engine/files/frames/writers, which a scene does not know; a test holds that both lists are the same.
+
+inline constexpr std::array<std::string_view, 10> kAlsoFormats{
+    "netcdf", "lammps-dump", "lammps-data", "xyz", "csv", "vtk", "stl", "gsd", "gltf", "blender"};
+
+// Some of them, by their places in the list.
+class AlsoFormats {
+  public:
+    bool any() const { return bits_ != 0; }
+    bool has(std::size_t format) const { return (bits_ >> format & 1U) != 0; }
+    void add(std::size_t format) { bits_ = static_cast<std::uint16_t>(bits_ | 1U << format); }
+    bool operator==(const AlsoFormats&) const = default;
+
+  private:
+    std::uint16_t bits_ = 0;
+    static_assert(kAlsoFormats.size() <= 16);
+};
+
+}  // namespace grainreel
