@@ -10,8 +10,8 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/drive_clock.hpp"
+#include "engine/plan/plan_bed.hpp"
 #include "engine/plan/plan_parts.hpp"
-#include "engine/plan/rain_plan.hpp"
 #include "engine/plan/wall_speeds.hpp"
 #include "engine/scene/bed.hpp"
 

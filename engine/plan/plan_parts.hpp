@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/plan/drops.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/plan/plan_bed.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/health.hpp"
-#include "engine/plan/rain_plan.hpp"
+#include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/start/free_places.hpp"

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/plan/rain_plan.hpp"
+#include "engine/plan/plan_bed.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"

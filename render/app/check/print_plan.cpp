@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "engine/plan/rain_plan.hpp"
+#include "engine/plan/plan_bed.hpp"
 #include "render/app/check/check_parts.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/scene/filmed_scene.hpp"

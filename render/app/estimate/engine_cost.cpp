@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/numbers.hpp"
-#include "engine/plan/rain_plan.hpp"
+#include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/relax.hpp"
 #include "engine/state/grains.hpp"

@@ -26,4 +26,23 @@ double start_drop(const Scene& scene, double depth);
 // m: how far grains fall from the container, or from the region they start in, to a mesh further below.
 double drop_below(const Scene& scene);
 
+// Rain: where above the bed its grains appear, and how many a second.
+
+// Heights of centres over the bed's surface; m. They appear between the two.
+struct RainLayer {
+    double low = 0, high = 0;
+};
+RainLayer rain_layer(const Scene& scene);
+
+// m: the deepest fall of a grain of the rain.
+double rain_drop(const Scene& scene);
+
+// 1/s: as the scene says, or as many as fill a twentieth of the layer that they fall through.
+double rain_rate(const Scene& scene);
+
+// s: how long the next grain may find no place before there is none, five times a fall through the layer.
+double rain_patience(const Scene& scene);
+// s: twice as long as it rains where every grain finds its place at once, and that patience.
+double rain_limit(const Scene& scene);
+
 }  // namespace grainreel
