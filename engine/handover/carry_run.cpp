@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/handover/carry_parts.hpp"
-#include "engine/plan/rhythm.hpp"
+#include "engine/plan/times.hpp"
 
 namespace grainreel {
 

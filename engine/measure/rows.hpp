@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "engine/plan/plan.hpp"
-#include "engine/plan/rhythm.hpp"
+#include "engine/plan/times.hpp"
 
 namespace grainreel {
 

@@ -9,9 +9,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/contact_kinds.hpp"
-#include "engine/plan/drive_clock.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/plan/plan_parts.hpp"
+#include "engine/plan/times.hpp"
 #include "engine/plan/wall_speeds.hpp"
 #include "engine/scene/bed.hpp"
 

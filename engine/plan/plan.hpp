@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/plan/field_times.hpp"
+#include "engine/plan/times.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/plan/drive_clock.hpp"
+#include "engine/plan/times.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/plan/drive_clock.hpp"
+#include "engine/plan/times.hpp"
 #include "engine/state/checkpoint_file.hpp"
 
 namespace grainreel {

@@ -13,7 +13,7 @@
 #include "engine/measure/rows.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
-#include "engine/plan/rhythm.hpp"
+#include "engine/plan/times.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel::observers {

@@ -7,7 +7,7 @@
 
 #include "engine/base/binary.hpp"
 #include "engine/measure/fields/coarse_graining.hpp"
-#include "engine/plan/field_times.hpp"
+#include "engine/plan/times.hpp"
 
 namespace grainreel {
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/plan/field_times.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/plan/rhythm.hpp"
+#include "engine/plan/times.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -15,7 +15,7 @@
 #include "engine/files/trajectory_info.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/measure/walls/wear_observer.hpp"
-#include "engine/plan/rhythm.hpp"
+#include "engine/plan/times.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -2,7 +2,7 @@
 // rest, and a ball that meets the plate in the course of a change.
 #include <gtest/gtest.h>
 
-#include "engine/plan/drive_clock.hpp"
+#include "engine/plan/times.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "tests/physics/world.hpp"

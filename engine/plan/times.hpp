@@ -1,6 +1,8 @@
 // When fields are looked at: a record is the mean of many moments, over whole periods of the drive.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -43,5 +45,40 @@ FieldTimes field_times(const FieldOutput& fields, const Clock& clock, std::int64
 
 // Throws UserError when the fields that the scene asks for would not fit into memory.
 void check_field_size(const Scene& scene);
+
+// What comes again and again: every so many steps, or of a drive that changes every so many of its periods.
+
+struct Rhythm {
+    static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+    double steps = 0;    // not always whole; 0: never, unless it goes by periods
+    double periods = 0;  // 0: it goes by steps
+
+    Rhythm(double every_steps, double every_periods = 0) : steps(every_steps), periods(every_periods) {}
+
+    // The first step, not below this one (which is not negative), that is nearest to a multiple.
+    std::int64_t next(std::int64_t step, const Clock& clock) const {
+        if (periods > 0) {
+            // A step back, lest rounding skips one.
+            double count = std::max(0.0, std::floor(clock.cycles(step) / periods) - 1);
+            while (clock.step_at(count * periods) < step) ++count;
+            return clock.step_at(count * periods);
+        }
+        if (steps <= 0) return kNever;
+        double count = std::floor(static_cast<double>(step) / steps);
+        while (std::llround(count * steps) < step) ++count;
+        return std::llround(count * steps);
+    }
+};
+
+// The clock that goes with a drive: how many steps its periods have, throughout all stages.
+
+// The eighth of a period of the drive's own frequency in steps, `least` or somewhat more: the first with
+// which the periods of all stages have multiples of 8 steps too, and intervals between taps whole steps.
+// `least` where there is no such number within a few per cent; then phases lie between steps in some stages.
+double common_eighths(const Drive& drive, double least);
+
+// step: s. steps_per_period: of the drive's own frequency.
+Clock drive_clock(const Drive& drive, double step, std::int64_t steps_per_period);
 
 }  // namespace grainreel
