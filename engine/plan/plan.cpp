@@ -11,8 +11,8 @@
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/plan/plan_parts.hpp"
+#include "engine/plan/reach.hpp"
 #include "engine/plan/times.hpp"
-#include "engine/plan/wall_speeds.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {

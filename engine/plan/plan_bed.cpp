@@ -8,7 +8,7 @@
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan_parts.hpp"
-#include "engine/plan/wall_speeds.hpp"
+#include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/free_space.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/plan/wall_speeds.hpp"
+#include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/mesh_moments.hpp"
 
