@@ -3,7 +3,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/start/start_origin.hpp"
+#include "engine/start/bed_in_file.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
