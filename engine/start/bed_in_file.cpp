@@ -8,10 +8,10 @@
 #include "engine/measure/energy/energy.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/start/held_histories.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/start_file.hpp"
 #include "engine/start/surroundings.hpp"
-#include "engine/start/weight_moments.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

@@ -1,9 +1,14 @@
 // Histories of contacts that a run takes over from the checkpoint it starts anew from.
 #pragma once
 
+#include <functional>
+
+#include "engine/base/vector.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/start/bed_in_file.hpp"
+#include "engine/state/grains.hpp"
+#include "engine/step/contact_view.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
@@ -19,5 +24,38 @@ bool all_act_alike(const Plan& one, const Plan& other);
 bool any_act_alike(const Plan& one, const Plan& other);
 // Whether the same kind of contact acts alike in `other`; `pair` is one of `one`.
 bool acts_alike_in(const Plan& other, const Plan& one, const PairPlan& pair);
+
+// Latches of contacts whose history is lost, where a bed rests.
+
+// A bed that Walton and Braun's law has brought to rest lies on overlaps that impacts have left: with fresh
+// contacts it would push as hard as in these impacts. So each fresh contact gets the largest overlap a_max
+// that leaves it the share s of the force of a fresh one,
+//
+//   K1 a_max - K2 (a_max - a) = s K1 a,
+//
+// with the one s, at most 1, for which all contacts together carry the bed's weight. is_fresh says it of a
+// kind of contact. The loop has been restarted.
+void set_latches(const Plan& plan, const Surroundings& around, const Grains& grains,
+                 const std::function<bool(const PairPlan&)>& is_fresh, StepLoop& loop);
+
+// Which contacts carry the weight of a bed at rest: the virial theorem (Love 1927, Mathematical Theory of
+// Elasticity, note B). The forces on a grain add up to zero. Each force times the grain's height, summed over
+// all grains: the moments of all contact forces, force times height difference, are those of the weights.
+// Friction, which carries the smaller part, is left out.
+
+class WeightMoments {
+  public:
+    WeightMoments(const Vec3& gravity, const Grains& grains);
+    double of_weights() const { return of_weights_; }  // J
+    // m: how much of it a normal force of 1 N at this contact carries.
+    double carried(const ContactView& contact) const;
+    // m, above the lowest point of any grain.
+    double height(const Vec3& place) const { return up_.dot(place) - lowest_; }
+
+  private:
+    const Grains& grains_;
+    Vec3 up_{0, 0, 1};  // unit, against gravity
+    double lowest_ = 0, of_weights_ = 0;
+};
 
 }  // namespace grainreel

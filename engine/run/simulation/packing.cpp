@@ -17,7 +17,6 @@
 #include "engine/run/simulation/simulation_impl.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/held_histories.hpp"
-#include "engine/start/latches.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
 #include "engine/start/rain.hpp"
