@@ -1,12 +1,13 @@
 #include "engine/start/layers.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
@@ -114,6 +115,153 @@ Grains place_in_layers(const Scene& scene) {
         }
     }
     return grains;
+}
+
+namespace {
+
+constexpr double kInflation = 1 + 1e-4;  // grains grow a little beyond, then shrink back clear of each other
+constexpr double kFirstShare = 0.5;      // of the gap to the nearest neighbour, for the first radii
+constexpr double kGrowthPerCycle = 0.02;
+constexpr int kStepsPerCycle = 40;
+constexpr std::int64_t kMostCycles = 5000;
+constexpr double kRestitution = 0.3;  // a plastic contact law lets the crowd come to rest
+
+// The scene's laws, plastic and without friction.
+Plan growth_plan(const Plan& plan) {
+    Plan growth = plan;
+    growth.integrator = Integrator::velocity_verlet;
+    for (auto* table : {&growth.grain, &growth.wall, &growth.glued, &growth.mesh}) {
+        for (PairPlan& pair : *table) {
+            pair.model = {NormalForce::walton_braun, TangentialLaw::none, false};
+            pair.restitution = kRestitution;
+            pair.unloading_stiffness = pair.loading_stiffness / (kRestitution * kRestitution);
+        }
+    }
+    return growth;
+}
+
+// s: a stable step for the stiff, plastic contacts (physics of Verlet, dt < 2/w; here with twelve contacts).
+double growth_step(const Plan& growth, const Grains& grains) {
+    double stiffest = 0;
+    for (const auto* table : {&growth.grain, &growth.wall, &growth.glued, &growth.mesh}) {
+        for (const PairPlan& pair : *table) stiffest = std::max(stiffest, pair.unloading_stiffness);
+    }
+    double lightest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < grains.size(); ++i) lightest = std::min(lightest, grains.mass(i));
+    return 0.3 * std::sqrt(lightest / stiffest);
+}
+
+struct Growing {
+    const Scene& scene;
+    const Surroundings& around;
+    Grains& grains;
+    std::vector<double> wanted;  // by id: m
+
+    double wanted_of(std::size_t i) const { return wanted[grains.id[i]]; }
+    void set_radius(std::size_t i, double r) {
+        grains.set_radius(i, r, scene.species[grains.species[i]].density);
+    }
+};
+
+// First radii: a share of the gap to the nearest neighbour, split as the wanted radii are, and of the walls'.
+void first_radii(Growing& g, double reach) {
+    Team alone(1);
+    Cells cells;
+    NeighbourList list;
+    std::vector<std::int32_t> new_index;
+    put_in_order({alone, 0}, cells, g.grains, reach, g.around.period, new_index);
+    list_pairs(cells, g.grains, reach, g.around.period, 0, static_cast<std::int32_t>(g.grains.size()), list);
+    std::vector<double> allowed(g.grains.size());
+    const GluedSearch glued(g.around.glued, g.around.faces, g.around.period);
+    for (std::size_t i = 0; i < allowed.size(); ++i) {
+        allowed[i] = g.wanted_of(i) * kInflation;
+        for (const Face& face : g.around.faces) {
+            const double distance = distance_to(face, Vec3::Zero(), g.grains.place[i].position).distance;
+            allowed[i] = std::min(allowed[i], std::max(distance, 0.1 * g.wanted_of(i)));
+        }
+        for (const MeshWall& mesh : g.around.meshes) {
+            const Vec3 place = mesh.body.at(Pose()).at_rest(g.grains.place[i].position);
+            const auto nearest = mesh.surface->nearest(place, allowed[i]);
+            if (!nearest) continue;
+            allowed[i] =
+                std::min(allowed[i], std::max(std::sqrt(nearest->point.squared), 0.1 * g.wanted_of(i)));
+        }
+        glued.near(g.grains.place[i].position, allowed[i], Pose(), [&](std::int32_t, double gap) {
+            allowed[i] = std::min(allowed[i], std::max(gap, 0.1 * g.wanted_of(i)));
+        });
+    }
+    for (std::size_t i = 0; i + 1 < list.start.size(); ++i) {
+        for (std::int32_t slot = list.start[i]; slot < list.start[i + 1]; ++slot) {
+            const std::size_t j = list.partner[slot];
+            Vec3 apart = g.grains.place[j].position - g.grains.place[i].position;
+            apart.x() = nearest_image(apart.x(), g.around.period);
+            const double share = kFirstShare * apart.norm() / (g.wanted_of(i) + g.wanted_of(j));
+            allowed[i] = std::min(allowed[i], std::max(share, 0.1) * g.wanted_of(i));
+            allowed[j] = std::min(allowed[j], std::max(share, 0.1) * g.wanted_of(j));
+        }
+    }
+    for (std::size_t i = 0; i < allowed.size(); ++i) g.set_radius(i, allowed[i]);
+}
+
+// Largest overlap over the smaller wanted radius.
+double largest_overlap(const StepLoop& loop) {
+    double largest = 0;
+    loop.visit_contacts(
+        -1, [&](const ContactView& c) { largest = std::max(largest, c.overlap / c.smaller_radius); });
+    return largest;
+}
+
+}  // namespace
+
+GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings& surroundings,
+                        Grains& grains, Team& team,
+                        const std::function<bool(double, std::int64_t)>& watcher) {
+    const Plan growth = growth_plan(plan);
+    double step = growth_step(growth, grains);
+    Surroundings still = surroundings;
+    still.gravity.setZero();
+    Growing g{scene, still, grains, std::vector<double>(grains.size())};
+    for (std::size_t i = 0; i < grains.size(); ++i) g.wanted[grains.id[i]] = grains.place[i].radius;
+    first_radii(g, still.skin);
+
+    StepLoop loop(growth, still, grains, team);
+    GrowthReport report;
+    // Small grains are light, and with the step of full ones those that overlap fly. Planes push them back
+    // from beyond, but a sheet of triangles does not.
+    const bool by_mass_now = !still.meshes.empty();
+    for (;; ++report.cycles) {
+        double smallest_share = 1;
+        for (std::size_t i = 0; i < grains.size(); ++i) {
+            const double full = g.wanted_of(i) * kInflation;
+            const double radius = std::min(full, grains.place[i].radius * (1 + kGrowthPerCycle));
+            smallest_share = std::min(smallest_share, radius / full);
+            g.set_radius(i, radius);
+        }
+        loop.restart();
+        if (by_mass_now) step = growth_step(growth, grains);
+        const double drag = 0.05 / step;  // overdamped: grains creep apart, they do not fly
+        loop.run(0, kStepsPerCycle, step, drag);
+        report.steps += kStepsPerCycle;
+        if (!watcher(smallest_share, report.steps)) {
+            report.finished = false;
+            return report;
+        }
+        if (smallest_share >= 1 && largest_overlap(loop) < 0.5 * (kInflation - 1)) break;
+        if (report.cycles > kMostCycles) {
+            throw RunError(
+                fmt::format("{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; "
+                            "take fewer or smaller "
+                            "grains, or a larger container",
+                            scene.where("species"), largest_overlap(loop), report.cycles));
+        }
+    }
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        g.set_radius(i, g.wanted_of(i));
+        grains.motion[i].velocity.setZero();
+        grains.motion[i].spin.setZero();
+        grains.load[i] = {};
+    }
+    return report;
 }
 
 }  // namespace grainreel

@@ -8,7 +8,6 @@
 #include "engine/base/random.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
-#include "engine/start/radius_growth.hpp"
 #include "engine/start/surroundings.hpp"
 
 namespace grainreel {

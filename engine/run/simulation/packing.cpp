@@ -18,7 +18,6 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/layers.hpp"
-#include "engine/start/radius_growth.hpp"
 #include "engine/start/rain.hpp"
 #include "engine/start/relax.hpp"
 #include "engine/start/restart.hpp"
