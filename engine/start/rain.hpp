@@ -3,7 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "engine/base/random.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
@@ -23,5 +27,38 @@ struct RainReport {
 // Throws RunError when the grains find no room.
 RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around, Grains& grains,
                 StepLoop& loop, const std::function<bool(double, std::int64_t)>& watcher);
+
+// Places for new grains in which they touch nothing.
+
+// Whoever adds grains looks for places every so many steps. Each look that finds one has the lists made anew.
+constexpr std::int64_t kStepsPerLook = 200;
+
+// The box from low to high (m), with what is near it at one moment.
+class FreePlaces {
+  public:
+    // largest: m, radius of the grains to come. The surroundings must outlive the places.
+    FreePlaces(const Surroundings& around, const Pose& pose, const Grains& grains, const Vec3& low,
+               const Vec3& high, double largest);
+
+    // A place drawn evenly from the box, where a grain of this radius (m) is farther from every other grain
+    // and from every wall than a thousandth of its radius; none when so many draws found none. The grain
+    // counts as being there from now on.
+    std::optional<Vec3> take(double radius, Random& random);
+
+    // Something more that is there.
+    void add(const Place& place) { near_.push_back(place); }
+    // From now on only places that this holds for.
+    void only_where(std::function<bool(const Vec3&)> holds) { holds_ = std::move(holds); }
+
+  private:
+    bool is_free(const Vec3& place, double radius) const;
+
+    const Surroundings& around_;
+    const Pose pose_;
+    const Vec3 low_, high_;
+    std::vector<Place> near_;
+    std::vector<BodyPose> meshes_;  // of the surroundings' meshes
+    std::function<bool(const Vec3&)> holds_;
+};
 
 }  // namespace grainreel

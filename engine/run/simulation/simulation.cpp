@@ -10,7 +10,7 @@
 #include "engine/base/random.hpp"
 #include "engine/measure/energy/energy.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
-#include "engine/start/free_places.hpp"
+#include "engine/start/rain.hpp"
 #include "engine/step/fed_grain.hpp"
 #include "engine/step/grid/neighbours.hpp"
 
