@@ -19,7 +19,6 @@
 #include "engine/start/held_histories.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/rain.hpp"
-#include "engine/start/relax.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/start/start_file.hpp"

@@ -7,7 +7,7 @@
 #include "engine/base/numbers.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/start/relax.hpp"
+#include "engine/start/settle.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/scheme.hpp"
 #include "render/scene/filmed_scene.hpp"
