@@ -1,16 +1,15 @@
 #include "engine/start/mesh_checks.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/start/mesh_moments.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr double kFarSideways = 10;  // times the box of the grains at the start

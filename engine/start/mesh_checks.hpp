@@ -1,8 +1,13 @@
 // What can be wrong with a scene's meshes beside its grains and its other walls.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
@@ -23,5 +28,16 @@ void check_feed_boxes(const Scene& scene);
 // what happens at the rim of an open mesh, so that a drum and its end caps may touch. Meshes that cross at
 // rest go on crossing where they do: a shaft may pass through a wall.
 void check_mesh_paths(const Scene& scene, Plan& plan);
+
+// The moments at which the motion of meshes is looked at before a run.
+
+constexpr int kMomentsOfMotion = 72;
+
+// Whether the two always move alike, or both stand still.
+bool move_alike(const Body& one, const Body& other, bool drive_moves);
+
+// Steps at which a body is looked at, by rising number, the first being 0: each 5 degrees of its first turn,
+// or evenly over the run; and eight phases of the drive where that moves it. Only 0 where it stands still.
+std::vector<std::int64_t> moments_of(const Body& body, const Scene& scene, const Plan& plan);
 
 }  // namespace grainreel

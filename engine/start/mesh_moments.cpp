@@ -1,4 +1,4 @@
-#include "engine/start/mesh_moments.hpp"
+#include "engine/start/mesh_checks.hpp"
 
 #include <algorithm>
 #include <cmath>

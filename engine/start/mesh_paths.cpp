@@ -9,7 +9,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/start/mesh_checks.hpp"
-#include "engine/start/mesh_moments.hpp"
 #include "engine/start/surroundings.hpp"
 
 namespace grainreel {
