@@ -13,7 +13,6 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
-#include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {

@@ -12,7 +12,6 @@
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/start/continuation.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {

@@ -22,7 +22,7 @@
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/run/resume/resume_point.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/start/continuation.hpp"
+#include "engine/start/restart.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"
