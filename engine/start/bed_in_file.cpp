@@ -10,8 +10,8 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/restart.hpp"
+#include "engine/start/scene_surroundings.hpp"
 #include "engine/start/start_file.hpp"
-#include "engine/start/surroundings.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

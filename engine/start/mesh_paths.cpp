@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/start/mesh_checks.hpp"
-#include "engine/start/surroundings.hpp"
+#include "engine/start/scene_surroundings.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include "engine/base/team.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
-#include "engine/start/surroundings.hpp"
+#include "engine/start/scene_surroundings.hpp"
 
 namespace grainreel {
 namespace {

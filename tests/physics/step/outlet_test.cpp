@@ -10,7 +10,7 @@
 #include "engine/measure/energy/energy_balance.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/start/surroundings.hpp"
+#include "engine/start/scene_surroundings.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "tests/physics/world.hpp"

@@ -1,10 +1,11 @@
-#include "engine/start/surroundings.hpp"
+#include "engine/start/scene_surroundings.hpp"
 
 #include <algorithm>
 
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr double kSkinShare = 0.4;  // of the smallest radius
