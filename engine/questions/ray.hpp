@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "engine/questions/answer.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -51,5 +53,17 @@ struct MeshOnRay {
 // halves counts.
 std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame& frame,
                                  const std::vector<KeptHalf>& kept);
+
+// What lies along a ray through a moment: which grains, and which wall behind them.
+
+// How the moment is looked at.
+struct AlongRay {
+    std::vector<KeptHalf> kept;              // of a cut
+    std::vector<std::int32_t> seen_through;  // species that hide nothing
+};
+
+// shown: the grains of the snapshot where they are seen. The nearest first; through: what lies behind, too.
+Answer along_ray_answer(const Snapshot& snapshot, const Frame& shown, const Ray& ray, const AlongRay& along,
+                        bool through);
 
 }  // namespace grainreel

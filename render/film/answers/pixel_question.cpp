@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/questions/along_ray.hpp"
+#include "engine/questions/ray.hpp"
 #include "render/picture/base/way_of_container.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/camera/exaggeration.hpp"
