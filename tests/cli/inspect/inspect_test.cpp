@@ -14,9 +14,9 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/questions/answer.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/expression.hpp"
-#include "engine/questions/mean_answer.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
