@@ -1,9 +1,8 @@
-#include "engine/questions/histogram.hpp"
-
-#include <algorithm>
-#include <cmath>
+#include "engine/questions/statistics.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
 #include "engine/base/error.hpp"
 #include "engine/questions/columns/grain_columns.hpp"
