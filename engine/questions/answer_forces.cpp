@@ -1,13 +1,12 @@
 #include "engine/questions/answer_forces.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "engine/questions/forces.hpp"
 #include "engine/scene/text/units.hpp"
 
 namespace grainreel {
+
 namespace {
 
 std::string text_of_force(double force) {

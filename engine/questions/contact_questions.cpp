@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
-#include "engine/questions/forces.hpp"
+#include "engine/questions/answer_forces.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/state/container_faces.hpp"
 
