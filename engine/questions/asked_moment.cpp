@@ -10,7 +10,7 @@
 #include "engine/base/numbers.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/questions/displacement.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/scene.hpp"

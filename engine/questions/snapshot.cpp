@@ -1,10 +1,11 @@
 #include "engine/questions/snapshot.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
-
+#include "engine/base/numbers.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -93,6 +94,17 @@ std::string name_of_body(const Snapshot& snapshot, std::int32_t id) {
     const std::vector<std::string> names = wall_names(snapshot.scene);
     const auto wall = static_cast<std::size_t>(-1 - static_cast<std::int64_t>(id));
     return wall < names.size() ? names[wall] : fmt::format("wall {}", wall);
+}
+
+void set_displacement(Frame& now, const Frame& before, int periods, double depth) {
+    const std::vector<std::size_t> rows = rows_in(before, now);
+    now.displacement.assign(now.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (rows[i] == kNoRow) continue;
+        Vec3 way = now.position[i] - before.position[rows[i]];
+        way.x() = nearest_image(way.x(), depth);
+        now.displacement[i] = way / periods;
+    }
 }
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 // One moment of a run, as questions are put to it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,5 +59,26 @@ std::optional<std::size_t> mesh_of_wall(const Scene& scene, std::int32_t wall);
 
 // "small", or "floor" for a wall's number, as contacts.nc has them.
 std::string name_of_body(const Snapshot& snapshot, std::int32_t id);
+
+// How far each grain came in a period of the drive.
+
+// From `before` to where the grains are now, by the periods between; NaN for a grain that was not there
+// before. depth: m, along x, after which a periodic container repeats; 0 for none.
+void set_displacement(Frame& now, const Frame& before, int periods, double depth);
+
+// The same grains in two frames: ids rise along both, and some may have come or gone between them.
+
+inline constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
+
+// For each grain of `frame`, its row in `other`; kNoRow where it is not there.
+inline std::vector<std::size_t> rows_in(const Frame& other, const Frame& frame) {
+    std::vector<std::size_t> rows(frame.size(), kNoRow);
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        while (row < other.size() && other.id[row] < frame.id[i]) ++row;
+        if (row < other.size() && other.id[row] == frame.id[i]) rows[i] = row;
+    }
+    return rows;
+}
 
 }  // namespace grainreel

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/numbers.hpp"
-#include "engine/questions/rows_in.hpp"
+#include "engine/questions/snapshot.hpp"
 
 namespace grainreel {
 namespace {

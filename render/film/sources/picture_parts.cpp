@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/questions/displacement.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "render/film/moments/period_means.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"

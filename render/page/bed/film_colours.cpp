@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/questions/displacement.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "engine/state/container_faces.hpp"
 #include "render/scene/filmed_scene.hpp"
 

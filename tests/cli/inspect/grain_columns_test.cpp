@@ -9,8 +9,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/questions/answer_forces.hpp"
-#include "engine/questions/displacement.hpp"
 #include "engine/questions/questions.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "render/film/answers/answer_picture.hpp"
 #include "render/picture/grains/quantities.hpp"
 #include "render/scene/grain_values.hpp"
