@@ -1,4 +1,4 @@
-#include "engine/questions/expression_parser.hpp"
+#include "engine/questions/expression.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/questions/dimensions.hpp"
 
 namespace grainreel {
 namespace {

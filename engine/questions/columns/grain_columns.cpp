@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/questions/columns/touches.hpp"
-#include "engine/questions/dimensions.hpp"
+#include "engine/questions/expression.hpp"
 
 namespace grainreel {
 namespace {
