@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/questions/record.hpp"
+#include "engine/questions/asked_run.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/run/replay/replay.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/questions/record.hpp"
+#include "engine/questions/asked_run.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/sources/recorded_run.hpp"
 #include "render/scene/filmed_scene.hpp"

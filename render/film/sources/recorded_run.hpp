@@ -11,7 +11,7 @@
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/wear_file.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/questions/record.hpp"
+#include "engine/questions/asked_run.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/questions/reachable_moments.hpp"
+#include "engine/questions/asked_run.hpp"
 #include "engine/run/driver/kept_moments.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/sampling/sampler.hpp"
