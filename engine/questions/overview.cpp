@@ -14,7 +14,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/questions/answer_forces.hpp"
-#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/state/container_faces.hpp"

@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
-#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/state/container_faces.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 
 namespace grainreel {

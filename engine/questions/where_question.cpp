@@ -6,8 +6,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frame_faults.hpp"
-#include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/expression.hpp"
+#include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/scene/text/units.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/grain_columns.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/questions/columns/touches.hpp"
+#include "engine/questions/grain_columns.hpp"
 
 #include <algorithm>
 #include <charconv>

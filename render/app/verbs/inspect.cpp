@@ -14,7 +14,7 @@
 #include "engine/questions/answer.hpp"
 #include "engine/questions/answer_forces.hpp"
 #include "engine/questions/asked_moment.hpp"
-#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/questions/steadiness.hpp"

@@ -1,5 +1,5 @@
 // The quantities of a grain, each against what a formula or the film says of the same grain.
-#include "engine/questions/columns/grain_columns.hpp"
+#include "engine/questions/grain_columns.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -15,8 +15,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/questions/answer.hpp"
-#include "engine/questions/columns/grain_columns.hpp"
 #include "engine/questions/expression.hpp"
+#include "engine/questions/grain_columns.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
