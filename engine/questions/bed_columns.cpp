@@ -1,4 +1,5 @@
 // How a grain lies in the bed: its neighbours, the walls beside it, the surface above it.
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
