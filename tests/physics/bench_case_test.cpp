@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/lab/bench/bench_case.hpp"
 #include "engine/lab/bench/bench_run.hpp"
-#include "engine/lab/bench/scene_cases.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/scene_file.hpp"
 

@@ -1,10 +1,16 @@
 #include "engine/lab/bench/bench_case.hpp"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "engine/lab/bench/peers_cases.hpp"
-#include "engine/lab/bench/rest_case.hpp"
-#include "engine/lab/bench/scene_cases.hpp"
+#include "engine/base/random.hpp"
+#include "engine/base/team.hpp"
+#include "engine/lab/bench/peers_bed.hpp"
+#include "engine/scene/scene_file.hpp"
+#include "engine/start/layers.hpp"
+#include "engine/start/scene_surroundings.hpp"
 
 namespace grainreel {
 
@@ -39,6 +45,297 @@ BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k) {
         }
     }
     return whole;
+}
+
+// The peers' bed with their law, with ours, and without friction.
+
+namespace {
+
+constexpr int all = 10125, big_ones = 1125;
+
+// Fewer grains stand in a narrower box, as high as the whole bed.
+BenchBed bed_of(int particles, const Plan& plan) {
+    const int count = std::min(particles, all), big = count * big_ones / all;
+    const double side = 0.02 * std::sqrt(count / static_cast<double>(all));
+    const PeersBed bed = peers_bed(7, count - big, big, side);
+    return {plan, peers_surroundings(bed, plan), peers_grains(bed)};
+}
+
+// The same stiffness, restitution and step in Walton and Braun's law.
+Plan walton_braun(TangentialLaw tangential) {
+    Plan plan = peers_plan();
+    for (auto* kinds : {&plan.grain, &plan.wall}) {
+        for (PairPlan& pair : *kinds) {
+            pair.model.normal = NormalForce::walton_braun_corrected;
+            pair.model.tangential = tangential;
+            pair.restitution = 0.9;
+            pair.unloading_stiffness = pair.loading_stiffness / (0.9 * 0.9);
+            pair.tangential_stiffness = 0.8 * pair.loading_stiffness;
+            pair.gamma = 1.0 / 3;
+            if (tangential == TangentialLaw::none) pair.friction = 0;
+        }
+    }
+    return plan;
+}
+
+double side(const BenchBed& bed) {
+    double widest = 0;
+    for (const Face& face : bed.around.faces) widest = std::max(widest, std::abs(face.point.x()));
+    return 2 * widest;
+}
+
+BenchCase like_the_peers(const std::string& name, const std::string& about, BenchBed (*bed)(int)) {
+    return {name, about, all, -60000, 0, 0, {{"settled", 60000}, {"rising", 10000}, {"vibrated", 20000}},
+            bed,  side};
+}
+
+}  // namespace
+
+std::vector<BenchCase> peers_cases() {
+    return {
+        like_the_peers("bed10k", "the peers' bed: spring-dashpot with friction, in three phases",
+                       [](int n) { return bed_of(n, peers_plan()); }),
+        like_the_peers("bed10k-walton-braun", "the same with Walton-Braun, corrected, and incremental slip",
+                       [](int n) { return bed_of(n, walton_braun(TangentialLaw::incremental_slip)); }),
+        like_the_peers("frictionless", "the same with Walton-Braun, corrected, without friction",
+                       [](int n) { return bed_of(n, walton_braun(TangentialLaw::none)); })};
+}
+
+namespace {
+
+constexpr int kPart = 2500;            // grains of the bed that the whole is copies of
+constexpr double kDiameter = 1e-3;     // m
+constexpr double kAcross = 10.5;       // diameters of a part, which is then about 28 deep
+constexpr std::int64_t kFall = 30000;  // steps until it lies, with drag
+constexpr double kDrag = 20;           // 1/s
+
+// Hertz and Mindlin, soft, so that the step is long: what a step costs does not depend on that.
+Scene scene_of_part(int grains) {
+    const double side = kAcross * kDiameter * std::sqrt(grains / static_cast<double>(kPart));
+    return read_scene_text(fmt::format(R"(
+[[species]]
+name = "grain"
+count = {0}
+diameter = {1}
+density = 2500
+[contact]
+law = "hertz"
+modulus = 1e6
+restitution = 0.7
+friction = 0.5
+[container]
+shape = "box"
+width = {2}
+depth = {2}
+height = 0.08
+[run]
+duration = 1
+)",
+                                       grains, kDiameter, side),
+                           "rest.toml", {});
+}
+
+// Copies of a part, side by side. At the seams grains of two copies lie as they lay at the wall.
+BenchBed bed_at_rest(int particles) {
+    const int k =
+        std::max(1, static_cast<int>(std::lround(std::sqrt(particles / static_cast<double>(kPart)))));
+    const Scene scene = scene_of_part(particles / (k * k));
+    BenchBed part;
+    part.plan = make_plan(scene);
+    part.around = make_surroundings(scene, part.plan);
+    part.grains = place_in_layers(scene);
+    Team team(1);
+    grow_radii(scene, part.plan, part.around, part.grains, team, [](double, std::int64_t) { return true; });
+    StepLoop loop(part.plan, part.around, part.grains, team);
+    loop.restart();
+    loop.run(-kFall, kFall, part.plan.clock.step, kDrag);
+    return copied(part, part.grains, 2 * scene.container.half_width, k);
+}
+
+}  // namespace
+
+BenchCase rest_case() {
+    return {"rest",
+            "a bed at rest, Hertz-Mindlin: all contacts at once",
+            25000,
+            0,
+            6000,
+            kDrag,
+            {{"at rest", 3000}},
+            bed_at_rest};
+}
+
+const char* wedge_scene() {
+    return R"(title = "Big and small grains in a vibrated wedge hopper"
+gravity = "9.81 m/s2"
+[[species]]
+name = "small"
+count = 1500
+diameter = "6 mm"
+density = "2.5 g/cm3"
+[[species]]
+name = "big"
+count = 120
+diameter = "14 mm"
+density = "2.5 g/cm3"
+[contact]
+restitution = 0.9
+friction = 0.5
+[container]
+shape = "wedge"
+half_angle = "20 deg"
+slant_height = "100 mm"
+half_width = "66 mm"
+depth = "58 mm"
+height = "230 mm"
+top = "lid"
+outlet = "closed"
+[drive]
+frequency = "12 Hz"
+g_level = 3
+ramp = 3
+[run]
+duration = "10 s"
+)";
+}
+
+namespace {
+
+BenchBed bed_of(const Scene& scene) {
+    BenchBed bed;
+    bed.plan = make_plan(scene);
+    bed.around = make_surroundings(scene, bed.plan);
+    return bed;
+}
+
+// More grains: a deeper hopper.
+BenchBed wedge(int particles) {
+    const double share = particles / 1620.0;
+    const Scene scene = read_scene_text(wedge_scene(), "wedge.toml",
+                                        {fmt::format("species[0].count={}", std::lround(1500 * share)),
+                                         fmt::format("species[1].count={}", std::lround(120 * share)),
+                                         fmt::format("container.depth={}", 0.058 * share)});
+    BenchBed bed = bed_of(scene);
+    bed.grains = place_in_layers(scene);
+    Team team(1);
+    grow_radii(scene, bed.plan, bed.around, bed.grains, team, [](double, std::int64_t) { return true; });
+    return bed;
+}
+
+// A box on the floor of the scene, centred in x and y; m. `species` and `rest` are further text of the scene.
+BenchBed box(const std::string& name, const Vec3& size, const std::string& species, const std::string& rest) {
+    return bed_of(read_scene_text(fmt::format(R"({3}
+[container]
+shape = "box"
+width = {0}
+depth = {1}
+height = {2}
+[run]
+duration = 1
+{4})",
+                                              size.x(), size.y(), size.z(), species, rest),
+                                  name, {}));
+}
+
+// Small grains of 1 mm on a loose lattice in a box 40 of them wide; the big one takes the place of those
+// that it would touch, low in the middle.
+constexpr double small = 0.001, apart = 1.1 * small, wide = 0.044;  // m
+
+BenchBed sea(int particles, double big) {
+    BenchBed bed = box("sea.toml", {wide, wide, 0.5},
+                       fmt::format(R"(
+[[species]]
+name = "small"
+count = {}
+diameter = {}
+density = 2500
+[[species]]
+name = "big"
+count = 1
+diameter = {}
+density = 2500
+[contact]
+restitution = 0.9
+friction = 0.5)",
+                                   particles, small, big),
+                       "[drive]\nfrequency = 25\ng_level = 3\n");
+    const int across = static_cast<int>(wide / apart);
+    const Vec3 centre(0, 0, big / 2 + 5 * apart);
+    Random random(1, Stream::centres);
+    bed.grains.reserve(particles);
+    bed.grains.add(0, 1, centre, big / 2, 2500);
+    for (int site = 0; static_cast<int>(bed.grains.size()) < particles; ++site) {
+        const Vec3 corner(-wide / 2, -wide / 2, 0);
+        const auto shift = [&] { return 0.5 + random.between(-0.03, 0.03); };
+        const Vec3 at = corner + apart * Vec3(site % across + shift(), site / across % across + shift(),
+                                              site / (across * across) + shift());
+        if ((at - centre).norm() < (big + small) / 2 * 1.01) continue;
+        bed.grains.add(static_cast<std::int32_t>(bed.grains.size()), 0, at, small / 2, 2500);
+    }
+    return bed;
+}
+
+// A twentieth of the space is solid; elastic walls and nearly elastic grains keep it a gas.
+BenchBed gas(int particles) {
+    const double edge = small * std::cbrt(particles * std::numbers::pi / 6 / 0.05);
+    BenchBed bed = box("gas.toml", {edge, edge, edge},
+                       fmt::format(R"(
+gravity = 0
+[[species]]
+name = "grain"
+count = {}
+diameter = {}
+density = 2500
+[contact]
+restitution = 0.99
+friction = 0.1
+stiffness = 1000)",
+                                   particles, small),
+                       "");
+    const int across = static_cast<int>(std::ceil(std::cbrt(particles)));
+    Random random(1, Stream::centres);
+    bed.grains.reserve(particles);
+    const auto speed = [&] { return random.between(-0.5, 0.5); };
+    for (int site = 0; site < particles; ++site) {
+        const Vec3 corner(-edge / 2, -edge / 2, 0);
+        const Vec3 at = corner + edge / across *
+                                     Vec3(site % across + 0.5, site / across % across + 0.5,
+                                          site / (across * across) + 0.5);
+        bed.grains.add(site, 0, at, small / 2, 2500);
+        bed.grains.motion.back().velocity = Vec3(speed(), speed(), speed());
+    }
+    return bed;
+}
+
+}  // namespace
+
+std::vector<BenchCase> scene_cases() {
+    constexpr int sea_of = 20000;
+    return {{"wedge",
+             "the hopper of the default film",
+             1620,
+             -20000,
+             20000,
+             20,
+             {{"settled", 20000}, {"vibrated", 40000}},
+             wedge},
+            {"intruder",
+             "one grain 20 times as large as the others",
+             sea_of,
+             -20000,
+             20000,
+             20,
+             {{"settled", 3000}, {"vibrated", 10000}},
+             [](int n) { return sea(n, 20 * small); }},
+            {"sea",
+             "the same with one that is no larger: what the large one costs",
+             sea_of,
+             -20000,
+             20000,
+             20,
+             {{"settled", 3000}, {"vibrated", 10000}},
+             [](int n) { return sea(n, small); }},
+            {"gas", "a twentieth of the space solid, no gravity", 10000, 0, 2000, 0, {{"gas", 20000}}, gas}};
 }
 
 }  // namespace grainreel

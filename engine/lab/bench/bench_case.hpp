@@ -40,4 +40,20 @@ const std::vector<BenchCase>& bench_cases();
 // them all.
 BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k);
 
+// The peers' bed with their law, with ours, and without friction.
+
+std::vector<BenchCase> peers_cases();
+
+// A bed at rest: 4.7 contacts a grain, all of them at once. The phase "settled" of the other beds is mostly
+// their fall, with half a contact to one contact a grain.
+
+BenchCase rest_case();
+
+// Beds of scenes: the default film's hopper, one big grain among small ones, a gas.
+
+std::vector<BenchCase> scene_cases();
+
+// The scene of the default film, as far as the engine is concerned.
+const char* wedge_scene();
+
 }  // namespace grainreel
