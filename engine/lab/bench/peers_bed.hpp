@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -31,5 +32,18 @@ Plan peers_plan();
 
 // Walls and gravity; the floor moves as a (1 - cos wt) with a = 1.19 mm from step 0 on.
 Surroundings peers_surroundings(const PeersBed& bed, const Plan& plan);
+
+// A bed at rest to be drawn: the peers' grains, let down on softer springs with a longer step, since only
+// their places matter.
+
+struct SettledBed {
+    Grains grains;      // the floor at z = 0, the box around the z axis
+    double side = 0;    // m, of the box
+    double height = 0;  // m, of the highest grain's top
+};
+
+// Fewer than 10,125 grains lie in a narrower box; more are k x k copies side by side, as near to `grains` as
+// these come. watcher(share done): false stops, and the result is then empty.
+SettledBed settled_bed(int grains, int threads, const std::function<bool(double)>& watcher);
 
 }  // namespace grainreel

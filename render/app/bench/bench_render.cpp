@@ -16,7 +16,6 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/peers_bed.hpp"
-#include "engine/lab/bench/settled_bed.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"
 #include "render/film/codec/encoder.hpp"
