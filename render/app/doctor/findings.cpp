@@ -13,7 +13,7 @@
 
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
-#include "engine/lab/bench/lattice_speed.hpp"
+#include "engine/lab/bench/bench_run.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "engine/run/packings/packing_cache.hpp"
 #include "engine/vector/instructions.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "engine/base/team.hpp"
-#include "engine/lab/bench/lattice_speed.hpp"
+#include "engine/lab/bench/bench_run.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "render/app/estimate/engine_cost.hpp"
 #include "render/app/estimate/film_probe.hpp"
