@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
-#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/small_bed.hpp"
 
 namespace grainreel {

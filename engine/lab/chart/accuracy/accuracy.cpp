@@ -10,7 +10,7 @@
 #include "engine/lab/chart/accuracy/convergence.hpp"
 #include "engine/lab/chart/accuracy/gas_drift.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
-#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/small_bed.hpp"
 
 namespace grainreel {

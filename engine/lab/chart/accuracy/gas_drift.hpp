@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/lab/chart/chart.hpp"
-#include "engine/lab/chart/result_table.hpp"
 
 namespace grainreel {
 

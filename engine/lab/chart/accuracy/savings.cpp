@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/lab/chart/bench.hpp"
-#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/chart.hpp"
 
 namespace grainreel {
 namespace {

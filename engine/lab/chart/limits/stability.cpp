@@ -1,6 +1,6 @@
 #include "engine/lab/chart/limits/stability.hpp"
 
-#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/chart.hpp"
 
 namespace grainreel {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/plain_file.hpp"
-#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/validation/cooling_gas.hpp"
 #include "engine/lab/chart/validation/seed_mean.hpp"
 #include "engine/lab/chart/validation/validation.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/base/plain_file.hpp"
-#include "engine/lab/chart/result_table.hpp"
+#include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/validation/kharaz.hpp"
 #include "engine/lab/chart/validation/rebound.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
