@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/lab/chart/accuracy/nearly_elastic_gas.hpp"
+#include "engine/lab/chart/gas.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -8,9 +8,9 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/accuracy/convergence.hpp"
-#include "engine/lab/chart/accuracy/gas_drift.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
 #include "engine/lab/chart/chart.hpp"
+#include "engine/lab/chart/gas.hpp"
 #include "engine/lab/chart/small_bed.hpp"
 
 namespace grainreel {
