@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/lab/chart/accuracy/driven_contact.hpp"
+#include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/limits/experiment.hpp"
 
