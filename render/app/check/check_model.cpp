@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/lab/chart/accuracy/promised_error.hpp"
+#include "engine/lab/chart/accuracy/single_contact.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/app/check/check_parts.hpp"

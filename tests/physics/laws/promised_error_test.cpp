@@ -1,5 +1,5 @@
 // What `check` promises of the restitution, against impacts run as a user runs them.
-#include "engine/lab/chart/accuracy/promised_error.hpp"
+#include "engine/lab/chart/accuracy/single_contact.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
