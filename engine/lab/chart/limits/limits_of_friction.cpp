@@ -2,13 +2,16 @@
 // the closed forms of sticking and of sliding are met. (Known of a widely used engine, 2026: wall friction
 // with history could add 34 % of kinetic energy at a grazing impact, friction 0.5, 76 degrees from the
 // normal.)
+
 #include <algorithm>
 #include <numbers>
 
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
+#include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/limits/experiment.hpp"
 
 namespace grainreel {
+
 namespace {
 
 using std::numbers::pi;
@@ -146,6 +149,216 @@ std::vector<Experiment> friction_experiments() {
          [](bool quick) { return grazing_in_a_corner(0.9, quick); }},
         {"grazing in a corner (e = 1)", energy, silent, guard,
          [](bool quick) { return grazing_in_a_corner(1, quick); }}};
+}
+
+// A tangential force along a path: carried round with the contact, led round a closed loop of normal and
+// tangential force, and over cycles that end where they began.
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double modulus = 2e8;  // Pa, of Hertz
+constexpr double friction = 0.5, gamma_of_slip = 1.0 / 3;
+
+PairPlan contact_of(TangentialLaw tangential, double mu) {
+    const bool hertz = tangential == TangentialLaw::mindlin;
+    PairPlan pair = latching_pair(bench_stiffness, 1, mu);
+    pair.model = {hertz ? NormalForce::hertz : NormalForce::walton_braun, tangential};
+    pair.gamma = gamma_of_slip;
+    pair.modulus = modulus;
+    return pair;
+}
+
+// ---- turning and twisting ----
+
+// A loaded contact, and after n steps of one turn about `axis` as one body; `axis` through the contact.
+struct Turned {
+    double length_change = 0, direction_error = 0;  // over |T|; rad
+};
+Turned turn_round(const Vec3& axis, int steps, int turns) {
+    DrivenContact contact(contact_of(TangentialLaw::incremental_slip, friction));
+    const Vec3 up(0, 0, 1);
+    constexpr double overlap = 1e-3 * bench_radius;
+    for (int k = 0; k < 50; ++k) contact.move({up, overlap, Vec3(2e-3 * overlap, 0, 0), 0});
+    const Vec3 before = contact.tangential();
+    const double angle = 2 * pi / steps;
+    Turned result;
+    for (int k = 1; k <= steps * turns; ++k) {
+        const auto normal_at = [&](double when) { return Vec3(Eigen::AngleAxisd(angle * when, axis) * up); };
+        contact.move({normal_at(k), overlap, Vec3::Zero(), angle * axis.dot(normal_at(k - 0.5))});
+        result.length_change =
+            std::max(result.length_change, std::abs(contact.tangential().norm() / before.norm() - 1));
+    }
+    const Vec3 after = contact.tangential();
+    result.direction_error = std::atan2(before.cross(after).norm(), before.dot(after));
+    return result;
+}
+
+Finding turning_length(bool) {
+    Finding finding;
+    const Vec3 axis = Vec3(1, 2, -0.5).normalized();
+    constexpr int turns = 20;
+    for (const int steps : {12, 24, 50, 100, 200, 500, 1000}) {
+        finding.measured = turn_round(axis, steps, turns).length_change;
+        finding.theory = std::numeric_limits<double>::epsilon() * steps * turns;  // a last place a step
+        finding.curve.push_back({static_cast<double>(steps), finding.measured, finding.theory});
+    }
+    return finding;
+}
+
+// Cayley's rotation lags by angle^3 / 12 a step.
+Finding twisting_direction(bool) {
+    Finding finding;
+    for (const int steps : {12, 24, 50, 100, 200, 500, 1000}) {
+        const double lag = std::pow(2 * pi, 3) / (12.0 * steps * steps);
+        const double error = turn_round(Vec3(0, 0, 1), steps, 1).direction_error;
+        finding.curve.push_back({static_cast<double>(steps), error, lag});
+        if (steps != 100) continue;
+        finding.theory = lag;
+        finding.measured = error;
+    }
+    return finding;
+}
+
+// ---- closed loops ----
+
+// Loaded by a slip at the overlap `high`, unloaded by the same slip back at `low`, elastic along the normal:
+// energy made by the contact over the work of the slip forwards (Elata & Berryman 1996, Mech. Mater. 24,
+// 229).
+double made_in_a_loop(TangentialLaw law, double low, double high) {
+    constexpr int steps = 4000;
+    DrivenContact contact(contact_of(law, friction));
+    double overlap = 0, put_in = 0, forwards = 0;
+    const auto lead = [&](double to, double slip) {
+        const double rise = (to - overlap) / steps;
+        double work = 0;
+        for (int k = 0; k < steps; ++k) {
+            const double normal = contact.normal_force(), tangential = contact.tangential().x();
+            overlap += rise;
+            contact.move({Vec3(0, 0, 1), overlap, Vec3(slip / steps, 0, 0), 0});
+            work += 0.5 * (normal + contact.normal_force()) * rise +
+                    0.5 * (tangential + contact.tangential().x()) * slip / steps;
+        }
+        put_in += work;
+        return work;
+    };
+    const double slip = 0.2 * friction * std::min(low, high);  // well below the cap
+    lead(low, 0);
+    put_in = 0;
+    lead(high, 0);
+    forwards = lead(high, slip);
+    lead(low, 0);
+    lead(low, -slip);
+    return -put_in / forwards;
+}
+
+// Integral of Walton's loading curve T(s) = L [1 - (1 - (1 - gamma) K0 s / L)^(1 / (1 - gamma))] from 0 to s,
+// and its end.
+struct Loaded {
+    double work, force;
+};
+Loaded loading_curve(double limit, double slip) {
+    const double power = 1 / (1 - gamma_of_slip), x = 0.8 * bench_stiffness * slip / limit;
+    const double rest = 1 - (1 - gamma_of_slip) * x;
+    const double integral = x - (1 - std::pow(rest, power + 1)) / ((power + 1) * (1 - gamma_of_slip));
+    return {limit * limit / (0.8 * bench_stiffness) * integral, limit * (1 - std::pow(rest, power))};
+}
+
+double made_by_theory(TangentialLaw law, double low, double high) {
+    if (law == TangentialLaw::linear_spring) return 0;
+    // The force shrinks with the stiffness while the contact shrinks, and keeps while it grows.
+    if (law == TangentialLaw::mindlin) {
+        const double ratio = std::sqrt(low / high);  // of the stiffnesses
+        return low < high ? ratio - 1 : 1 - ratio;
+    }
+    const double slip = 0.2 * friction * std::min(low, high);
+    const Loaded there = loading_curve(friction * bench_stiffness * high, slip);
+    const Loaded back = loading_curve(friction * bench_stiffness * low + there.force, slip);
+    return (there.force * slip - back.work) / there.work - 1;
+}
+
+Experiment loop_of(TangentialLaw law, const std::string& name, const std::string& guard) {
+    return {"closed loop of " + name, "largest energy made / work of the slip", Failure::silent, guard,
+            [law](bool) {
+                constexpr double overlap = 1e-3 * bench_radius;
+                Finding finding;
+                finding.theory = finding.measured = -1;
+                for (const double ratio : logarithmic(0.1, 10, 25)) {
+                    const CurvePoint point{ratio, made_in_a_loop(law, overlap, ratio * overlap),
+                                           made_by_theory(law, overlap, ratio * overlap)};
+                    finding.curve.push_back(point);
+                    finding.theory = std::max(finding.theory, point.theory);
+                    finding.measured = std::max(finding.measured, point.value);
+                }
+                return finding;
+            }};
+}
+
+// ---- ratcheting ----
+
+// Two touching grains over cycles that end where they began: overlap d0 (1 + cos(psi) / 2) while they turn by
+// p sin(psi), as one body (`swing`) or each on its place (`roll`). What slip the spring keeps a cycle, over
+// d0 p: arms of the radius count d dp too much when they swing, arms to the contact plane when they roll,
+// pi/2 in each case (der; McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77, 031304 on what follows of
+// it).
+double slip_a_cycle(LeverArms arms, bool swing, int steps) {
+    constexpr double depth = 1e-3 * bench_radius, swings = 0.1;
+    constexpr int cycles = 10;
+    Bench bench(contact_of(TangentialLaw::linear_spring, 1e9), 1e-5);
+    bench.plan.arms = arms;
+    const Bench::Sphere immovable{bench_radius, 1e18 * bench_density};
+    const auto place = [&](int k) {
+        const double psi = 2 * pi * k / steps, angle = swing ? swings * std::sin(psi) : 0;
+        const double apart = 2 * bench_radius - depth * (1 + 0.5 * std::cos(psi));
+        return Vec3(apart * std::cos(angle), apart * std::sin(angle), 0);
+    };
+    bench.add(Vec3::Zero(), Vec3::Zero(), immovable);
+    bench.add(place(0), Vec3::Zero(), immovable);
+    bench.start();
+    for (int k = 0; k < cycles * steps; ++k) {
+        const double turn = swings * (std::sin(2 * pi * (k + 1) / steps) - std::sin(2 * pi * k / steps));
+        bench.velocity(1) = (place(k + 1) - bench.position(1)) / bench.plan.clock.step;
+        for (Motion& m : bench.grains.motion) m.spin = Vec3(0, 0, turn / bench.plan.clock.step);
+        bench.run(1);
+    }
+    double sheared = 0;
+    bench.loop->visit_contacts(
+        bench.step, [&](const ContactView& c) { sheared = c.tangential.norm() / (0.8 * bench_stiffness); });
+    return sheared / cycles / (depth * swings);
+}
+
+Experiment ratchet(LeverArms arms, bool swing) {
+    const bool plane = arms == LeverArms::contact_plane;
+    const double theory = plane == swing ? 0 : pi / 2;
+    return {std::string(swing ? "ratcheting of a swinging pair " : "ratcheting of a rolling pair ") +
+                (plane ? "(arms to the plane)" : "(arms of the radius)"),
+            "slip a cycle / (overlap x angle)", Failure::silent,
+            plane ? "the default" : "check warns of arms = radius", [=](bool) {
+                Finding finding;
+                finding.theory = theory;
+                for (const int steps : {16, 32, 64, 128, 256}) {
+                    finding.measured = slip_a_cycle(arms, swing, steps);
+                    finding.curve.push_back({static_cast<double>(steps), finding.measured, theory});
+                }
+                return finding;
+            }};
+}
+
+}  // namespace
+
+std::vector<Experiment> path_experiments() {
+    const std::string guard = "energy watch at 5 % of the turnover";
+    std::vector<Experiment> all = {
+        {"turning pair", "change of |T| / |T| in 20 turns", Failure::silent, "none needed", turning_length},
+        {"twisting pair", "direction error of T in rad a turn of 100 steps", Failure::silent, "none needed",
+         twisting_direction},
+        loop_of(TangentialLaw::linear_spring, "linear-spring", guard),
+        loop_of(TangentialLaw::mindlin, "mindlin", guard),
+        loop_of(TangentialLaw::incremental_slip, "incremental-slip", guard)};
+    for (const LeverArms arms : {LeverArms::contact_plane, LeverArms::radius})
+        for (const bool swing : {true, false}) all.push_back(ratchet(arms, swing));
+    return all;
 }
 
 }  // namespace grainreel
