@@ -1,7 +1,11 @@
 // Beds as scenes make them: at rest with a step that is too long, shaken gently sideways, shaken hard.
-#include <fmt/format.h>
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
 
 #include "engine/base/error.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
@@ -11,6 +15,7 @@
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr double frequency = 20;  // Hz
@@ -147,6 +152,186 @@ std::vector<Experiment> bed_experiments() {
              [](bool quick) { return creep(LeverArms::radius, quick); }},
             {"shaking at 1 to 20 g", "largest overlap / expected", Failure::loud,
              "the plan's stiffness; health check", hard_shaking}};
+}
+
+// The drive: the kick of one that starts at once, and the walls' place in a step.
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double frequency = 20, gravity = 9.81;  // Hz, m/s2
+
+std::unique_ptr<Bench> on_a_plate(const PairPlan& pair, int steps_a_period, double g_level, double ramp) {
+    auto whole = std::make_unique<Bench>(pair, 1 / (frequency * steps_a_period));
+    Bench& bench = *whole;
+    bench.plan.clock.steps_per_period = steps_a_period;
+    Drive drive;
+    drive.present = true;
+    drive.frequency = frequency;
+    drive.amplitude = g_level * gravity / std::pow(2 * pi * frequency, 2);
+    drive.ramp = ramp;
+    bench.add_floor();
+    bench.around.faces[0].body.driven = true;
+    bench.around.motion = WallMotion(drive, bench.plan.clock);
+    bench.around.gravity = {0, 0, -gravity};
+    return whole;
+}
+
+// A ball at rest on a plate below 1 g: its largest speed against the plate over a omega, in every twentieth
+// of the first three periods. Started at once the plate hits it at a omega, and it first leaves at e times
+// that.
+Finding kick(double ramp) {
+    constexpr double e = 0.9, level = 0.9;
+    constexpr int steps = 40000, points = 60;
+    const auto whole = on_a_plate(latching_pair(bench_stiffness, e), steps, level, ramp);
+    Bench& bench = *whole;
+    bench.add(Vec3(0, 0, bench_radius - bench_mass() * gravity / bench_stiffness));
+    bench.start();
+    const double speed = level * gravity / (2 * pi * frequency);
+    Finding finding;
+    finding.theory = ramp > 0 ? 0 : e;
+    finding.measured = 0;
+    for (int point = 1; point <= points; ++point) {
+        double largest = 0;
+        for (int k = 0; k < 3 * steps / points; k += 10) {
+            bench.run(10);
+            const double plate = bench.around.motion.at(bench.step).velocity.z();
+            largest = std::max(largest, bench.velocity(0).z() - plate);
+        }
+        finding.curve.push_back({3.0 * point / points, largest / speed});
+        if (ramp > 0 || point == 1) finding.measured = std::max(finding.measured, largest / speed);
+    }
+    return finding;
+}
+
+// A ball on a spring and a dashpot on the plate, long after the start, against the steady swing a (K + i c w)
+// / (K - m w^2 + i c w); the largest distance over the amplitude. The frequency is a fifth of the natural
+// one.
+double steady_error(int steps_a_period) {
+    const double omega = 2 * pi * frequency, natural = 5 * omega, damping = natural;  // 1/s
+    PairPlan pair;
+    pair.model = {NormalForce::spring_dashpot, TangentialLaw::none};
+    pair.loading_stiffness = pair.unloading_stiffness = natural * natural * bench_mass();
+    pair.normal_damping = damping;
+    const auto whole = on_a_plate(pair, steps_a_period, 0.5, 3);
+    Bench& bench = *whole;
+    const double amplitude = 0.5 * gravity / (omega * omega),
+                 rest = bench_radius - gravity / (natural * natural);
+    const std::complex<double> spring(natural * natural, damping * omega);
+    const std::complex<double> swing = amplitude * spring / (spring - omega * omega);
+    bench.add(Vec3(0, 0, rest));
+    bench.start();
+    bench.run(8 * steps_a_period);
+    double largest = 0;
+    for (int k = 0; k < steps_a_period; ++k) {
+        bench.run(1);
+        const double angle = 2 * pi * bench.plan.clock.phase(bench.step);
+        const double should = rest + (swing * std::polar(1.0, angle)).imag();
+        largest = std::max(largest, std::abs(bench.position(0).z() - should) / amplitude);
+    }
+    return largest;
+}
+
+// The order of the error: walls a step early or late would make it 1.
+Finding order_of_walls(bool) {
+    Finding finding;
+    finding.theory = 2;
+    const std::vector<int> counts = {40, 80, 160, 320, 640, 1280};
+    const double first = steady_error(counts.front());
+    for (const int steps : counts)
+        finding.curve.push_back({static_cast<double>(steps), steady_error(steps),
+                                 first * std::pow(static_cast<double>(counts.front()) / steps, 2)});
+    const CurvePoint &low = finding.curve[1], &high = finding.curve.back();
+    finding.measured = std::log(low.value / high.value) / std::log(high.x / low.x);
+    return finding;
+}
+
+}  // namespace
+
+std::vector<Experiment> drive_experiments() {
+    const auto silent = Failure::silent;
+    return {
+        {"kick without ramp", "speed against the plate / (a omega)", silent,
+         "ramp of 3 periods by default; check warns of none", [](bool) { return kick(0); }},
+        {"kick with a ramp of 3 periods", "speed against the plate / (a omega)", silent, "the default",
+         [](bool) { return kick(3); }},
+        {"walls in a step", "order of the error", silent, "walls at the time of the force", order_of_walls}};
+}
+
+// Round-off: a bead at rest on a plate sinks in by m g / K. When a unit in the last place of its position is
+// as large as that, the contact force is a lottery. 3 mm glass at 0.3 m from the origin, as in a hopper.
+
+namespace {
+
+constexpr double height = 0.3, radius = 0.0015, gravity = 9.81;  // m, m, m/s2
+
+double weight() {
+    return sphere_mass_of(radius) * gravity;
+}
+
+// m: of a position at `height`.
+double last_place(bool in_single) {
+    return in_single ? std::nextafter(static_cast<float>(height), 1.0F) - static_cast<float>(height)
+                     : std::nextafter(height, 1.0) - height;
+}
+
+// |N / (m g) - 1| of a bead at rest, on a spring with a dashpot: root mean square over time, on a plate
+// `shift` of a last place higher.
+double force_error(double stiffness, bool in_single, double shift) {
+    const double mass = sphere_mass_of(radius), natural = std::sqrt(stiffness / mass);
+    PairPlan pair;
+    pair.model = {NormalForce::spring_dashpot, TangentialLaw::none};
+    pair.loading_stiffness = pair.unloading_stiffness = stiffness;
+    pair.normal_damping = natural;
+    Bench bench(pair, 0.1 / natural);
+    bench.around.gravity = {0, 0, -gravity};
+    const double plate = height + shift * last_place(in_single);
+    bench.add_plane(Vec3(0, 0, plate), Vec3(0, 0, 1));
+    bench.add(Vec3(0, 0, plate + radius - weight() / stiffness), Vec3::Zero(), {radius, bench_density});
+    bench.start();
+    constexpr int settling = 3000, looked_at = 3000;
+    double squares = 0;
+    for (int k = 0; k < settling + looked_at; ++k) {
+        bench.run(1);
+        double& z = bench.grains.place[0].position.z();
+        if (in_single) z = static_cast<float>(z);
+        if (k < settling) continue;
+        const double overlap = radius - (z - plate);
+        squares += std::pow(stiffness * std::max(0.0, overlap) / weight() - 1, 2);
+    }
+    return std::sqrt(squares / looked_at);
+}
+
+double worst_error(double stiffness, bool in_single) {
+    double worst = 0;
+    for (double shift = 0; shift < 1; shift += 0.125)
+        worst = std::max(worst, force_error(stiffness, in_single, shift));
+    return worst;
+}
+
+// The stiffness at which the force is off by half of itself; theory: half a last place is half the overlap.
+Finding rounding(bool in_single) {
+    Finding finding;
+    const double limit = weight() / last_place(in_single);  // N/m
+    for (const double share : logarithmic(1e-4, 30, 12))
+        finding.curve.push_back({share * limit, worst_error(share * limit, in_single), 0.5 * share});
+    finding.theory = limit;
+    finding.measured =
+        limit * std::exp(last_that_holds(std::log(1e-3), std::log(30.0), 12, [&](double share) {
+            return worst_error(std::exp(share) * limit, in_single) < 0.5;
+        }));
+    finding.usual = 2e4;
+    return finding;
+}
+
+}  // namespace
+
+std::vector<Experiment> number_experiments() {
+    return {{"rounding in single precision", "stiffness in N/m", Failure::silent,
+             "the engine computes in double", [](bool) { return rounding(true); }},
+            {"rounding in double precision", "stiffness in N/m", Failure::silent, "check warns",
+             [](bool) { return rounding(false); }}};
 }
 
 }  // namespace grainreel
