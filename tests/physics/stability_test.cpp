@@ -7,7 +7,6 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/lab/chart/limits/scheme_growth.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/plan/plan_parts.hpp"

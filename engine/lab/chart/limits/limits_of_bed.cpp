@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/bench.hpp"
-#include "engine/lab/chart/limits/experiment.hpp"
+#include "engine/lab/chart/limits/stability.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 

@@ -8,7 +8,7 @@
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/bench.hpp"
-#include "engine/lab/chart/limits/experiment.hpp"
+#include "engine/lab/chart/limits/stability.hpp"
 
 namespace grainreel {
 

@@ -9,8 +9,7 @@
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/bench.hpp"
-#include "engine/lab/chart/limits/experiment.hpp"
-#include "engine/lab/chart/limits/scheme_growth.hpp"
+#include "engine/lab/chart/limits/stability.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/step/motion/scheme.hpp"
 
