@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/lab/chart/validation/kharaz.hpp"
-#include "engine/lab/chart/validation/rebound.hpp"
+#include "engine/lab/chart/validation/impacts.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
