@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "engine/lab/chart/validation/seed_mean.hpp"
+#include "engine/lab/chart/validation/validation.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"

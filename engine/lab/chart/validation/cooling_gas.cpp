@@ -6,7 +6,6 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gas.hpp"
-#include "engine/lab/chart/validation/seed_mean.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
 
 namespace grainreel {

@@ -8,7 +8,6 @@
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/chart.hpp"
-#include "engine/lab/chart/validation/seed_mean.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
 #include "engine/measure/energy/energy.hpp"
 

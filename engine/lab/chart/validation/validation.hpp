@@ -2,6 +2,10 @@
 // tables in the folder: what we measure, and beside it what is published.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "engine/lab/chart/chart.hpp"
 
 namespace grainreel {
@@ -15,5 +19,18 @@ struct ValidationPart {
     bool (*run)(const ChartRequest& request, ChartWork& work);
 };
 extern const ValidationPart impact_part, packing_part, silo_part, gas_part;
+
+// Mean of a few seeds and its standard error.
+
+struct SeedMean {
+    double mean = 0, error = 0;
+};
+inline SeedMean seed_mean_of(const std::vector<double>& values) {
+    const double count = static_cast<double>(values.size());
+    double mean = 0, squares = 0;
+    for (const double v : values) mean += v / count;
+    for (const double v : values) squares += (v - mean) * (v - mean);
+    return {mean, std::sqrt(squares / std::max(1.0, count - 1) / count)};
+}
 
 }  // namespace grainreel
