@@ -13,7 +13,7 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/files/frames/trajectory_world.hpp"
+#include "engine/files/frames/world.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/measure/bed/bed_motion.hpp"
 

@@ -12,6 +12,9 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/files/file_facts.hpp"
+#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/trajectory.hpp"
+#include "engine/frame.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
@@ -61,5 +64,29 @@ World world_of(const Scene& scene);
 // For those who need a scene of a world that has none: its species, in no container, and its meshes where it
 // has no planes.
 Scene scene_of(const World& world);
+
+// What a trajectory's file says of its world, and what a writer of one takes from a world.
+
+World world_of(const TrajectoryInfo& info);
+TrajectoryInfo trajectory_info(const World& world, const FrameSupply& supply);
+
+// Frames that are not whole, and those that the file's header does not count; a sentence each. name: the
+// file's.
+std::vector<std::string> faults_of(const TrajectoryReader& trajectory, const std::string& name);
+
+// The walls of a world as triangles, for formats that know nothing else: planes are cut where they meet each
+// other and at the world's corners, cylinders have facets.
+
+struct WorldSurface {
+    std::string name;      // of the face or the mesh
+    std::size_t body = 0;  // whose pose moves it
+    TriangleMesh shape;    // m, at rest
+};
+
+// All surfaces, at rest, those without triangles left out.
+std::vector<WorldSurface> surfaces_of(const World& world);
+
+// Where a surface is in a frame.
+TriangleMesh moved(const WorldSurface& surface, const Frame& frame);
 
 }  // namespace grainreel

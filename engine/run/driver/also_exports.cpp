@@ -9,7 +9,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/files/frames/world_surfaces.hpp"
+#include "engine/files/frames/world.hpp"
 #include "engine/files/run_names.hpp"
 
 namespace grainreel {

@@ -12,7 +12,7 @@
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/files/frames/trajectory_world.hpp"
+#include "engine/files/frames/world.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/trajectory.hpp"
 #include "engine/measure/columns.hpp"

@@ -8,7 +8,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/files/frames/trajectory_world.hpp"
+#include "engine/files/frames/world.hpp"
 
 namespace grainreel {
 

@@ -12,7 +12,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/world_surfaces.hpp"
+#include "engine/files/frames/world.hpp"
 
 namespace grainreel {
 

@@ -4,7 +4,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/trajectory_world.hpp"
+#include "engine/files/frames/world.hpp"
 #include "engine/files/trajectory.hpp"
 
 namespace grainreel {

@@ -14,7 +14,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/world_surfaces.hpp"
+#include "engine/files/frames/world.hpp"
 #include "engine/files/frames/writers/vtk_contacts.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
 
