@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
@@ -69,5 +70,33 @@ struct Exported {
 Exported export_frames(const FrameArchive& frames, const std::string& format,
                        const std::filesystem::path& path, const ExportChoice& choice, bool replace,
                        const std::function<bool(double)>& watcher);
+
+// What writers of text share: a file that says when the disk is full, and the box around a frame.
+
+// Text that is written in pieces of some MB.
+class TextPieces {
+  public:
+    explicit TextPieces(const std::filesystem::path& path) : file_(path) {}
+
+    std::string& text() { return text_; }
+    // Writes where much has gathered.
+    void pass() {
+        if (text_.size() > (std::size_t{1} << 22)) flush();
+    }
+    void flush() {
+        file_.write(text_);
+        text_.clear();
+    }
+
+  private:
+    TextFile file_;
+    std::string text_;
+};
+
+// The world's cell along its periodic edges, and else what holds all grains of the frame, whole.
+WorldCell box_of(const World& world, const Frame& frame);
+
+// The name of a species without blanks, for formats that part words by them.
+std::string one_word(const std::string& name);
 
 }  // namespace grainreel

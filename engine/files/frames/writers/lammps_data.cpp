@@ -6,7 +6,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/writers/text_frames.hpp"
 
 namespace grainreel {
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/writers/text_frames.hpp"
 
 namespace grainreel {
 
