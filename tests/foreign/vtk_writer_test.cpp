@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "engine/files/frames/writers/vtk_contacts.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
 
 namespace grainreel {

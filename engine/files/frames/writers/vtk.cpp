@@ -15,7 +15,6 @@
 #include "engine/files/fields_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/world.hpp"
-#include "engine/files/frames/writers/vtk_contacts.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
 
 namespace grainreel {
