@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/files/foreign/raw_frame.hpp"
+#include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/files/foreign/dumps/line_reader.hpp"
-#include "engine/files/foreign/raw_frame.hpp"
+#include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/foreign/raw_frame.hpp"
+#include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/foreign/raw_frame.hpp"
+#include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/foreign/raw_frame.hpp"
+#include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/vtk/vtk_piece.hpp"
 
 namespace grainreel {

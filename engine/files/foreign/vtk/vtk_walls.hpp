@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/files/foreign/raw_frame.hpp"
+#include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/vtk/vtk_piece.hpp"
 
 namespace grainreel {

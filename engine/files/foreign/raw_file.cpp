@@ -1,7 +1,8 @@
+#include "engine/files/foreign/raw_file.hpp"
+
 #include <fmt/format.h>
 
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/foreign/raw_file.hpp"
 
 // All formats, a line each, in the order in which they are asked: RawFormat NAME_format() in the folders
 // beside this file.
