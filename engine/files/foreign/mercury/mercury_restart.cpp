@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/mercury/restart_line.hpp"
-#include "engine/files/foreign/mercury/wall_rectangles.hpp"
+#include "engine/files/foreign/mercury/restart_walls.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/files/frames/world.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 
@@ -29,5 +31,12 @@ class RestartLine {
     std::string first_word_;
     std::vector<std::pair<std::string, std::vector<double>>> entries_;  // keys in small letters
 };
+
+// Infinite walls as far as they can be drawn: cut to the box.
+
+// The part of the plane through `place` that lies in the box, whose edges are along the axes. `outwards` is
+// its normal, away from the grains; the surface looks the other way. Of a plane beside the box as much as the
+// box has before it; empty where the normal is none.
+TriangleMesh plane_in_box(const Vec3& place, const Vec3& outwards, const WorldCell& box);
 
 }  // namespace grainreel
