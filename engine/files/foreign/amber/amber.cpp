@@ -12,7 +12,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/amber/amber_variables.hpp"
-#include "engine/files/foreign/amber/trial_in_child.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,5 +58,12 @@ class AmberVariables {
     std::size_t frames_ = 1, declared_ = 1, grains_ = 0, places_ = 0;
     std::vector<AmberVariable> variables_;
 };
+
+// Work that may crash, tried in a child process first. The HDF5 library follows the pointers of a damaged
+// file wherever they lead; whoever opens one must not end with it.
+
+// Does `work` in a copy of this process, for up to so many seconds. Whether the copy lived to its end; what
+// it changed is gone, and an exception counts as an end. True also where no copy can be made.
+bool survives(const std::function<void()>& work, unsigned seconds);
 
 }  // namespace grainreel
