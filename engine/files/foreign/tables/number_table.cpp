@@ -9,7 +9,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/foreign/tables/column_filler.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/table_layout.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/tables/column_filler.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/text_frames.hpp"
 #include "engine/files/foreign/tables/xyz_header.hpp"
