@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
-#include "engine/files/foreign/tables/text_frames.hpp"
+#include "engine/files/foreign/tables/text_lines.hpp"
 
 namespace grainreel {
 
