@@ -1,7 +1,7 @@
 // Boxes of dumps, straight and tilted, against the formulas of LAMMPS' page Howto_triclinic.
 #include <gmock/gmock.h>
 
-#include "engine/files/foreign/dumps/dump_box.hpp"
+#include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "tests/foreign/dump_files.hpp"
 
 namespace grainreel {

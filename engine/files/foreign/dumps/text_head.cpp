@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/dumps/dump_box.hpp"
+#include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/words.hpp"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/dumps/grain_checks.hpp"
+#include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/numbers/decimal.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/words.hpp"
