@@ -10,7 +10,7 @@
 #include "engine/files/foreign/bytes/file_bytes.hpp"
 #include "engine/files/foreign/dumps/binary_head.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
-#include "engine/files/foreign/dumps/growth.hpp"
+#include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 

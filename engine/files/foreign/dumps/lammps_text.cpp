@@ -10,7 +10,6 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/bytes/file_bytes.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
-#include "engine/files/foreign/dumps/growth.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/dumps/old_columns.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
