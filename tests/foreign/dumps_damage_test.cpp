@@ -1,7 +1,7 @@
 // Text dumps that are damaged or cut.
 #include <gmock/gmock.h>
 
-#include "engine/files/foreign/dumps/last_row.hpp"
+#include "engine/files/foreign/dumps/text_index.hpp"
 #include "tests/foreign/dump_files.hpp"
 
 namespace grainreel {
