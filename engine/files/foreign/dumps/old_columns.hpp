@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/foreign/dumps/line_reader.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
+#include "engine/files/foreign/dumps/text_rows.hpp"
 
 namespace grainreel {
 

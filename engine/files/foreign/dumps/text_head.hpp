@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/foreign/dumps/line_reader.hpp"
+#include "engine/files/foreign/dumps/text_rows.hpp"
 #include "engine/files/frames/world.hpp"
 
 namespace grainreel {

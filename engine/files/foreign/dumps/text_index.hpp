@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/foreign/dumps/line_reader.hpp"
 #include "engine/files/foreign/dumps/text_head.hpp"
+#include "engine/files/foreign/dumps/text_rows.hpp"
 
 namespace grainreel {
 
