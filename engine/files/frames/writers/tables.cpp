@@ -1,0 +1,149 @@
+// One long table of all frames, a row a grain and moment: for spreadsheets, pandas and R.
+
+#include <fmt/format.h>
+#include <optional>
+
+#include "engine/base/error.hpp"
+#include "engine/files/frames/frame_writer.hpp"
+#include "engine/grain_table.hpp"
+
+namespace grainreel {
+
+namespace {
+
+class Csv final : public FrameWriter {
+  public:
+    explicit Csv(const std::filesystem::path& path) : out_(path) {}
+
+    void begin(const World& world, const FrameSupply& supply) override {
+        world_ = world;
+        supply_ = supply;
+        out_.text() += "time,step,id,type,species,x,y,z,radius";
+        if (supply.velocities) out_.text() += ",vx,vy,vz,wx,wy,wz";
+        if (supply.contact_numbers) out_.text() += ",contact_number";
+        out_.text() += '\n';
+    }
+    void frame(const Frame& frame) override {
+        for (std::size_t i = 0; i < frame.size(); ++i) {
+            std::string& text = out_.text();
+            const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
+            const auto s = static_cast<std::size_t>(frame.species[i]);
+            text += fmt::format("{},{},{},{},{},{},{},{},{}", frame.time, frame.step, frame.id[i], s + 1,
+                                s < world_.species.size() ? one_word(world_.species[s].name) : "", x.x(),
+                                x.y(), x.z(), frame.radius[i]);
+            if (supply_.velocities)
+                text += fmt::format(",{},{},{},{},{},{}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            if (supply_.contact_numbers)
+                text += fmt::format(",{}", i < frame.contact_number.size() ? frame.contact_number[i] : 0);
+            text += '\n';
+            out_.pass();
+        }
+    }
+    void end() override { out_.flush(); }
+
+  private:
+    TextPieces out_;
+    World world_;
+    FrameSupply supply_;
+};
+
+std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
+    return std::make_unique<Csv>(path);
+}
+
+}  // namespace
+
+FrameFormat csv_format() {
+    return {"csv", "one table of all frames, SI units: for spreadsheets, pandas and R", ".csv", make};
+}
+
+// The table of grains of a final.csv: the last of the frames.
+
+namespace {
+
+class GrainTable final : public FrameWriter {
+  public:
+    explicit GrainTable(std::filesystem::path path) : path_(std::move(path)) {}
+
+    void begin(const World&, const FrameSupply&) override {}
+    void frame(const Frame& frame) override { last_ = frame; }
+    void end() override {
+        if (!last_) throw RunError(path_.string() + ": there is no frame to make a table of");
+        write_grain_table(path_, *last_);
+    }
+
+  private:
+    std::filesystem::path path_;
+    std::optional<Frame> last_;
+};
+
+std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
+    return std::make_unique<GrainTable>(path);
+}
+
+}  // namespace
+
+FrameFormat grain_table_format() {
+    return {"grain-table", "a table of grains (final.csv), of the last frame", ".csv", make};
+}
+
+// Extended XYZ, by the rules of ASE and OVITO: columns element, pos, radius, velo, omega, id; Lattice and pbc
+// where there is a periodic box. Names of species stand in `element`: ASE takes those in `species` for
+// symbols of the periodic table, and ends at "Small".
+
+namespace {
+
+class Xyz final : public FrameWriter {
+  public:
+    explicit Xyz(const std::filesystem::path& path) : out_(path) {}
+
+    void begin(const World& world, const FrameSupply& supply) override {
+        world_ = world;
+        supply_ = supply;
+    }
+    void frame(const Frame& frame) override {
+        std::string& text = out_.text();
+        const WorldCell box = box_of(world_, frame);
+        const auto edge = [](const Vec3& e) { return fmt::format("{} {} {}", e.x(), e.y(), e.z()); };
+        const auto flag = [&](std::size_t axis) { return box.periodic[axis] ? 'T' : 'F'; };
+        text += fmt::format(
+            "{}\nLattice=\"{} {} {}\" Origin=\"{}\" pbc=\"{} {} {}\" "
+            "Properties=element:S:1:pos:R:3:radius:R:1{}:id:I:1 Step={}{}\n",
+            frame.size(), edge(box.edges[0]), edge(box.edges[1]), edge(box.edges[2]), edge(box.origin),
+            flag(0), flag(1), flag(2), supply_.velocities ? ":velo:R:3:omega:R:3" : "", frame.step,
+            world_.time_known ? fmt::format(" Time={}", frame.time) : "");
+        for (std::size_t i = 0; i < frame.size(); ++i) {
+            const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
+            text +=
+                fmt::format("{} {} {} {} {}", name(frame.species[i]), x.x(), x.y(), x.z(), frame.radius[i]);
+            if (supply_.velocities)
+                text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            text += fmt::format(" {}\n", frame.id[i]);
+            out_.pass();
+        }
+    }
+    void end() override { out_.flush(); }
+
+  private:
+    std::string name(std::int32_t species) const {
+        const auto s = static_cast<std::size_t>(species);
+        return s < world_.species.size() ? one_word(world_.species[s].name)
+                                         : fmt::format("type_{}", species + 1);
+    }
+
+    TextPieces out_;
+    World world_;
+    FrameSupply supply_;
+};
+
+std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
+    return std::make_unique<Xyz>(path);
+}
+
+}  // namespace
+
+FrameFormat xyz_writer_format() {
+    return {"xyz", "extended XYZ, as ASE and OVITO read it", ".xyz", make};
+}
+
+}  // namespace grainreel
