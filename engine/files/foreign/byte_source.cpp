@@ -1,12 +1,23 @@
 #include "engine/files/foreign/byte_source.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+#include <zstd.h>
+#include <zstd_errors.h>
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
 #include <string_view>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/bytes/packed_bytes.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 
@@ -127,6 +138,223 @@ std::string all_bytes(const fs::path& file, std::uint64_t most) {
         if (got < piece) return all;
         piece = std::max(piece, std::min(all.size(), std::size_t{1} << 26));
     }
+}
+
+namespace fs = std::filesystem;
+
+std::string shown(const fs::path& file) {
+    constexpr std::size_t most = 400;  // characters
+    return excerpt(file.string(), most);
+}
+
+FileBytes::FileBytes(const fs::path& file) : path_(file) {
+    if (const std::string other = other_than_file(file, true); !other.empty())
+        throw UserError(fmt::format("{}: is {}; give an ordinary file", shown(file), other));
+    // O_NONBLOCK keeps the opening from waiting where a pipe took the file's name just now.
+    file_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    struct stat about {};
+    if (file_ >= 0 && ::fstat(file_, &about) == 0 && S_ISREG(about.st_mode)) return;
+    const std::string why = file_ < 0 ? std::strerror(errno) : "it is no ordinary file";
+    if (file_ >= 0) ::close(file_);
+    throw UserError(fmt::format("{}: cannot be opened: {}", shown(file), why));
+}
+
+FileBytes::~FileBytes() {
+    if (file_ >= 0) ::close(file_);
+}
+
+FileState FileBytes::state() const {
+    struct stat about {};
+    if (::fstat(file_, &about) != 0)
+        throw UserError(fmt::format("{}: cannot be read: {}", shown(path_), std::strerror(errno)));
+    return {static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_dev),
+            static_cast<std::uint64_t>(about.st_ino),
+            std::int64_t{about.st_mtim.tv_sec} * 1000000000 + std::int64_t{about.st_mtim.tv_nsec}};
+}
+
+std::size_t FileBytes::read_at(std::uint64_t place, char* to, std::size_t size) const {
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t got = ::pread(file_, to + done, size - done, static_cast<off_t>(place + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0)
+            throw UserError(fmt::format("{}: cannot be read from byte {} on: {}", shown(path_), place + done,
+                                        std::strerror(errno)));
+        if (got == 0) break;
+        done += static_cast<std::size_t>(got);
+    }
+    return done;
+}
+
+namespace {
+
+constexpr std::size_t piece_size = std::size_t{1} << 18;  // bytes
+
+}  // namespace
+
+PackedBytes::PackedBytes(std::unique_ptr<FileBytes> file)
+    : file_(std::move(file)), piece_(std::make_unique<char[]>(piece_size)) {}
+
+std::size_t PackedBytes::read(char* to, std::size_t size) {
+    std::size_t done = 0;
+    while (done < size) {
+        const std::size_t got = unpack(to + done, size - done);
+        if (got == 0) break;
+        done += got;
+    }
+    place_ += done;
+    return done;
+}
+
+void PackedBytes::seek(std::uint64_t place) {
+    if (place < place_) {
+        held_ = used_ = 0;
+        read_ = place_ = 0;
+        cut_off_ = false;
+        begin_again();
+    }
+    std::unique_ptr<char[]> passed_over;
+    while (place_ < place) {
+        if (!passed_over) passed_over = std::make_unique<char[]>(piece_size);
+        const std::size_t size =
+            static_cast<std::size_t>(std::min<std::uint64_t>(place - place_, piece_size));
+        if (read(passed_over.get(), size) == 0) break;
+    }
+}
+
+bool PackedBytes::fill() {
+    if (left() > 0) return true;
+    used_ = 0;
+    held_ = file_->read_at(read_, piece_.get(), piece_size);
+    read_ += held_;
+    return held_ > 0;
+}
+
+void PackedBytes::damaged(const std::string& why) const {
+    throw UserError(
+        fmt::format("{}: byte {}: the packed content is damaged ({}); copy the file again, or unpack what "
+                    "is sound by hand",
+                    shown(file_->path()), read_ - left(), why));
+}
+
+// gzip: RFC 1952, members one behind the other are one content.
+
+namespace {
+
+constexpr int gzip_window = 15 + 16;  // zlib: the largest window, with the head and the sum of gzip
+
+class GzipBytes : public PackedBytes {
+  public:
+    explicit GzipBytes(std::unique_ptr<FileBytes> file) : PackedBytes(std::move(file)) {
+        if (inflateInit2(&stream_, gzip_window) != Z_OK) throw std::bad_alloc();
+    }
+    ~GzipBytes() override { inflateEnd(&stream_); }
+
+  private:
+    void begin_again() override {
+        inflateReset(&stream_);
+        between_ = true;
+    }
+
+    // To the next member. Returns whether there is one.
+    bool next_member() {
+        while (fill()) {
+            if (*packed() != 0) break;
+            use(1);  // tapes and some copies fill up with zeros
+        }
+        if (left() == 0) return false;
+        if (static_cast<unsigned char>(*packed()) != 0x1f)
+            damaged("behind a whole part stand bytes that are no gzip");
+        inflateReset(&stream_);
+        between_ = false;
+        return true;
+    }
+
+    std::size_t unpack(char* to, std::size_t size) override {
+        while (true) {
+            if (between_ && !next_member()) return 0;
+            if (!fill()) {
+                cut_off_ = true;
+                return 0;
+            }
+            constexpr std::size_t most = std::numeric_limits<uInt>::max() / 2;
+            const auto room = static_cast<uInt>(std::min(size, most));
+            stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed()));
+            stream_.avail_in = static_cast<uInt>(left());
+            stream_.next_out = reinterpret_cast<Bytef*>(to);
+            stream_.avail_out = room;
+            const int result = inflate(&stream_, Z_NO_FLUSH);
+            use(left() - stream_.avail_in);
+            if (result == Z_MEM_ERROR) throw std::bad_alloc();
+            if (result == Z_STREAM_END)
+                between_ = true;
+            else if (result != Z_OK && result != Z_BUF_ERROR)
+                damaged(stream_.msg != nullptr ? stream_.msg : "it needs a dictionary");
+            if (stream_.avail_out < room) return room - stream_.avail_out;
+        }
+    }
+
+    z_stream stream_{};
+    bool between_ = true;  // of two members, or at the beginning
+};
+
+}  // namespace
+
+std::unique_ptr<ByteSource> gzip_bytes(std::unique_ptr<FileBytes> file) {
+    return std::make_unique<GzipBytes>(std::move(file));
+}
+
+// zstd: RFC 8878, frames one behind the other are one content.
+
+namespace {
+
+class ZstdBytes : public PackedBytes {
+  public:
+    explicit ZstdBytes(std::unique_ptr<FileBytes> file)
+        : PackedBytes(std::move(file)), stream_(ZSTD_createDStream(), &ZSTD_freeDStream) {
+        if (!stream_) throw std::bad_alloc();
+    }
+
+  private:
+    void begin_again() override {
+        ZSTD_DCtx_reset(stream_.get(), ZSTD_reset_session_only);
+        wants_ = 0;
+    }
+
+    std::size_t unpack(char* to, std::size_t size) override {
+        ZSTD_outBuffer out{to, size, 0};
+        while (out.pos == 0) {
+            // Where all was read, zstd may still hold unpacked bytes that found no room in the call before.
+            const bool more = fill();
+            ZSTD_inBuffer in{packed(), left(), 0};
+            if (!more && wants_ == 0) return 0;
+            const std::size_t result = ZSTD_decompressStream(stream_.get(), &out, &in);
+            use(in.pos);
+            if (ZSTD_isError(result)) refuse(result);
+            wants_ = result;
+            if (!more && out.pos == 0) {
+                cut_off_ = true;
+                return 0;
+            }
+        }
+        return out.pos;
+    }
+
+    [[noreturn]] void refuse(std::size_t result) const {
+        if (ZSTD_getErrorCode(result) == ZSTD_error_frameParameter_windowTooLarge)
+            damaged(
+                "packed by zstd --long with a window above 128 MB, which is not read; unpack it by zstd -d");
+        damaged(ZSTD_getErrorName(result));
+    }
+
+    std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream_;
+    std::size_t wants_ = 0;  // 0 between two frames
+};
+
+}  // namespace
+
+std::unique_ptr<ByteSource> zstd_bytes(std::unique_ptr<FileBytes> file) {
+    return std::make_unique<ZstdBytes>(std::move(file));
 }
 
 }  // namespace grainreel

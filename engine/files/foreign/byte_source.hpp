@@ -1,6 +1,7 @@
 // The bytes of a file behind gzip (several members too) and zstd. The content decides, not the suffix.
 #pragma once
 
+#include <sys/types.h>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -35,5 +36,80 @@ std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& file);
 
 // All of a file, unpacked. Throws UserError where there are more than `most` bytes.
 std::string all_bytes(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 33);
+
+// An ordinary file, read at any place. It is read into memory and not mapped: a file that another program
+// truncates while it is read must end in a message, and a mapped one ends in a signal.
+
+// Which file lies under a name, and how it was when somebody looked.
+struct FileState {
+    std::uint64_t size = 0;
+    std::uint64_t device = 0, inode = 0;
+    std::int64_t changed = 0;  // ns since 1970, of its content
+
+    bool same_file(const FileState& other) const { return device == other.device && inode == other.inode; }
+    bool operator==(const FileState&) const = default;
+};
+
+class FileBytes {
+  public:
+    // Throws UserError where there is no ordinary file or where it cannot be opened.
+    explicit FileBytes(const std::filesystem::path& file);
+    ~FileBytes();
+    FileBytes(const FileBytes&) = delete;
+    FileBytes& operator=(const FileBytes&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    FileState state() const;
+    // Up to `size` bytes from a place on; fewer only at the end of the file. Throws UserError where the disk
+    // fails.
+    std::size_t read_at(std::uint64_t place, char* to, std::size_t size) const;
+
+  private:
+    std::filesystem::path path_;
+    int file_ = -1;
+};
+
+// The path as a message shows it.
+std::string shown(const std::filesystem::path& file);
+
+// Sources of bytes behind a packing. Each reads its file from the beginning; a place behind the present one
+// is reached by beginning again.
+
+// Reads one member or several. Zero bytes between and behind them are passed over.
+std::unique_ptr<ByteSource> gzip_bytes(std::unique_ptr<FileBytes> file);
+// Reads one frame or several, and passes over those that are to be skipped.
+std::unique_ptr<ByteSource> zstd_bytes(std::unique_ptr<FileBytes> file);
+
+// What both have in common: the packed bytes, a piece at a time, and the way to a place.
+class PackedBytes : public ByteSource {
+  public:
+    explicit PackedBytes(std::unique_ptr<FileBytes> file);
+
+    std::size_t read(char* to, std::size_t size) final;
+    bool cut_off() const final { return cut_off_; }
+    void seek(std::uint64_t place) final;
+
+  protected:
+    // Some unpacked bytes; none at the end. It may set cut_off_.
+    virtual std::size_t unpack(char* to, std::size_t size) = 0;
+    virtual void begin_again() = 0;
+
+    // The packed bytes that were not used yet, at least one. Returns whether there are any.
+    bool fill();
+    const char* packed() const { return piece_.get() + used_; }
+    std::size_t left() const { return held_ - used_; }
+    void use(std::size_t bytes) { used_ += bytes; }
+    // Throws UserError with the place in the packed file.
+    [[noreturn]] void damaged(const std::string& why) const;
+
+    bool cut_off_ = false;
+
+  private:
+    std::unique_ptr<FileBytes> file_;
+    std::unique_ptr<char[]> piece_;
+    std::size_t held_ = 0, used_ = 0;
+    std::uint64_t read_ = 0;   // packed bytes that were read
+    std::uint64_t place_ = 0;  // in the unpacked content
+};
 
 }  // namespace grainreel

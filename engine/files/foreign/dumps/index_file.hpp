@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/foreign/bytes/file_bytes.hpp"
+#include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/bytes/file_bytes.hpp"
+#include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/dumps/binary_head.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"

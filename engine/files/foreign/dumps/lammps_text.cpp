@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/bytes/file_bytes.hpp"
+#include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/dumps/old_columns.hpp"
