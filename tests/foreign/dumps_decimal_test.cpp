@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-#include "engine/files/foreign/numbers/decimal.hpp"
+#include "engine/files/foreign/decimal.hpp"
 
 namespace grainreel {
 namespace {

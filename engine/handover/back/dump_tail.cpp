@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/numbers/decimal.hpp"
+#include "engine/files/foreign/decimal.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/numbers/decimal.hpp"
+#include "engine/files/foreign/decimal.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/words.hpp"
 

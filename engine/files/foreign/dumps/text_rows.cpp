@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "engine/base/text.hpp"
+#include "engine/files/foreign/decimal.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
-#include "engine/files/foreign/numbers/decimal.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/words.hpp"
 

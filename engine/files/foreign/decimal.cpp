@@ -1,4 +1,4 @@
-#include "engine/files/foreign/numbers/decimal.hpp"
+#include "engine/files/foreign/decimal.hpp"
 
 #include <array>
 #include <bit>
@@ -7,6 +7,7 @@
 #include <limits>
 
 namespace grainreel {
+
 namespace {
 
 __extension__ using Wide = unsigned __int128;
