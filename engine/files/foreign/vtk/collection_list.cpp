@@ -11,8 +11,6 @@
 
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/foreign/vtk/named_file.hpp"
-#include "engine/files/foreign/vtk/vtk_fault.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/mesh/file/words.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/vtk/vtk_fault.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/mesh/file/words.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/collection_list.hpp"
-#include "engine/files/foreign/vtk/vtk_fault.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/xml_head.hpp"
 
 namespace grainreel {

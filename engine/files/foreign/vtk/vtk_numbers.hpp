@@ -1,11 +1,16 @@
 // Numbers of VTK's files: their types, and what their bytes and words mean.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -57,5 +62,42 @@ class VtkWords {
     const char* at_;
     const char* end_;
 };
+
+// Complaints about files of VTK: file and line where they are text, file and byte where they are binary.
+
+// Where something stands in a file. `array` is its name for the reader of a message, and may be empty.
+struct VtkPlace {
+    const std::filesystem::path* file = nullptr;
+    std::int64_t line = 0;  // 0: unknown
+    std::string array{};
+};
+
+// Throw UserError: "FILE:LINE: array \"Radius\": what", "FILE: byte 84: what", "FILE: what".
+[[noreturn]] void refuse_vtk(const VtkPlace& place, const std::string& what);
+[[noreturn]] void refuse_vtk_line(const std::filesystem::path& file, std::int64_t line,
+                                  const std::string& what);
+[[noreturn]] void refuse_vtk_byte(const std::filesystem::path& file, std::size_t byte,
+                                  const std::string& what);
+[[noreturn]] void refuse_vtk_file(const std::filesystem::path& file, const std::string& what);
+
+// "FILE:LINE", as far as they are known.
+std::string text_of(const VtkPlace& place);
+
+// What to do about a damaged file.
+inline constexpr const char* kWriteAgain = "the file is damaged or cut off; write it again";
+
+// The line in which a byte of a text stands, from 1.
+std::int64_t line_of_byte(std::string_view text, std::size_t byte);
+
+// Files that lists of VTK name: relative to the folder of the list, and by programs on Windows with
+// backslashes.
+
+// The name as the list has it where a file is there, or where it has no backslash; else with slashes.
+inline std::string named_file(const std::filesystem::path& folder, std::string_view name) {
+    std::string file(name);
+    if (file.find('\\') == std::string::npos || is_plain(folder / file)) return file;
+    std::replace(file.begin(), file.end(), '\\', '/');
+    return file;
+}
 
 }  // namespace grainreel

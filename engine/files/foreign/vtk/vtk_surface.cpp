@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/vtk/vtk_fault.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {
 namespace {

@@ -10,8 +10,8 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/foreign/vtk/named_file.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/xml_piece.hpp"
 #include "engine/mesh/file/words.hpp"
 

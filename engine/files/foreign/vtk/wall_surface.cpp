@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/foreign/vtk/vtk_fault.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 #include "engine/mesh/file/words.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "engine/files/foreign/vtk/vtk_fault.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {
 namespace {
