@@ -9,7 +9,6 @@
 
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/vtk/vtk_columns.hpp"
-#include "engine/files/foreign/vtk/vtk_surface.hpp"
 #include "engine/files/foreign/vtk/vtk_walls.hpp"
 
 namespace grainreel {

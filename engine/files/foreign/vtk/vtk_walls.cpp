@@ -1,16 +1,17 @@
 #include "engine/files/foreign/vtk/vtk_walls.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <span>
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/vtk/vtk_columns.hpp"
-#include "engine/files/foreign/vtk/vtk_surface.hpp"
+#include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr auto most_vertices = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
@@ -111,6 +112,125 @@ bool join_walls(RawWall& wall, const RawWall& more) {
                                             more.cells.columns[i].values.end());
     wall.cells.rows += more.cells.rows;
     return true;
+}
+
+namespace {
+
+using Corners = std::span<const std::int64_t>;
+
+[[noreturn]] void refuse_cell(const VtkPiece& piece, std::size_t cell, const std::string& what) {
+    throw UserError(fmt::format("{}: cell {} {}", piece.where, cell, what));
+}
+
+void cut_polygon(Corners corners, std::vector<VtkTriangle>& triangles) {
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        triangles.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+void cut_strip(Corners corners, std::vector<VtkTriangle>& triangles) {
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        const std::size_t odd = i % 2;
+        triangles.push_back({corners[i - 2 + odd], corners[i - 1 - odd], corners[i]});
+    }
+}
+
+// Faces of a solid cell by its own corners; -1 ends a face of three.
+struct Solid {
+    std::uint8_t type;
+    std::size_t corners;
+    std::vector<std::array<int, 4>> faces;
+};
+const std::vector<Solid>& solids() {
+    static const std::vector<Solid> all{
+        {VtkCell::tetra, 4, {{0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}, {0, 2, 1, -1}}},
+        {VtkCell::wedge, 6, {{0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}},
+        {VtkCell::pyramid, 5, {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}}};
+    return all;
+}
+
+void cut_solid(const Solid& solid, Corners corners, std::vector<VtkTriangle>& triangles) {
+    for (const auto& face : solid.faces) {
+        std::vector<std::int64_t> polygon;
+        for (const int corner : face)
+            if (corner >= 0) polygon.push_back(corners[static_cast<std::size_t>(corner)]);
+        cut_polygon(polygon, triangles);
+    }
+}
+
+// A stream: the number of faces, and of each the number of its corners and the corners.
+void cut_polyhedron(const VtkPiece& piece, std::size_t cell, Corners stream,
+                    std::vector<VtkTriangle>& triangles) {
+    const auto fail = [&] {
+        refuse_cell(piece, cell, fmt::format("is a polyhedron of wrong faces; {}", kWriteAgain));
+    };
+    if (stream.empty()) fail();
+    std::size_t at = 1;
+    for (std::int64_t face = 0; face < stream[0]; ++face) {
+        if (at >= stream.size()) fail();
+        const std::int64_t corners = stream[at++];
+        if (corners < 0 || static_cast<std::size_t>(corners) > stream.size() - at) fail();
+        const Corners polygon = stream.subspan(at, static_cast<std::size_t>(corners));
+        for (const std::int64_t corner : polygon)
+            if (corner < 0 || corner >= static_cast<std::int64_t>(piece.points)) fail();
+        cut_polygon(polygon, triangles);
+        at += polygon.size();
+    }
+}
+
+void need_corners(const VtkPiece& piece, std::size_t cell, Corners corners, std::size_t count) {
+    if (corners.size() != count)
+        refuse_cell(piece, cell,
+                    fmt::format("has {} corners where its type {} has {}; {}", corners.size(),
+                                piece.cells.types[cell], count, kWriteAgain));
+}
+
+[[noreturn]] void refuse_type(const VtkPiece& piece, std::size_t cell, std::uint8_t type) {
+    if (type == VtkCell::voxel || type == VtkCell::hexahedron)
+        refuse_cell(piece, cell,
+                    "is a hexahedron: the file holds a grid, not grains; give a file of points or of a "
+                    "surface");
+    refuse_cell(piece, cell,
+                fmt::format("has type {}, whose surface is not read; write it as triangles", type));
+}
+
+}  // namespace
+
+bool is_surface(std::uint8_t type) {
+    return type > VtkCell::poly_line;
+}
+
+void split_cell(const VtkPiece& piece, std::size_t cell, std::vector<VtkTriangle>& triangles) {
+    const Corners corners =
+        Corners(piece.cells.corners)
+            .subspan(piece.cells.begin_of(cell), piece.cells.end_of(cell) - piece.cells.begin_of(cell));
+    const std::uint8_t type = piece.cells.types[cell];
+    switch (type) {
+        case VtkCell::triangle:
+            need_corners(piece, cell, corners, 3);
+            return cut_polygon(corners, triangles);
+        case VtkCell::quad:
+            need_corners(piece, cell, corners, 4);
+            return cut_polygon(corners, triangles);
+        case VtkCell::pixel: {
+            need_corners(piece, cell, corners, 4);
+            const std::array<std::int64_t, 4> around{corners[0], corners[1], corners[3], corners[2]};
+            return cut_polygon(around, triangles);
+        }
+        case VtkCell::polygon:
+            return cut_polygon(corners, triangles);
+        case VtkCell::strip:
+            return cut_strip(corners, triangles);
+        case VtkCell::polyhedron:
+            return cut_polyhedron(piece, cell, corners, triangles);
+        default:
+            break;
+    }
+    for (const Solid& solid : solids())
+        if (solid.type == type) {
+            need_corners(piece, cell, corners, solid.corners);
+            return cut_solid(solid, corners, triangles);
+        }
+    refuse_type(piece, cell, type);
 }
 
 }  // namespace grainreel
