@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/foreign/vtk/vtk_piece.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 namespace grainreel {
 

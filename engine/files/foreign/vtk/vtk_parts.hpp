@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/foreign/vtk/vtk_piece.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/xml_tree.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/vtk/vtk_columns.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/foreign/vtk/vtk_piece.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 namespace grainreel {
 

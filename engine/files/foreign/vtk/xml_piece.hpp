@@ -1,7 +1,7 @@
 // A Piece of VTK's XML files.
 #pragma once
 
-#include "engine/files/foreign/vtk/vtk_piece.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
 
 namespace grainreel {
