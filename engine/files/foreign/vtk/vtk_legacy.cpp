@@ -11,7 +11,6 @@
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
-#include "engine/files/foreign/vtk/xml_piece.hpp"
 #include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
