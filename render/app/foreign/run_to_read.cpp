@@ -6,7 +6,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/series/raw_series.hpp"
-#include "engine/handover/back/bring_back.hpp"
+#include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "render/app/report/share_watcher.hpp"

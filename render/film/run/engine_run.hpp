@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/handover/back/returned_run.hpp"
+#include "engine/handover/bring_back.hpp"
 #include "engine/handover/carried_scene.hpp"
 #include "engine/handover/runner/engine_job.hpp"
 #include "render/film/moments/film_times_table.hpp"
