@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/handover/back/trim_dump.hpp"
 #include "engine/handover/deck_parts.hpp"
+#include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"

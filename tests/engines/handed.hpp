@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
-#include "engine/handover/back/dump_tail.hpp"
 #include "engine/handover/carry.hpp"
+#include "engine/handover/dump_tail.hpp"
 #include "engine/handover/runner/engine_job.hpp"
 
 namespace grainreel {

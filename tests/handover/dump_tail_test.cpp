@@ -1,5 +1,5 @@
 // The dump of a deck while it grows, and grains that are missing in it.
-#include "engine/handover/back/dump_tail.hpp"
+#include "engine/handover/dump_tail.hpp"
 
 #include <fstream>
 
@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/back/grain_count.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

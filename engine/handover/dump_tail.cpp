@@ -1,5 +1,6 @@
-#include "engine/handover/back/dump_tail.hpp"
+#include "engine/handover/dump_tail.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -7,10 +8,9 @@
 #include <numeric>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/decimal.hpp"
+#include "engine/handover/deck_parts.hpp"
 
 namespace grainreel {
 
@@ -146,6 +146,91 @@ std::optional<DumpRows> DumpTail::next() {
         }
         if (!read_more()) return std::nullopt;
     }
+}
+
+namespace fs = std::filesystem;
+
+std::optional<std::int64_t> newest_restart(const fs::path& folder, PeerEngine engine) {
+    const std::string begin = restart_name(engine) + ".";
+    std::optional<std::int64_t> newest;
+    std::error_code missing;
+    for (const fs::directory_entry& one : fs::directory_iterator(folder, missing)) {
+        const std::string name = one.path().filename().string();
+        if (!name.starts_with(begin)) continue;
+        std::int64_t step = 0;
+        const char* const end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + begin.size(), end, step);
+        if (read.ec == std::errc() && read.ptr == end) newest = std::max(newest.value_or(0), step);
+    }
+    return newest;
+}
+
+void trim_dump(const fs::path& dump, std::int64_t step) {
+    DumpTail tail(dump);
+    std::uintmax_t kept = 0;
+    while (const std::optional<DumpRows> rows = tail.next()) {
+        if (rows->step > step) break;
+        kept = tail.taken();
+    }
+    std::error_code failed;
+    fs::resize_file(dump, kept, failed);
+    if (failed) throw RunError(fmt::format("{}: cannot be cut: {}", dump.string(), failed.message()));
+}
+
+namespace {
+
+constexpr double kSlack = 1.5;  // of the way in free fall, for pushes from others
+
+}  // namespace
+
+// It can be at an exit by then. Others push it, but not by much.
+bool GrainCount::may_leave(const Frame& before, std::size_t row, double seconds) const {
+    const Vec3& at = before.position[row];
+    const double way = before.velocity[row].norm() * seconds + scene_.gravity.norm() * seconds * seconds / 2;
+    const double reach = kSlack * way + 4 * before.radius[row];
+    const Container& container = scene_.container;
+    if (container.outlet && !container.tray && at.z() + container.outlet->exit_depth <= reach) return true;
+    for (const ExitBox& exit : scene_.exits) {
+        const double inside = std::min((at - exit.low).minCoeff(), (exit.high - at).minCoeff());
+        const double outside = (exit.low - at).cwiseMax(at - exit.high).cwiseMax(0).norm();
+        if (exit.outside ? inside <= reach : outside <= reach) return true;
+    }
+    return false;
+}
+
+GrainCount::Change GrainCount::compare(const Frame* before, const Frame& now) const {
+    Change change;
+    if (before == nullptr) {
+        const std::int64_t wanted = scene_.grains_at_start();
+        if (static_cast<std::int64_t>(now.size()) < wanted)
+            throw RunError(fmt::format("{}: step {}: has {} grains, but the scene begins with {}", file_,
+                                       now.step, now.size(), wanted));
+        return change;
+    }
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < before->size(); ++i) {
+        while (k < now.size() && now.id[k] < before->id[i]) ++k, ++change.came;
+        if (k < now.size() && now.id[k] == before->id[i]) {
+            ++k;
+            continue;
+        }
+        if (!may_leave(*before, i, now.time - before->time)) {
+            const Vec3& at = before->position[i];
+            throw RunError(
+                fmt::format("{}: step {}: grain {} is missing; it was last at ({:.4g}, {:.4g}, {:.4g}) m "
+                            "in step {}, where it could not leave: it broke through a wall, which is "
+                            "too soft for its speed, or left the box of the run",
+                            file_, now.step, before->id[i], at.x(), at.y(), at.z(), before->step));
+        }
+        change.left.push_back(i);
+    }
+    change.came += static_cast<std::int64_t>(now.size() - k);
+    if (change.came > 0 && scene_.feeds.empty())
+        throw RunError(
+            fmt::format("{}: step {}: has {} grains that the frame before lacks, and the scene feeds "
+                        "none; is it the dump of another run?",
+                        file_, now.step, change.came));
+    return change;
 }
 
 }  // namespace grainreel
