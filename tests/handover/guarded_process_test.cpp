@@ -1,5 +1,5 @@
 // Processes that do not outlive us, whatever ends us: shown with a shell that starts others.
-#include "engine/handover/runner/guarded_process.hpp"
+#include "engine/handover/guarded_process.hpp"
 
 #include <signal.h>
 #include <sys/wait.h>

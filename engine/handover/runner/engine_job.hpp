@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/handover/guarded_process.hpp"
 #include "engine/handover/runner/engine_program.hpp"
-#include "engine/handover/runner/guarded_process.hpp"
 
 namespace grainreel {
 

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <sys/types.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
