@@ -1,12 +1,18 @@
 #include "engine/run/import/import_measures.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "engine/files/fields_file.hpp"
+#include "engine/files/foreign/meaning/names.hpp"
 #include "engine/measure/bed/bed_observers.hpp"
 #include "engine/measure/drive_observers.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation/segregation_observers.hpp"
+#include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/wall_motion.hpp"
@@ -126,6 +132,139 @@ Measures ImportMeasures::row(const Frame& frame, const std::vector<Touch>& touch
                         m.traffic,
                         m.faces};
     return impl_->observers.look(moment, [&](const auto& see) { show(frame, touches, see); });
+}
+
+namespace {
+
+// The column of a meaning in what a wall says of its triangles at its first moment.
+std::optional<std::size_t> column_of(const std::string& meaning, const MovingWall& wall) {
+    if (wall.cells.empty()) return std::nullopt;
+    return column_for(meaning, wall.cells.front(), {}, wall.name);
+}
+
+Vec3 middle_of(const TriangleMesh& mesh, std::size_t triangle) {
+    Vec3 sum(0, 0, 0);
+    for (const std::int32_t corner : mesh.triangles[triangle])
+        sum += mesh.vertices[static_cast<std::size_t>(corner)];
+    return sum / 3;
+}
+
+// Which triangle of the file each triangle of the scene's mesh was. Mending drops some and keeps the order of
+// the others, and moves corners by 1e-5 of the extent at most.
+std::vector<std::size_t> origins(const TriangleMesh& from, const TriangleMesh& to) {
+    Vec3 low = Vec3::Constant(1e300), high = -low;
+    for (const Vec3& vertex : from.vertices) low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);
+    const double near = 2e-5 * (high - low).maxCoeff();
+    std::vector<std::size_t> all;
+    std::size_t at = 0;
+    for (std::size_t t = 0; t < to.triangles.size(); ++t) {
+        const Vec3 middle = middle_of(to, t);
+        while (at < from.triangles.size() && (middle_of(from, at) - middle).norm() > near) ++at;
+        all.push_back(at++);
+    }
+    return all;
+}
+
+}  // namespace
+
+struct ImportWear::Impl {
+    struct Wall {
+        std::optional<std::size_t> pressure, wear;  // columns of its cells
+        std::vector<std::size_t> origin;            // of each triangle of the scene's mesh
+    };
+
+    Impl(const Scene& scene, const ForeignArchive& from) : archive(from) {
+        const std::vector<std::string> names = face_names(scene);
+        const std::size_t first = scene.meshes.size() - archive.walls().size();
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+            const Surface& surface = *scene.meshes[m].surface;
+            add_fields(names.at(names.size() - scene.meshes.size() + m), scene.meshes[m].name, surface);
+            Wall& wall = walls.emplace_back();
+            wall.origin.resize(static_cast<std::size_t>(surface.size()));
+            if (m < first) continue;
+            const MovingWall& written = archive.walls()[m - first];
+            wall.pressure = column_of("pressure", written);
+            wall.wear = column_of("wear", written);
+            wall.origin = origins(written.shape, surface.mesh());
+        }
+        first_wall = first;
+    }
+
+    void add_fields(const std::string& name, const std::string& label, const Surface& surface) {
+        FieldAxis axis{"triangle_of_" + name, "1", "triangle of the mesh, as trajectory.nc has them", {}};
+        for (std::int32_t t = 0; t < surface.size(); ++t) axis.at.push_back(t);
+        set.axes.push_back(axis);
+        set.fields.push_back({pressure_field(name),
+                              "pressure on " + label,
+                              "Pa",
+                              "mean normal stress, as the walls' file has it",
+                              {axis.name}});
+        set.fields.push_back(
+            {wear_field(name), "wear of " + label, "J m-2", "as the walls' file has it", {axis.name}});
+    }
+
+    std::vector<double> values(std::size_t moment, std::size_t mesh, std::optional<std::size_t> column,
+                               double unit) const {
+        const Wall& wall = walls[mesh];
+        std::vector<double> all(wall.origin.size(), kNoValue);
+        const RawTable* cells = column ? archive.wall_cells(moment, mesh - first_wall) : nullptr;
+        if (cells == nullptr || *column >= cells->columns.size()) return all;
+        for (std::size_t t = 0; t < all.size(); ++t)
+            if (wall.origin[t] < cells->rows) all[t] = unit * cells->columns[*column].values[wall.origin[t]];
+        return all;
+    }
+
+    const ForeignArchive& archive;
+    std::vector<Wall> walls;
+    std::size_t first_wall = 0;
+    FieldSet set;
+    std::optional<FieldsWriter> file;
+    double last = 0;  // s, when the record before ended
+};
+
+bool ImportWear::known(const ForeignArchive& archive) {
+    for (const MovingWall& wall : archive.walls())
+        if (column_of("pressure", wall) || column_of("wear", wall)) return true;
+    return false;
+}
+
+ImportWear::ImportWear(const std::filesystem::path& file, const Scene& scene, const ForeignArchive& archive,
+                       const std::string& program_version)
+    : impl_(std::make_unique<Impl>(scene, archive)) {
+    impl_->file.emplace(file, std::vector<const FieldSet*>{&impl_->set}, archive.world().title,
+                        program_version);
+    impl_->last = archive.moments().front().time;
+}
+
+ImportWear::~ImportWear() = default;
+
+void ImportWear::write(std::size_t moment) {
+    Impl& to = *impl_;
+    FieldValues values;
+    const double stress = to.archive.units().pressure();
+    for (std::size_t m = 0; m < to.walls.size(); ++m) {
+        values.push_back(to.values(moment, m, to.walls[m].pressure, stress));
+        values.push_back(to.values(moment, m, to.walls[m].wear, 1));
+    }
+    const double now = to.archive.moments().at(moment).time;
+    to.file->write(to.last, now, {values});
+    to.last = now;
+}
+
+std::vector<std::string> ImportWear::news() const {
+    const auto some = [&](auto member) {
+        for (const Impl::Wall& wall : impl_->walls)
+            if (wall.*member) return true;
+        return false;
+    };
+    const bool pressure = some(&Impl::Wall::pressure), wear = some(&Impl::Wall::wear);
+    return {fmt::format("{}: its walls say {} of their triangles; --set film.walls.colour={} shows {}{}",
+                        impl_->archive.path().string(),
+                        pressure && wear ? "stress and wear"
+                        : pressure       ? "stress"
+                                         : "wear",
+                        pressure ? "pressure" : "wear", pressure && wear ? "one of them" : "it",
+                        wear ? "; wear is taken in J/m2, which depends on the constant of its model" : "")};
 }
 
 }  // namespace grainreel

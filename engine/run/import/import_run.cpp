@@ -19,7 +19,6 @@
 #include "engine/run/import/import_measures.hpp"
 #include "engine/run/import/import_ranges.hpp"
 #include "engine/run/import/import_scene.hpp"
-#include "engine/run/import/import_wear.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/body.hpp"
