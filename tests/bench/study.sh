@@ -13,7 +13,7 @@ program=${PROGRAM:-$root/build/release/grainreel}
 folder=${1:-$root/output/study-speed} turns=${2:-5}
 mkdir -p "$folder" && cd "$folder"
 
-sed -n '/R"(title/,/^)";/p' "$root/engine/lab/bench/scene_cases.cpp" | sed '1s/.*R"(//; $d' >wedge.toml
+sed -n '/R"(title/,/^)";/p' "$root/engine/lab/bench/bench_case.cpp" | sed '1s/.*R"(//; $d' >wedge.toml
 step=$("$program" check wedge.toml 2>/dev/null | awk '$1 == "step" { print $2 * ($3 ~ /^us|^µs/ ? 1e-6 : $3 ~ /^ns/ ? 1e-9 : 1e-3) }')
 cat >study.toml <<STUDY
 scene = "wedge.toml"
