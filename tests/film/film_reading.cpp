@@ -9,7 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 
 namespace grainreel::test {
 namespace {

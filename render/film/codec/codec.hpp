@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "render/film/codec/codec.hpp"
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/picture/base/picture.hpp"
 

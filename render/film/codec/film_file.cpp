@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 
 namespace grainreel {
 

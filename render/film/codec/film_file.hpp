@@ -6,7 +6,7 @@
 #include <string>
 
 #include "render/film/codec/codec.hpp"
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/film/codec/codec.hpp"
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 
 namespace grainreel {
 

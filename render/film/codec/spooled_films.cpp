@@ -6,9 +6,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
 #include "render/film/codec/film_writer.hpp"
-#include "render/film/codec/filter_graph.hpp"
 
 namespace grainreel {
 

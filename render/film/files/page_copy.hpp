@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "render/film/codec/encoder.hpp"
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 

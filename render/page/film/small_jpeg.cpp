@@ -1,6 +1,6 @@
 #include "render/page/film/small_jpeg.hpp"
 
-#include "render/film/codec/filter_graph.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 
 namespace grainreel {
 namespace {

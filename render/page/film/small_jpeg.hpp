@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 
 namespace grainreel {
 

@@ -3,9 +3,8 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "render/film/codec/ffmpeg_handles.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
-#include "render/film/codec/filter_graph.hpp"
 #include "render/page/film/small_jpeg.hpp"
 
 namespace grainreel {
