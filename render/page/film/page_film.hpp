@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/film/files/page_copy.hpp"
+#include "render/film/production/picture_files.hpp"
 #include "render/page/page_progress.hpp"
 #include "render/scene/filmed_scene.hpp"
 
