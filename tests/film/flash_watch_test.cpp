@@ -1,5 +1,5 @@
 // Against the numbers of WCAG 2.2, success criterion 2.3.1.
-#include "render/film/files/flash_watch.hpp"
+#include "render/film/production/flash_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/film/files/flash_watch.hpp"
+#include "render/film/production/flash_watch.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include "render/picture/base/palette.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr double kChange = 0.1, kBright = 0.8;  // of relative luminance
