@@ -1,4 +1,4 @@
-#include "render/film/sampling/pacing.hpp"
+#include "render/film/sampling/film_parts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "render/film/sampling/pacing.hpp"
+#include "render/film/sampling/film_parts.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/picture/panels/side_by_side.hpp"

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/sampling/film_limits.hpp"
-#include "render/film/sampling/pacing.hpp"
+#include "render/film/sampling/film_parts.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/scene/filmed_scene.hpp"
