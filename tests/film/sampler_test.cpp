@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/times.hpp"
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

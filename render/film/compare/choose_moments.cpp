@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/compare/comparison.hpp"
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/scene/filmed_scene.hpp"
 

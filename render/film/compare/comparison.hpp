@@ -10,7 +10,7 @@
 #include "render/film/compare/member.hpp"
 #include "render/film/request/film_request.hpp"
 #include "render/film/request/thread_plan.hpp"
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "render/film/sampling/film_parts.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/missing_letters.hpp"

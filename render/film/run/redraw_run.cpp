@@ -8,8 +8,8 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/sampling/film_limits.hpp"
-#include "render/film/sampling/film_parts.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/scene/filmed_scene.hpp"
 

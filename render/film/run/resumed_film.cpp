@@ -5,7 +5,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "render/film/codec/film_writer.hpp"
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 
 namespace grainreel {
 

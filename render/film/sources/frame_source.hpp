@@ -12,7 +12,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "render/film/request/thread_plan.hpp"
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -8,7 +8,7 @@
 #include "engine/plan/plan.hpp"
 #include "render/film/moments/film_times_table.hpp"
 #include "render/film/production/caption_holds.hpp"
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

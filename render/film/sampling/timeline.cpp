@@ -1,4 +1,4 @@
-#include "render/film/sampling/film_parts.hpp"
+#include "render/film/sampling/timeline.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
