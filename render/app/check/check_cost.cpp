@@ -11,8 +11,8 @@
 #include "render/app/estimate/cost_estimate.hpp"
 #include "render/app/estimate/disk_estimate.hpp"
 #include "render/film/codec/codec.hpp"
-#include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/held_frames.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -29,7 +29,7 @@
 #include "render/film/answers/answer_picture.hpp"
 #include "render/film/answers/filmed_record.hpp"
 #include "render/film/answers/pixel_question.hpp"
-#include "render/film/production/caption_holds.hpp"
+#include "render/film/sampling/held_frames.hpp"
 
 namespace grainreel {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/production/bounded_queue.hpp"
-#include "render/film/production/caption_holds.hpp"
 #include "render/film/production/picture_files.hpp"
+#include "render/film/sampling/held_frames.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/held_frames.hpp"
 
 namespace grainreel {
 

@@ -1,7 +1,6 @@
-#include "render/film/production/film_parts.hpp"
+#include "render/film/sampling/held_frames.hpp"
 
 #include "engine/base/error.hpp"
-#include "render/film/production/caption_holds.hpp"
 #include "render/film/sampling/sampler.hpp"
 
 namespace grainreel {
