@@ -5,9 +5,9 @@
 
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/measures_csv.hpp"
-#include "render/film/moments/bed_periods.hpp"
 #include "render/film/moments/film_times_table.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/film/sources/bed_periods.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 

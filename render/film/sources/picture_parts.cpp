@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/questions/snapshot.hpp"
-#include "render/film/moments/period_means.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/bed_periods.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

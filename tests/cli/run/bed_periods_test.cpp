@@ -1,5 +1,5 @@
 // Films of a bed that lands in every second period of the drive.
-#include "render/film/moments/bed_periods.hpp"
+#include "render/film/sources/bed_periods.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
