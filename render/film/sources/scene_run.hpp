@@ -10,7 +10,6 @@
 #include "engine/files/wear_file.hpp"
 #include "engine/run/driver/run_driver.hpp"
 #include "render/film/sources/bed_periods.hpp"
-#include "render/film/sources/earlier_pictures.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"
 #include "render/scene/filmed_scene.hpp"
