@@ -10,7 +10,6 @@
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/state/container_faces.hpp"
-#include "render/film/moments/known_reach.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 

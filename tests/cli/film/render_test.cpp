@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/files/frames/open_frames.hpp"
-#include "render/film/moments/known_reach.hpp"
+#include "render/film/sources/recorded_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -1,5 +1,5 @@
 // How high grains got, by counting.
-#include "render/film/moments/known_reach.hpp"
+#include "render/film/sources/recorded_scene.hpp"
 
 #include <gtest/gtest.h>
 
