@@ -6,8 +6,8 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

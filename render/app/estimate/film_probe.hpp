@@ -6,7 +6,7 @@
 
 #include "engine/frame.hpp"
 #include "render/app/estimate/speed_cache.hpp"
-#include "render/film/request/thread_plan.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -12,7 +12,7 @@
 
 #include "engine/scene/keys/keys.hpp"
 #include "render/app/report/reporter.hpp"
-#include "render/film/request/film_request.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/page/live/watch.hpp"
 
 namespace grainreel {

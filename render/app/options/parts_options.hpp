@@ -8,7 +8,7 @@
 
 #include <CLI/App.hpp>
 
-#include "render/film/request/film_request.hpp"
+#include "render/film/sources/film_request.hpp"
 
 namespace grainreel {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/run/folder/folder_run.hpp"
-#include "render/film/request/film_request.hpp"
+#include "render/film/sources/film_request.hpp"
 
 namespace grainreel {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/run/folder/folder_run.hpp"
-#include "render/film/request/film_request.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -28,10 +28,10 @@
 #include "render/app/report/record.hpp"
 #include "render/app/verbs/page_of_run.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/film/request/thread_plan.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"
 #include "render/film/run/resumed_film.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/scene/read_scene.hpp"
 

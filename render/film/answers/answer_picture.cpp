@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "render/film/codec/png.hpp"
 #include "render/film/production/picture_files.hpp"
-#include "render/film/request/thread_plan.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"

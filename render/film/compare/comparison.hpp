@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "render/film/compare/member.hpp"
-#include "render/film/request/film_request.hpp"
-#include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/scene/filmed_scene.hpp"
 

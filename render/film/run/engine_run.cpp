@@ -16,10 +16,10 @@
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
-#include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/held_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/film/sources/revisited_run.hpp"
 
 namespace grainreel {

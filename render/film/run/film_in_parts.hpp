@@ -9,9 +9,9 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/run_json.hpp"
 #include "render/film/production/film_maker.hpp"
-#include "render/film/request/film_request.hpp"
 #include "render/film/sampling/held_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -10,8 +10,7 @@
 #include "engine/run/folder/folder_run.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "render/film/production/film_maker.hpp"
-#include "render/film/request/film_request.hpp"
-#include "render/film/request/thread_plan.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/import/import_run.hpp"
-#include "render/film/request/thread_plan.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/run/folder/listener.hpp"
-#include "render/film/request/film_request.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/film/sources/revisited_run.hpp"
 
 namespace grainreel {

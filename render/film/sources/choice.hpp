@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/film/request/film_request.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/scene/filmed_scene.hpp"
 

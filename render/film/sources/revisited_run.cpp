@@ -10,10 +10,10 @@
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "render/film/moments/film_times_table.hpp"
-#include "render/film/request/thread_plan.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/bed_periods.hpp"
 #include "render/film/sources/choice.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 

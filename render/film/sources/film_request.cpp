@@ -1,10 +1,12 @@
-#include "render/film/request/print_size.hpp"
-
-#include <cmath>
+#include "render/film/sources/film_request.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
+#include "engine/run/driver/useful_threads.hpp"
 
 namespace grainreel {
 
@@ -29,6 +31,22 @@ void fit_to_paper(Film& film, const PrintSize& print) {
                                     *print.width_mm, dots_an_inch(print), width, height, most));
     film.width = static_cast<int>(width);
     film.height = static_cast<int>(height);
+}
+
+ThreadPlan plan_threads(int processors, bool film, std::int64_t grains) {
+    const int useful = useful_threads(processors, grains);
+    if (!film) return {useful, 1, 1};
+    // On one or two processors the engine and the film take turns with all of them; beyond, the film gets
+    // processors of its own.
+    if (processors <= 2) return {std::min(useful, processors), 1, 1, true};
+    const int share = std::max(1, processors / 6);
+    return {std::min(useful, processors - processors / 3), share, share};
+}
+
+ThreadPlan drawing_threads(int wanted) {
+    const int processors = wanted > 0 ? wanted : usable_processors();
+    const int raster = std::max(1, processors / 2);
+    return {0, raster, std::max(1, processors - raster)};
 }
 
 }  // namespace grainreel

@@ -1,6 +1,7 @@
 // What is asked of a run that fills a folder with a film.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,10 +9,24 @@
 
 #include "engine/run/folder/folder_run.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "render/film/request/print_size.hpp"
 #include "render/picture/gl/provider.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
+
+// One picture for print: pixels an inch and a width on paper.
+
+struct PrintSize {
+    std::optional<double> dpi, width_mm;
+    bool wanted() const { return dpi || width_mm; }
+};
+
+// 0 where the picture is not for print.
+double dots_an_inch(const PrintSize& print);
+
+// Gives the film so many pixels as the width on paper needs, with its own ratio of the sides. Throws
+// UserError where a side would be too small or too large.
+void fit_to_paper(Film& film, const PrintSize& print);
 
 struct FilmRequest : RunRequest {
     bool film = true;
@@ -49,5 +64,21 @@ struct CompareRequest {
     PrintSize print;                  // of that picture
     bool replay = true;               // of finished runs what was not kept is brought back
 };
+
+// How many threads each part gets, planned together so that engine, rasteriser and encoder share the machine.
+
+struct ThreadPlan {
+    int engine = 1;
+    int raster = 1;           // of the software rasteriser, beside the drawing thread
+    int encoder = 1;          // of x264
+    bool take_turns = false;  // the engine rests while pictures are made: there are no processors for both
+};
+
+// processors: as many as the run may keep busy. With a film, about a third of the work is drawing and
+// encoding. A thread with too few grains waits longer than it works.
+ThreadPlan plan_threads(int processors, bool film, std::int64_t grains);
+
+// The threads of a film that has the machine for itself. wanted: 0 for as many as the machine gives.
+ThreadPlan drawing_threads(int wanted);
 
 }  // namespace grainreel
