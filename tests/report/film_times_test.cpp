@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/columns.hpp"
-#include "render/film/moments/film_times_table.hpp"
+#include "render/film/run/folder_film.hpp"
 #include "render/page/film/film_times.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/film/compare/comparison.hpp"
-#include "render/film/run/film_run.hpp"
+#include "render/film/run/folder_film.hpp"
 
 namespace grainreel {
 

@@ -2,13 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "engine/frame.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/run/folder/folder_run.hpp"
 #include "engine/run/folder/listener.hpp"
+#include "engine/run/resume/resume_point.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -65,6 +70,51 @@ class FolderFilm final : public SideWork {
     std::optional<std::int64_t> frames_here_;
     FilmReport report_;
     bool made_ = false;
+};
+
+// What fills a folder with a film of frames that it does not run itself.
+
+class FilmRun : public FolderRun {
+  protected:
+    FilmRun(const FilmRequest& request, RunListener& listener)
+        : FolderRun(request, listener), film_(request, desk_) {}
+
+    SideWork* side_work() override { return &film_; }
+
+    FolderFilm film_;
+};
+
+// The film of a run that goes on in its folder.
+
+// Whether the run's folder has a film, or the beginning of one.
+bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
+
+// A film is drawn again: from the kept moments of its pictures up to the checkpoint, and from there on as the
+// run goes. So a film whose pictures show more than a moment, or one whose moments were not kept, lets the
+// run go on from its beginning. The scene and the plan must outlive what is returned.
+FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan);
+
+// A caption that says from `time` (s of simulated time) on what has changed; the engine is told. Nothing
+// without a text.
+void add_caption_of_change(FilmedScene& scene, double time, const std::string& text);
+
+// film_times.csv: which moment of the run each frame of its film shows.
+
+inline constexpr const char* kFilmTimes = "film_times.csv";
+
+class FilmTimesTable {
+  public:
+    // The next picture, which the film shows in so many frames.
+    void add(const Frame& picture, std::int64_t frames);
+    // Writes the times of the film's first `frames`. Throws RunError.
+    void write(const std::filesystem::path& path, std::int64_t frames) const;
+
+  private:
+    struct Row {
+        std::int64_t step = 0;
+        double time = 0;  // s
+    };
+    std::vector<Row> rows_;  // one a frame of the film
 };
 
 }  // namespace grainreel

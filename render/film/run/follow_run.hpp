@@ -9,7 +9,7 @@
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "render/film/run/film_run.hpp"
+#include "render/film/run/folder_film.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

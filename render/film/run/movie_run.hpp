@@ -7,7 +7,6 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
-#include "render/film/moments/film_times_table.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/film/sampling/held_frames.hpp"
 #include "render/film/sampling/sampler.hpp"

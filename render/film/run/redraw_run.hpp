@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/film/run/film_in_parts.hpp"
-#include "render/film/run/film_run.hpp"
+#include "render/film/run/folder_film.hpp"
 #include "render/film/sources/revisited_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 

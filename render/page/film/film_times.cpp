@@ -6,7 +6,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/plan/plan.hpp"
-#include "render/film/moments/film_times_table.hpp"
+#include "render/film/run/folder_film.hpp"
 #include "render/film/sampling/held_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/scene/filmed_scene.hpp"
