@@ -4,7 +4,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/film/run/join_parts.hpp"
+#include "render/film/run/film_in_parts.hpp"
 
 namespace grainreel {
 namespace {

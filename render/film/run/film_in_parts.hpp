@@ -3,15 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/run_json.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/sampling/held_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -55,5 +58,23 @@ std::string checksum_of_run(const FrameArchive& frames, const std::string& scene
 // And that they are of one film: the scene as it is drawn, and which moments are drawn with which words.
 std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
                                  const std::vector<std::string>& captions);
+
+// The parts of a film (render --part), put together as one.
+
+struct JoinRequest {
+    std::vector<std::filesystem::path> parts;  // folders, in any order
+    std::filesystem::path out;                 // the film's file
+    bool force = false;                        // a file of that name is replaced
+};
+
+// Joins the parts into one film, which has the bytes of the same film drawn in one go with --parts. False
+// when asked to stop. Throws UserError with one line where parts are missing, doubled, of another run, drawn
+// or encoded otherwise, incomplete or damaged; RunError when the film cannot be written. In all these cases
+// nothing has the film's name that had not before.
+bool join_parts(const JoinRequest& request, RunListener& listener);
+
+// Whether parts in that format can be joined to such a file. Throws UserError where it is in the way, or has
+// another ending.
+void check_joined(const std::filesystem::path& film, FilmFormat format, bool force);
 
 }  // namespace grainreel
