@@ -1,12 +1,17 @@
 // One run of the verb `compare`, from the accepted scenes to the closed files.
 #pragma once
 
+#include <chrono>
+#include <exception>
 #include <functional>
+#include <future>
 #include <string>
 #include <vector>
 
 #include "render/film/compare/comparison.hpp"
+#include "render/film/production/film_maker.hpp"
 #include "render/film/run/folder_film.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 
 namespace grainreel {
 
@@ -39,5 +44,33 @@ class CompareRun final : public FilmRun {
     Stopwatch stage_;
     std::string still_;  // its file, once it is there
 };
+
+// Several pieces of work at once, each on a thread of its own, while this one keeps watch.
+
+// Returns when all have ended; calls `watch` now and then until then. Of several exceptions the first in
+// order is thrown on.
+inline void run_together(const std::vector<std::function<void()>>& works,
+                         const std::function<void()>& watch) {
+    constexpr auto glance = std::chrono::milliseconds(100);
+    std::vector<std::future<void>> running;
+    for (const auto& work : works) running.push_back(std::async(std::launch::async, work));
+    std::exception_ptr problem;
+    for (std::future<void>& one : running) {
+        while (one.wait_for(glance) != std::future_status::ready) watch();
+        try {
+            one.get();
+        } catch (...) {
+            if (!problem) problem = std::current_exception();
+        }
+    }
+    if (problem) std::rethrow_exception(problem);
+}
+
+// A film's drawer whose pictures show several scenes beside each other.
+
+// film: size, title and background of the whole. clock: the panel whose time is shown. segments: of the film,
+// one a picture.
+DrawerMaker side_by_side_drawer(const std::vector<Panel>& panels, const Film& film, int raster_threads,
+                                gl::Provider provider, std::size_t clock, std::vector<std::size_t> segments);
 
 }  // namespace grainreel
