@@ -1,14 +1,19 @@
 #include "render/film/compare/comparison.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/compare/vary.hpp"
+#include "render/film/sampling/timeline.hpp"
+#include "render/film/sources/choice.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -124,6 +129,172 @@ Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) 
     choose_moments(what, all);
     make_panels(what, all);
     return all;
+}
+
+// Which moments all panels show: those of the film's segments, or, where a finished run cannot give them,
+// those that it kept.
+
+namespace {
+
+constexpr double hair = 1e-9;  // s
+
+std::vector<FilmedScene> scenes_of(const Comparison& all) {
+    std::vector<FilmedScene> scenes;
+    for (const auto& member : all.members) scenes.push_back(member->scene());
+    return scenes;
+}
+
+double mean_interval(const std::vector<Frame>& moments) {
+    return moments.size() < 2
+               ? 0
+               : (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
+}
+
+// Number of the finished run with the fewest frames a second, whose moments the others can
+// follow; none when there is no finished run.
+std::optional<std::size_t> coarsest(const Comparison& all) {
+    std::optional<std::size_t> found;
+    double longest = 0;
+    for (std::size_t i = 0; i < all.members.size(); ++i) {
+        const FrameArchive* archive = all.members[i]->archive();
+        if (!archive || (found && mean_interval(archive->moments()) <= longest)) continue;
+        longest = mean_interval(archive->moments());
+        found = i;
+    }
+    return found;
+}
+
+// The time that all panels can show.
+Span common_time(const Comparison& all) {
+    Span common{0, std::numeric_limits<double>::infinity()};
+    for (const auto& member : all.members) {
+        const Span span = member->source().span();
+        common.from = std::max(common.from, span.from);
+        common.to = std::min(common.to, span.to);
+    }
+    return common;
+}
+
+// Periods after which the beds of all finished runs repeat themselves.
+int common_periods(const Comparison& all) {
+    int periods = 1;
+    for (const auto& member : all.members)
+        if (member->archive()) periods = std::lcm(periods, member->archive()->periods());
+    return periods;
+}
+
+bool has_all(const ComparedMember& member, const Pictures& pictures) {
+    return member.record() == nullptr || member.record()->has_all(pictures);
+}
+
+// False where a finished run lacks one of them.
+bool take_moments_of_schedule(Comparison& all) {
+    all.reference = reference_of(scenes_of(all));
+    const Clock& clock = all.members[all.reference]->clock();
+    if (clock.step <= 0) return false;
+    const Span common = common_time(all);
+    const bool any_moment = std::all_of(all.members.begin(), all.members.end(), [](const auto& member) {
+        return member->source().supply().any_moment;
+    });
+    FilmedScene film = all.film;
+    if (!any_moment) film.film.segments = of_single_moments(segments_of(film.film));
+    for (FilmSegment& segment : film.film.segments) segment = spanning(segment, common_periods(all));
+    Pictures pictures;
+    pictures.instants = instants_of(film, clock, std::llround(common.to / clock.step));
+    std::erase_if(pictures.instants, [&](const Instant& one) {
+        return one.time < common.from - hair || one.time > common.to + 0.5 * clock.step;
+    });
+    pictures.segments = film.film.segments;
+    if (pictures.instants.empty()) return false;
+    for (const auto& member : all.members)
+        if (!has_all(*member, pictures)) return false;
+    all.film = std::move(film);
+    all.pictures = std::move(pictures);
+    return true;
+}
+
+void warn_of_schedule(Comparison& all) {
+    const std::vector<FilmedScene> scenes = scenes_of(all);
+    for (std::string& line : pace_warnings(all.film, all.members[all.reference]->clock()))
+        all.warnings.push_back(std::move(line));
+    std::set<double> frequencies;
+    for (const FilmedScene& scene : scenes) {
+        if (!scene.drive.present || !frequencies.insert(scene.drive.frequency).second) continue;
+        for (std::string& strobe : strobe_warnings(all.film.film, scene.drive, scene.run.duration))
+            all.warnings.push_back(std::move(strobe));
+    }
+    if (frequencies.size() > 1)
+        all.warnings.push_back(
+            fmt::format("the drives have {} frequencies: locked frames follow that of {}, and each panel "
+                        "shows the moment of its own phase that is nearest in time",
+                        frequencies.size(), scenes[all.reference].name));
+}
+
+void take_moments_of_record(Comparison& all) {
+    all.by_schedule = false;
+    all.reference = *coarsest(all);
+    const FrameArchive& run = *all.members[all.reference]->archive();
+    const auto [from, to] = common_time(all);
+    const double room = 1e-3 * mean_interval(run.moments());
+    std::vector<Frame> moments;
+    for (const Frame& moment : run.moments())
+        if (moment.time >= from - room && moment.time <= to + room) moments.push_back(moment);
+    if (moments.empty())
+        throw UserError(fmt::format("{}: shares no time with the others, which show {:.6g} to {:.6g} s",
+                                    run.path().string(), from, to));
+    moments = alike(moments, common_periods(all));
+    for (const Frame& moment : moments) all.pictures.instants.push_back({moment.time, 0});
+    const Drive& drive = all.members[all.reference]->scene().drive;
+    all.film.film.segments = {pacing_of(moments, drive, all.film.film.rate).value_or(FilmSegment())};
+    all.pictures.segments = all.film.film.segments;
+    std::set<std::string> said;
+    for (const auto& member : all.members) {
+        const std::string why = member->record() ? member->record()->why_not_all() : "";
+        if (!why.empty() && said.insert(why).second)
+            all.warnings.push_back(
+                fmt::format("{}; the film shows the moments that {} kept, and not its segments", why,
+                            run.path().string()));
+    }
+}
+
+// A still is taken at its moment, whatever its segment is locked to.
+void take_one(double at, Comparison& all) {
+    const Span common = common_time(all);
+    if (at < common.from - hair || at > common.to + hair)
+        throw UserError(
+            fmt::format("--at: {:.6g} s is outside the time that all show, which goes from {:.6g} "
+                        "to {:.6g} s",
+                        at, common.from, common.to));
+    std::vector<Instant>& instants = all.pictures.instants;
+    const auto after = std::upper_bound(instants.begin(), instants.end(), at + hair,
+                                        [](double time, const Instant& one) { return time < one.time; });
+    const std::ptrdiff_t place = std::max<std::ptrdiff_t>(0, after - instants.begin() - 1);
+    all.still = static_cast<double>(place) / all.film.film.rate;
+    const int segment = instants.at(static_cast<std::size_t>(place)).segment;
+    instants = {{at, segment}};
+    for (FilmSegment& one : all.pictures.segments) one.kind = FilmSegment::Kind::motion;
+    for (const auto& member : all.members) {
+        if (has_all(*member, all.pictures)) continue;
+        const double shown = member->source().moments(all.pictures).front().time;
+        all.warnings.push_back(
+            fmt::format("--at: {:.6g} s was not kept ({}); {:.6g} s is drawn of {}, the "
+                        "kept moment that is nearest",
+                        at, member->record()->why_not_all(), shown, member->place()));
+    }
+}
+
+}  // namespace
+
+void choose_moments(const CompareRequest& what, Comparison& all) {
+    if (take_moments_of_schedule(all))
+        warn_of_schedule(all);
+    else if (coarsest(all))
+        take_moments_of_record(all);
+    else
+        throw UserError("the scenes share no moment that a film could show");
+    all.film_pictures = static_cast<std::int64_t>(all.pictures.instants.size());
+    all.film_end = all.pictures.instants.back().time;
+    if (what.at) take_one(*what.at, all);
 }
 
 }  // namespace grainreel
