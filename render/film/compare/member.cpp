@@ -1,13 +1,22 @@
 #include "render/film/compare/member.hpp"
 
+#include <fmt/format.h>
+#include <algorithm>
+#include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/team.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/run/driver/also_exports.hpp"
+#include "engine/scene/scene_file.hpp"
+#include "render/film/compare/comparison.hpp"
+#include "render/film/compare/vary.hpp"
 #include "render/scene/filmed_scene.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -90,6 +99,166 @@ void ComparedMember::close(RunStatus status, int exit_status, FirstFailure& fail
     report_.wall_seconds = driver_->times().all();
     failed_.attempt([&] { write_run_json(folder_->folder() / "run.json", report_); });
     if (failed_.any()) failure.note(failed_.what());
+}
+
+// What is compared: scenes to run and runs on disk, and one of them with several values of a key.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_panels = 6;  // more, and each is too small to see anything in
+
+// What one panel is made from.
+struct Input {
+    fs::path path;
+    std::optional<Assignment> value = std::nullopt;  // that it alone has
+    bool is_run() const {
+        std::error_code ignored;
+        return fs::is_directory(path, ignored);
+    }
+    Assignments sets(const CompareRequest& what) const {
+        Assignments all = what.sets;
+        if (value) all.push_back(*value);
+        return all;
+    }
+};
+
+// A pipe gives its scene once, and scenes may be read twice.
+void check_not_pipe(const fs::path& input) {
+    if (other_than_file(input, true) == "a pipe")
+        throw UserError(
+            fmt::format("{}: this is a pipe; give the path of a scene file (.toml)", input.string()));
+}
+
+void check_count(std::size_t count, const CompareRequest& what) {
+    if (what.vary && count > most_panels)
+        throw UserError(fmt::format("--vary: has {} values; a film shows {} at most", count, most_panels));
+    if (count < 2 || count > most_panels)
+        throw UserError(fmt::format(
+            "compare takes 2 to {} scenes or folders of runs, not {}{}; see grainreel compare --help",
+            most_panels, count, count == 1 ? " (or one with --vary KEY=VALUE,VALUE)" : ""));
+}
+
+std::vector<Input> inputs_of(const CompareRequest& what) {
+    std::vector<Input> inputs;
+    if (!what.vary) {
+        for (const fs::path& path : what.inputs) inputs.push_back({path});
+    } else if (what.inputs.size() != 1) {
+        throw UserError(fmt::format("--vary: takes one scene, not {}; give its values in it, or leave it out",
+                                    what.inputs.size()));
+    } else {
+        for (Assignment& value : read_vary(*what.vary)) inputs.push_back({what.inputs[0], std::move(value)});
+    }
+    check_count(inputs.size(), what);
+    return inputs;
+}
+
+void check_not_set_too(const CompareRequest& what, const std::vector<Input>& inputs) {
+    for (const Assignment& set : what.sets)
+        if (inputs[0].value && set.key() == inputs[0].value->key())
+            throw UserError(fmt::format("{}: {} gives it a value too; leave one of the two out",
+                                        inputs[0].value->place(), set.place()));
+}
+
+// Each has a folder of its own in that of the comparison.
+void number_names(std::vector<FilmedScene>& scenes) {
+    std::set<std::string> taken{"frames"};
+    for (FilmedScene& scene : scenes) {
+        const std::string name = scene.name;
+        for (int number = 2; !taken.insert(scene.name).second; ++number)
+            scene.name = fmt::format("{}-{}", name, number);
+    }
+}
+
+std::vector<FilmedScene> read_scenes(const CompareRequest& what, const std::vector<Input>& inputs,
+                                     const Assignments& more) {
+    std::vector<FilmedScene> scenes;
+    for (const Input& input : inputs) {
+        if (input.is_run()) continue;
+        check_not_pipe(input.path);
+        Assignments sets = input.sets(what);
+        sets.insert(sets.end(), more.begin(), more.end());
+        scenes.push_back(read_filmed_scene(input.path, sets, measurable_in));
+        if (input.value) scenes.back().name = name_with(scenes.back().name, *input.value);
+    }
+    number_names(scenes);
+    return scenes;
+}
+
+// All scenes end when the shortest does; a film's segments are shortened with it.
+std::vector<FilmedScene> read_scenes_of_one_length(const CompareRequest& what,
+                                                   const std::vector<Input>& inputs,
+                                                   std::vector<std::string>& warnings) {
+    std::vector<FilmedScene> scenes = read_scenes(what, inputs, {});
+    if (scenes.empty()) return scenes;
+    const auto by_duration = [](const FilmedScene& a, const FilmedScene& b) {
+        return a.run.duration < b.run.duration;
+    };
+    const auto [shortest, longest] = std::minmax_element(scenes.begin(), scenes.end(), by_duration);
+    if (shortest->run.duration == longest->run.duration) return scenes;
+    warnings.push_back(fmt::format("{} lasts {:.6g} s, {} {:.6g} s: all are run and shown for {:.6g} s",
+                                   shortest->file, shortest->run.duration, longest->file,
+                                   longest->run.duration, shortest->run.duration));
+    return read_scenes(what, inputs, {fmt::format("run.duration={}", shortest->run.duration)});
+}
+
+void check_start(const FilmedScene& scene) {
+    if (scene.start.keep_clock)
+        throw UserError(
+            fmt::format("{}: goes on at the clock of its start file, but scenes that are compared "
+                        "all begin at 0; remove 'keep_clock'",
+                        scene.where("start.keep_clock")));
+}
+
+ThreadPlan plan_threads_for(const std::vector<FilmedScene>& scenes) {
+    if (scenes.empty()) return drawing_threads(0);
+    const int wanted = scenes.front().run.threads;
+    const int processors = wanted > 0 ? wanted : usable_processors();
+    std::int64_t grains = 0;
+    for (const FilmedScene& scene : scenes) grains += scene.grains();
+    ThreadPlan threads = plan_threads(processors, true, grains);
+    threads.engine = std::max(1, threads.engine / static_cast<int>(scenes.size()));  // for each
+    return threads;
+}
+
+std::unique_ptr<ComparedMember> member_of_run(const CompareRequest& what, const Input& input, int sharers) {
+    auto record = std::make_unique<RevisitedRun>(input.path, input.sets(what), what.replay, sharers);
+    record->leave_out_damaged();
+    return std::make_unique<ComparedMember>(std::move(record));
+}
+
+}  // namespace
+
+void read_members(const CompareRequest& what, Comparison& all) {
+    const std::vector<Input> inputs = inputs_of(what);
+    check_not_set_too(what, inputs);
+    const std::vector<FilmedScene> scenes = read_scenes_of_one_length(what, inputs, all.warnings);
+    all.threads = plan_threads_for(scenes);
+    std::size_t next = 0;
+    std::set<std::string> said;
+    const auto say = [&](const std::vector<std::string>& lines) {
+        for (const std::string& line : lines)
+            if (!what.vary || said.insert(line).second) all.warnings.push_back(line);
+    };
+    for (const Input& input : inputs) {
+        if (input.is_run()) {
+            all.members.push_back(member_of_run(what, input, static_cast<int>(inputs.size())));
+            say(all.members.back()->source().news());
+            continue;
+        }
+        const FilmedScene& scene = scenes[next++];
+        check_start(scene);
+        const Plan plan = plan_with_film(scene);
+        say(plan.warnings);
+        all.members.push_back(std::make_unique<ComparedMember>(scene, plan, all.threads.engine));
+    }
+    if (!what.vary) return;
+    std::vector<Assignment> values;
+    std::vector<FilmedScene> varied;
+    for (const Input& input : inputs) values.push_back(*input.value);
+    for (const auto& member : all.members) varied.push_back(member->scene());
+    all.labels = labels_of(values, varied);
 }
 
 }  // namespace grainreel
