@@ -11,7 +11,6 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/compare/comparison_words.hpp"
-#include "render/film/compare/vary.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/picture/panels/side_by_side.hpp"

@@ -1,18 +1,26 @@
 #include "render/film/compare/comparison_words.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
+#include "engine/scene/keys/keys.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/choice.hpp"
 #include "render/picture/panels/side_by_side.hpp"
+#include "render/picture/words/captions.hpp"
 #include "render/picture/words/missing_letters.hpp"
+#include "render/scene/filmed_scene.hpp"
+#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
@@ -125,6 +133,157 @@ std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segmen
         if (all.empty() || words != all.back()) all.push_back(words);
     }
     return fmt::format("{}", fmt::join(all, " | "));
+}
+
+namespace {
+
+// Keys and tables that the whole film has once: of its file, its time, and of what stands around the panels.
+constexpr std::array of_the_whole = {"film.size",    "film.rate",        "film.for",        "film.format",
+                                     "film.quality", "film.preset",      "film.max_size",   "film.sheet",
+                                     "film.segment", "film.transparent", "film.background", "film.title",
+                                     "film.words",   "film.axes",        "film.caption",    "title",
+                                     "run.duration", "run.threads"};
+
+bool is_or_is_in(const std::string& key, const std::string& table) {
+    return key.rfind(table, 0) == 0 &&
+           (key.size() == table.size() || key[table.size()] == '.' || key[table.size()] == '[');
+}
+
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+// At commas outside of brackets and quotes. A quote within a word is none: 5' is not the beginning of one.
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> parts(1);
+    int depth = 0;
+    char quote = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quote == '"' && c == '\\' && i + 1 < text.size()) {
+            parts.back() += c;
+            parts.back() += text[++i];
+            continue;
+        }
+        const bool begins =
+            quote == 0 && (c == '"' || c == '\'') && (depth > 0 || trimmed(parts.back()).empty());
+        if (begins)
+            quote = c;
+        else if (c == quote)
+            quote = 0;
+        else if (quote == 0 && (c == '[' || c == '{'))
+            ++depth;
+        else if (quote == 0 && (c == ']' || c == '}'))
+            --depth;
+        if (c == ',' && depth <= 0 && quote == 0)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    for (std::string& part : parts) part = trimmed(part);
+    return parts;
+}
+
+// "20 Hz" of "\"20 Hz\"".
+std::string bare(const std::string& value) {
+    const bool quoted =
+        value.size() >= 2 && (value.front() == '"' || value.front() == '\'') && value.back() == value.front();
+    return quoted ? value.substr(1, value.size() - 2) : value;
+}
+
+bool is_number(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789.eE+-_") == std::string::npos;
+}
+
+// The key that the value was given to, "species[1].density" for "species.big.density"; none of a table.
+std::string path_of(const Assignment& value, const FilmedScene& scene) {
+    std::string longest;
+    for (const auto& [path, where] : scene.written)
+        if (where.file == value.place() && find_key(path, filmed_scene_keys()) != nullptr &&
+            path.size() > longest.size())
+            longest = path;
+    return longest;
+}
+
+std::string with_unit(const std::string& text, const std::string& path) {
+    const Key* key = path.empty() ? nullptr : find_key(path, filmed_scene_keys());
+    const bool measured =
+        key != nullptr && key->dimension != Dimension::number &&
+        (key->kind == KeyKind::quantity || key->kind == KeyKind::diameter || key->kind == KeyKind::gravity);
+    return measured && is_number(text) ? fmt::format("{} {}", text, text_of(key->dimension).unit) : text;
+}
+
+// "g_level" of "drive.g_level", "density of big" of "species.big.density".
+std::string words_of_key(const std::string& key) {
+    std::string name = name_of(key);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const std::string table = parent_of(key);
+    return table.rfind("species.", 0) == 0 ? name + " of " + table.substr(std::string("species.").size())
+                                           : name;
+}
+
+// As the frames say it; empty for a key without a symbol.
+std::string with_symbol(const std::string& path, const FilmedScene& scene) {
+    if (path == "drive.frequency") return "f = " + frequency_text(scene.drive.frequency);
+    if (path == "drive.g_level") return fmt::format("Γ = {:.4g}", scene.drive.g_level(scene.gravity.norm()));
+    if (path == "drive.amplitude") return "a = " + length_text(scene.drive.amplitude);
+    return "";
+}
+
+}  // namespace
+
+std::vector<Assignment> read_vary(const std::string& typed) {
+    const Assignment all(typed, "--vary");
+    const std::string key = all.key();
+    if (typed.find('=') == std::string::npos || key.empty())
+        throw UserError(
+            fmt::format("--vary {}: write KEY=VALUE,VALUE, as in drive.g_level=2,4", excerpt(typed)));
+    const std::string place = "--vary " + excerpt(key);
+    for (const char* const shared : of_the_whole)
+        if (is_or_is_in(key, shared))
+            throw UserError(fmt::format("{}: is the same for all panels; vary another key", place));
+    std::vector<std::string> values = split(all.value());
+    if (values.size() < 2)
+        throw UserError(fmt::format("{}: has one value; give two or more, with commas between them", place));
+    std::vector<Assignment> assignments;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i].empty())
+            throw UserError(fmt::format("{}: value {} is empty; take a comma away", place, i + 1));
+        if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
+            values.begin() + static_cast<std::ptrdiff_t>(i))
+            throw UserError(fmt::format("{}: has {} twice", place, excerpt(values[i])));
+        assignments.push_back({fmt::format("{}={}", key, values[i]), place});
+    }
+    return assignments;
+}
+
+std::vector<std::string> labels_of(const std::vector<Assignment>& values,
+                                   const std::vector<FilmedScene>& scenes) {
+    std::vector<std::string> symbols, words;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::string path = path_of(values[i], scenes[i]);
+        words.push_back(
+            fmt::format("{} = {}", words_of_key(values[i].key()), with_unit(bare(values[i].value()), path)));
+        symbols.push_back(with_symbol(path, scenes[i]));
+    }
+    const std::set<std::string> different(symbols.begin(), symbols.end());
+    return different.size() == symbols.size() && different.count("") == 0 ? symbols : words;
+}
+
+bool changes_the_scene(const Assignment& value) {
+    const std::string key = value.key();
+    return !is_or_is_in(key, "film") && !is_or_is_in(key, "output") && key != "run.seed";
+}
+
+std::string name_with(const std::string& name, const Assignment& value) {
+    constexpr std::size_t longest = 40;
+    std::string slug = name_of(value.key()) + "-" + bare(value.value());
+    for (char& c : slug) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isalnum(byte) == 0 && c != '.' && c != '-' && c != '+' && c != '_') c = '_';
+    }
+    return name + "-" + slug.substr(0, longest);
 }
 
 }  // namespace grainreel

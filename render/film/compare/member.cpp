@@ -14,7 +14,7 @@
 #include "engine/run/driver/also_exports.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/film/compare/comparison.hpp"
-#include "render/film/compare/vary.hpp"
+#include "render/film/compare/comparison_words.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/read_scene.hpp"
 
