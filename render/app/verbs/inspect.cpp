@@ -26,9 +26,8 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/film/answers/answer_picture.hpp"
 #include "render/film/answers/filmed_record.hpp"
-#include "render/film/answers/pixel_question.hpp"
+#include "render/film/answers/pictured_answer.hpp"
 #include "render/film/sampling/held_frames.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@
 #include "engine/questions/answer_forces.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "render/film/answers/answer_picture.hpp"
+#include "render/film/answers/pictured_answer.hpp"
 #include "render/picture/grains/quantities.hpp"
 #include "render/scene/grain_values.hpp"
 #include "render/scene/read_scene.hpp"

@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/questions/asked_moment.hpp"
-#include "render/film/answers/pixel_question.hpp"
+#include "render/film/answers/pictured_answer.hpp"
 #include "render/film/sources/recorded_run.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"
