@@ -1,16 +1,21 @@
 // Lists of VTK's files: .pvd and .series of ParaView, .vtm of VTK and LIGGGHTS.
+#include "engine/files/foreign/vtk/vtk_collection.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/foreign/vtk/collection_list.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/xml_head.hpp"
+#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 
@@ -177,6 +182,183 @@ std::unique_ptr<RawFile> open_vtk_collection(const fs::path& file) {
 RawFormat vtk_collection_format() {
     return {"vtk-collection", "lists of VTK files (.pvd, .vtm, .series)", &takes_collection,
             &open_vtk_collection};
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// One file as the list names it.
+struct Entry {
+    std::optional<double> time{};
+    std::string part{}, group{}, file{}, name{};
+};
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+// "walls_0012.vtp" is "walls_#.vtp": files of one series have one stem.
+std::string stem_of(std::string_view name) {
+    std::string stem;
+    for (std::size_t i = 0; i < name.size(); ++i)
+        if (!is_digit(name[i]))
+            stem += name[i];
+        else if (i == 0 || !is_digit(name[i - 1]))
+            stem += '#';
+    return stem;
+}
+
+// The last whole number in a file's name, "dump2000.vtm".
+std::optional<std::int64_t> number_in_name(const std::string& file) {
+    const std::string stem = fs::path(file).stem().string();
+    std::size_t end = stem.size();
+    while (end > 0 && !is_digit(stem[end - 1])) --end;
+    std::size_t begin = end;
+    while (begin > 0 && is_digit(stem[begin - 1])) --begin;
+    return begin == end ? std::nullopt : whole_in(std::string_view(stem).substr(begin, end - begin));
+}
+
+// LIGGGHTS writes the number of the frame in the place of a time: 0, 1, 2, ..., part 0, no group, all files
+// .vtm.
+bool is_of_liggghts(const XmlElement& root, const std::vector<Entry>& entries) {
+    if (entries.empty() || root.attribute("header_type") != "UInt64") return false;
+    double next = 0;
+    for (const Entry& entry : entries)
+        if (entry.time != next++ || entry.part != "0" || !entry.group.empty() ||
+            !entry.file.ends_with(".vtm"))
+            return false;
+    return true;
+}
+
+bool same_parts(const std::vector<Entry>& entries) {
+    return std::all_of(entries.begin(), entries.end(),
+                       [&](const Entry& entry) { return entry.part == entries[0].part; });
+}
+bool same_stems(const std::vector<Entry>& entries) {
+    return std::all_of(entries.begin(), entries.end(),
+                       [&](const Entry& entry) { return stem_of(entry.file) == stem_of(entries[0].file); });
+}
+
+// Entries of one time are one moment. Without any time those with parts, or with different stems, are one
+// moment, and files of one stem are a moment each.
+void group(const fs::path& folder, const std::vector<Entry>& entries, CollectionList& list) {
+    const bool timeless = std::none_of(entries.begin(), entries.end(),
+                                       [](const Entry& entry) { return entry.time.has_value(); });
+    const bool a_moment_each = timeless && same_parts(entries) && same_stems(entries);
+    std::map<double, std::size_t> moment_of;
+    std::map<std::tuple<std::size_t, std::string, std::string, std::string>, std::size_t> file_of;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const Entry& entry = entries[i];
+        const double key = a_moment_each ? static_cast<double>(i) : entry.time.value_or(0);
+        const auto [found, fresh] = moment_of.try_emplace(key, list.moments.size());
+        if (fresh) list.moments.push_back({std::nullopt, entry.time, {}});
+        std::vector<VtkPartFile>& files = list.moments[found->second].files;
+        const VtkPartFile file{folder / entry.file, entry.name};
+        const auto [place, first] =
+            file_of.try_emplace({found->second, entry.part, entry.group, stem_of(entry.file)}, files.size());
+        if (first) {
+            files.push_back(file);
+        } else if (!timeless) {
+            files[place->second] = file;
+            ++list.replaced;
+        } else {
+            files.push_back(file);
+        }
+    }
+}
+
+void find_entries(const fs::path& file, const XmlElement& element, std::vector<Entry>& entries) {
+    for (const XmlElement& child : element.children) {
+        if (child.name != "DataSet") {
+            find_entries(file, child, entries);
+            continue;
+        }
+        Entry entry;
+        entry.part = child.attribute("part");
+        entry.group = child.attribute("group");
+        entry.file = named_file(file.parent_path(), child.attribute("file"));
+        entry.name = child.has("name") ? child.attribute("name") : child.attribute("group");
+        if (entry.file.empty()) refuse_vtk_line(file, child.line, "a DataSet without a file");
+        const std::string_view time = child.attribute("timestep");
+        VtkWords words(time.data(), time.data() + time.size());
+        double value = 0;
+        if (!words.at_end()) {
+            if (!words.number(value) || !std::isfinite(value))
+                refuse_vtk_line(file, child.line, fmt::format("timestep=\"{}\" is no time", excerpt(time)));
+            entry.time = value;
+        }
+        entries.push_back(std::move(entry));
+    }
+}
+
+CollectionList list_of_pvd(const fs::path& file, const std::string& bytes) {
+    // While it is written it may end anywhere.
+    const XmlTree tree = xml_tree(file, bytes, true);
+    CollectionList list;
+    list.format = "ParaView collection (.pvd)";
+    std::vector<Entry> entries;
+    find_entries(file, tree.root, entries);
+    const bool numbered = is_of_liggghts(tree.root, entries);
+    group(file.parent_path(), entries, list);
+    if (!numbered) return list;
+    list.program = "LIGGGHTS";
+    for (std::size_t i = 0; i < list.moments.size(); ++i) {
+        list.moments[i].time.reset();
+        list.moments[i].step = number_in_name(entries[i].file);
+    }
+    return list;
+}
+
+CollectionList list_of_series(const fs::path& file, const std::string& bytes) {
+    nlohmann::json series;
+    try {
+        series = nlohmann::json::parse(bytes);
+    } catch (const nlohmann::json::parse_error& error) {
+        refuse_vtk_line(file, line_of_byte(bytes, error.byte), "is no valid JSON here; write it again");
+    }
+    const auto files = series.find("files");
+    if (files == series.end() || !files->is_array()) refuse_vtk_file(file, "its list \"files\" is missing");
+    std::vector<Entry> entries;
+    for (const nlohmann::json& each : *files) {
+        const auto name = each.is_object() ? each.find("name") : each.end();
+        if (!each.is_object() || name == each.end() || !name->is_string())
+            refuse_vtk_file(
+                file, fmt::format("entry {} of its list \"files\" has no \"name\"", entries.size() + 1));
+        Entry entry;
+        entry.file = named_file(file.parent_path(), name->get<std::string>());
+        const auto time = each.find("time");
+        if (time != each.end() && time->is_number()) entry.time = time->get<double>();
+        entries.push_back(std::move(entry));
+    }
+    CollectionList list;
+    list.format = "ParaView series (.series)";
+    group(file.parent_path(), entries, list);
+    return list;
+}
+
+bool is_series(std::string_view bytes) {
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && bytes[first] == '{' &&
+           (bytes.find("\"file-series-version\"") != std::string_view::npos ||
+            (bytes.find("\"files\"") != std::string_view::npos &&
+             bytes.find("\"name\"") != std::string_view::npos));
+}
+
+}  // namespace
+
+CollectionList collection_list(const fs::path& file) {
+    const std::string bytes = all_bytes(file);
+    const std::string type = vtk_file_type(bytes);
+    if (is_block_type(type)) return {"VTK blocks (.vtm)", {}, {{{}, {}, {{file, ""}}}}};
+    CollectionList list = type.empty() ? list_of_series(file, bytes) : list_of_pvd(file, bytes);
+    if (list.moments.empty()) refuse_vtk_file(file, "this collection names no files");
+    return list;
+}
+
+bool takes_collection(const FileHead& head) {
+    const std::string type = vtk_file_type(head.bytes);
+    return type == "Collection" || is_block_type(type) || (type.empty() && is_series(head.bytes));
 }
 
 }  // namespace grainreel
