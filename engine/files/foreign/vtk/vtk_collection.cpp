@@ -14,7 +14,7 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
-#include "engine/files/foreign/vtk/xml_head.hpp"
+#include "engine/files/foreign/vtk/xml_arrays.hpp"
 #include "engine/mesh/file/words.hpp"
 
 namespace grainreel {

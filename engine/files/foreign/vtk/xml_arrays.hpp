@@ -9,6 +9,7 @@
 
 #include "engine/files/foreign/vtk/stored_bytes.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
+#include "engine/files/foreign/vtk/vtk_parts.hpp"
 #include "engine/files/foreign/vtk/xml_tree.hpp"
 
 namespace grainreel {
@@ -53,5 +54,13 @@ class XmlArrays {
     const XmlTree& tree_;
     VtkCoding coding_;
 };
+
+// How many grains a file of VTK has, by its head alone: a long list of large files is opened without reading
+// them.
+
+// Adds to the counts of a moment, and returns true, where the head says all: PolyData with appended numbers,
+// in which each point is a vertex, or which is all polygons. Nothing is known then of how the file goes on.
+// `time_known`: the list says the time, so that the file's own does not matter.
+bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& parts);
 
 }  // namespace grainreel
