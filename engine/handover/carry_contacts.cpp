@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/handover/carry_parts.hpp"
-#include "engine/handover/dashpot.hpp"
+#include "engine/handover/carry.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan_parts.hpp"
 

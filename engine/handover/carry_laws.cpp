@@ -1,7 +1,7 @@
 // Which law each contact has there.
 #include <fmt/format.h>
 
-#include "engine/handover/carry_parts.hpp"
+#include "engine/handover/carry.hpp"
 
 namespace grainreel {
 

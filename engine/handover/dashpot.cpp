@@ -1,4 +1,4 @@
-#include "engine/handover/dashpot.hpp"
+#include "engine/handover/carry.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/dashpot.hpp"
+#include "engine/handover/carry.hpp"
 
 namespace grainreel {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/handover/dashpot.hpp"
+#include "engine/handover/carry.hpp"
 #include "engine/handover/drive_formula.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan.hpp"
