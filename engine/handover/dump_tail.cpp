@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/decimal.hpp"
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/decks.hpp"
 
 namespace grainreel {
 

@@ -1,4 +1,4 @@
-#include "engine/handover/lammps_deck.hpp"
+#include "engine/handover/decks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,6 @@
 #include <set>
 
 #include <fmt/format.h>
-
-#include "engine/handover/deck_parts.hpp"
-#include "engine/handover/dump_pace.hpp"
-#include "engine/handover/lammps_law.hpp"
-#include "engine/handover/lammps_walls.hpp"
 
 namespace grainreel {
 

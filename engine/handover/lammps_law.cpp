@@ -1,4 +1,4 @@
-#include "engine/handover/lammps_law.hpp"
+#include "engine/handover/decks.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,9 @@
-#include "engine/handover/lammps_walls.hpp"
+#include "engine/handover/decks.hpp"
 
 #include <algorithm>
 #include <cctype>
 
 #include <fmt/format.h>
-
-#include "engine/handover/deck_parts.hpp"
 
 namespace grainreel {
 

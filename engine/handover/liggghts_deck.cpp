@@ -1,4 +1,4 @@
-#include "engine/handover/liggghts_deck.hpp"
+#include "engine/handover/decks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/handover/deck_parts.hpp"
-#include "engine/handover/dump_pace.hpp"
-#include "engine/handover/liggghts_law.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/scene/bed.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/handover/liggghts_law.hpp"
+#include "engine/handover/decks.hpp"
 
 #include <algorithm>
 #include <functional>

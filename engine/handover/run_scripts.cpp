@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/handover/peer_rates.hpp"
 
 namespace grainreel {

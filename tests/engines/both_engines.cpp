@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "tests/cli/temporary_folder.hpp"

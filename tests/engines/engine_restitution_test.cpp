@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/handover/runner/engine_program.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"

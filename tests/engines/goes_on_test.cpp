@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "tests/cli/temporary_folder.hpp"

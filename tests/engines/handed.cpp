@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/runner/engine_program.hpp"
 #include "engine/handover/start_state.hpp"

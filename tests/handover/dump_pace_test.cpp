@@ -1,5 +1,5 @@
 // Steps at which engines dump: the formula of the deck gives just the steps that are wanted.
-#include "engine/handover/dump_pace.hpp"
+#include "engine/handover/decks.hpp"
 
 #include <cmath>
 

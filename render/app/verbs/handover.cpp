@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/carry.hpp"
-#include "engine/handover/deck_parts.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/peer_rates.hpp"
 #include "engine/handover/start_state.hpp"
