@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/team.hpp"
-#include "engine/handover/peer_rates.hpp"
+#include "engine/handover/handover_folder.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/check_parts.hpp"
 #include "render/app/estimate/cost_estimate.hpp"

@@ -12,7 +12,6 @@
 #include "engine/handover/carry.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/handover/handover_folder.hpp"
-#include "engine/handover/peer_rates.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/measure/columns.hpp"
