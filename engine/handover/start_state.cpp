@@ -1,16 +1,24 @@
 #include "engine/handover/start_state.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/random.hpp"
+#include "engine/handover/carried_scene.hpp"
 #include "engine/scene/drive_schedule.hpp"
+#include "engine/scene/free_space.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
-// engine/handover/lattice.cpp
+// engine/handover/start_state.cpp
 std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count, double largest);
 
 namespace {
@@ -148,6 +156,124 @@ StartState start_state(CarriedScene& carried, int threads, const PackingWatcher&
     into_frame(carried, free_grains, start);
     set_box(carried, start);
     return start;
+}
+
+// The data file, as atom_style sphere of LAMMPS and granular of LIGGGHTS read it.
+
+namespace {
+
+constexpr std::size_t kFlushAt = std::size_t{1} << 20;  // bytes
+
+}  // namespace
+
+void write_data_file(const std::filesystem::path& path, const CarriedScene& carried, const StartState& start,
+                     std::size_t types) {
+    TextFile file(path);
+    fmt::memory_buffer text;
+    const auto flush = [&](bool all) {
+        if (!all && text.size() < kFlushAt) return;
+        file.write({text.data(), text.size()});
+        text.clear();
+    };
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "handed over by grainreel; units si\n\n{} atoms\n{} atom types\n\n",
+                   start.grains.size(), types);
+    const char* names[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
+    for (int axis = 0; axis < 3; ++axis)
+        fmt::format_to(out, "{} {} {}\n", carried.low[axis], carried.high[axis], names[axis]);
+    fmt::format_to(out, "\nAtoms\n\n");
+    for (const StartState::Grain& g : start.grains) {
+        double x = g.position.x();
+        if (carried.periodic) {  // read_data wants them inside
+            const double depth = carried.high.x() - carried.low.x();
+            x -= std::floor((x - carried.low.x()) / depth) * depth;
+        }
+        fmt::format_to(out, "{} {} {} {} {} {} {}\n", g.id, g.type, g.diameter, g.density, x, g.position.y(),
+                       g.position.z());
+        flush(false);
+    }
+    fmt::format_to(out, "\nVelocities\n\n");
+    for (const StartState::Grain& g : start.grains) {
+        fmt::format_to(out, "{} {} {} {} {} {} {}\n", g.id, g.velocity.x(), g.velocity.y(), g.velocity.z(),
+                       g.spin.x(), g.spin.y(), g.spin.z());
+        flush(false);
+    }
+    flush(true);
+}
+
+// Places for grains that another engine packs: apart from each other and from all walls, from the bottom up.
+
+std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count, double largest);
+
+namespace {
+
+// The loosest lattice that fits; over the largest diameter. Its grains are moved at random by what is left.
+constexpr double kSpacings[] = {1.25, 1.15, 1.08, 1.02};
+
+struct RoomOfLattice {
+    explicit RoomOfLattice(const CarriedScene& scene) : carried(scene), space(scene.scene) {
+        const Container& c = scene.scene.container;
+        const double depth = c.shape == Container::Shape::cylinder ? 2 * c.half_width : c.depth;
+        low = Vec3(-depth / 2, -c.half_width, c.base());
+        high = Vec3(depth / 2, c.half_width, c.lid ? c.height : 100 * c.height);
+        if (scene.scene.start.region) {
+            low = scene.scene.start.region->low;
+            high = scene.scene.start.region->high;
+        }
+        glued = scene.plan.glued.empty() ? 0 : scene.types.back().largest / 2;
+    }
+    bool holds(const Vec3& place, double margin) const {
+        if (!carried.scene.meshes.empty()) return space.holds(place, margin);
+        for (const Face& face : carried.faces) {
+            const double from_glued = face.body.number == kTrayBody ? 0 : glued;
+            if (distance_at(face, Pose(), place).distance < margin + from_glued) return false;
+        }
+        return true;
+    }
+    const CarriedScene& carried;
+    FreeSpace space;
+    Vec3 low, high;
+    double glued = 0;  // m, how far glued grains reach into the room
+};
+
+bool fill(const RoomOfLattice& room, double spacing, double jitter, double radius, std::size_t count,
+          std::uint64_t seed, std::vector<Vec3>& places) {
+    Random random(seed, Stream::centres, {1});
+    const double margin = radius + jitter;
+    const Vec3 size = room.high - room.low;
+    // Across a periodic depth the lattice closes.
+    const double along =
+        std::max(1.0, std::floor((size.x() - (room.carried.periodic ? 0 : 2 * margin)) / spacing +
+                                 (room.carried.periodic ? 0 : 1)));
+    const double dx = room.carried.periodic ? size.x() / along : spacing;
+    const double x0 = room.carried.periodic ? room.low.x() + dx / 2 : -(along - 1) * dx / 2;
+    places.clear();
+    for (double z = room.low.z() + margin; z <= room.high.z() - margin; z += spacing)
+        for (double y = room.low.y() + margin; y <= room.high.y() - margin; y += spacing)
+            for (double i = 0; i < along; ++i) {
+                const Vec3 place(x0 + i * dx, y, z);
+                if (!room.holds(place, margin)) continue;
+                const Vec3 off(random.between(-jitter, jitter), random.between(-jitter, jitter),
+                               random.between(-jitter, jitter));
+                places.push_back(place + off);
+                if (places.size() == count) return true;
+            }
+    return false;
+}
+
+}  // namespace
+
+std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count, double largest) {
+    const RoomOfLattice room(carried);
+    std::vector<Vec3> places;
+    for (const double spacing : kSpacings)
+        if (fill(room, spacing * largest, 0.49 * (spacing - 1) * largest, largest / 2, count,
+                 carried.scene.run.seed, places))
+            return places;
+    throw UserError(fmt::format(
+        "{}: {} grains do not fit the container without touching, as they must where the other engine packs; "
+        "let ours pack (--pack-there above {}), or take the lid off",
+        carried.scene.where("start"), count, count));
 }
 
 }  // namespace grainreel
