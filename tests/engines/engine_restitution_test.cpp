@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/runner/engine_program.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
 

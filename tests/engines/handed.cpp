@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "engine/handover/decks.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "engine/handover/handover_folder.hpp"
-#include "engine/handover/runner/engine_program.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/scene/scene_file.hpp"

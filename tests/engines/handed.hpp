@@ -8,7 +8,7 @@
 
 #include "engine/handover/carry.hpp"
 #include "engine/handover/dump_tail.hpp"
-#include "engine/handover/runner/engine_job.hpp"
+#include "engine/handover/engine_job.hpp"
 
 namespace grainreel {
 

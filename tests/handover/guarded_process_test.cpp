@@ -14,8 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/runner/engine_program.hpp"
-#include "engine/handover/runner/engine_words.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel::test {

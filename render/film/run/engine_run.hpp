@@ -11,7 +11,7 @@
 
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/carried_scene.hpp"
-#include "engine/handover/runner/engine_job.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -1,14 +1,16 @@
-#include "engine/handover/runner/engine_program.hpp"
+#include "engine/handover/engine_job.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <map>
 #include <memory>
-
-#include <fmt/format.h>
+#include <sstream>
+#include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
@@ -127,6 +129,99 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
     if (!stdbuf.empty()) all.words.insert(all.words.end(), {stdbuf.string(), "-oL"});
     all.words.insert(all.words.end(), {program.path.string(), "-echo", "both", "-in", deck});
     return all;
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kLongest = 400;  // characters of a line that are quoted
+
+// Words with one blank between, as far as a comment.
+std::string words_of(const std::string& line) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string text;
+    for (std::string word; words >> word;) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+// The lines of a deck by their words; a line that is there twice counts where it is last.
+std::map<std::string, int> lines_of(const fs::path& deck) {
+    std::map<std::string, int> lines;
+    std::ifstream file(deck);
+    int number = 1;
+    for (std::string line; std::getline(file, line); ++number)
+        if (const std::string words = words_of(line); !words.empty()) lines[words] = number;
+    return lines;
+}
+
+// Not those of Open MPI about itself.
+bool is_error(const std::string& line) {
+    return line.rfind("ERROR", 0) == 0;
+}
+
+std::string cut(const std::string& text) {
+    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+}  // namespace
+
+std::string engine_error(const fs::path& output, const fs::path& deck) {
+    const std::map<std::string, int> lines = lines_of(deck);
+    std::ifstream said(output);
+    std::string command, last;
+    int at = 0;
+    for (std::string line; std::getline(said, line);) {
+        const std::string words = words_of(line);
+        if (is_error(line)) {
+            const std::string where =
+                at > 0 ? fmt::format("{}:{}", deck.filename().string(), at) : deck.filename().string();
+            return fmt::format("{}: {}{}", where, cut(line),
+                               command.empty() ? "" : fmt::format(" (at `{}`)", cut(command)));
+        }
+        const auto found = lines.find(words);
+        if (found == lines.end()) continue;
+        command = words;
+        at = found->second;
+    }
+    return "";
+}
+
+EngineJob::EngineJob(PeerEngine engine, int ranks, const std::string& deck, const std::string& restart)
+    : engine_(engine),
+      deck_(deck),
+      program_(find_engine(engine)),
+      ranks_(rank_words(engine, program_, deck, ranks)) {
+    if (!restart.empty())
+        for (const char* word : {"-var", "goes_on", "1", "-var", "restart", restart.c_str()})
+            ranks_.words.emplace_back(word);
+}
+
+std::string EngineJob::command() const {
+    std::string text;
+    for (const std::string& word : ranks_.words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+void EngineJob::start(const std::filesystem::path& folder) {
+    folder_ = folder;
+    process_ = std::make_unique<GuardedProcess>(ranks_.words, folder, folder / kOutput);
+}
+
+bool EngineJob::is_running() {
+    return process_ && !process_->status();
+}
+
+std::string EngineJob::failure() {
+    const std::string said = engine_error(folder_ / kOutput, folder_ / deck_);
+    if (!said.empty()) return fmt::format("{} ended: {}", name_of(engine_), said);
+    const int status = process_->status().value_or(0);
+    if (status == 0) return "";
+    if (status > 128)
+        return fmt::format("{} was ended by signal {}; its output is in {}", name_of(engine_), status - 128,
+                           (folder_ / kOutput).string());
+    return fmt::format("{} ended with exit status {}; its output is in {}", name_of(engine_), status,
+                       (folder_ / kOutput).string());
 }
 
 }  // namespace grainreel
