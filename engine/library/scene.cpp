@@ -1,15 +1,17 @@
 // Scenes: read and planned.
-#include "engine/library/internal.hpp"
-
-#include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "engine/library/internal.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "engine/run/folder/run_scene.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
+#include "grainreel/run.hpp"
 
 namespace grainreel::v1 {
 namespace {
@@ -88,6 +90,44 @@ ContactNumbers Scene::contact(const std::string& first, const std::string& secon
     const PairPlan& pair =
         second.empty() ? impl_->plan.wall[a] : impl_->plan.between(a, place_of_species(impl_->scene, second));
     return {pair.loading_stiffness, pair.restitution, pair.friction, pair.effective_mass, pair.contact_time};
+}
+
+}  // namespace grainreel::v1
+
+// A whole run in one call.
+
+namespace grainreel::v1 {
+namespace {
+
+// What look() throws goes round the driver, which would make a RunError of it.
+struct Look {
+    const RunOptions& options;
+    std::exception_ptr thrown{};
+
+    bool operator()(const grainreel::Frame& now) {
+        try {
+            return options.look(outside(now));
+        } catch (...) {
+            thrown = std::current_exception();
+            return false;
+        }
+    }
+};
+
+}  // namespace
+
+RunEnd run(const Scene& scene, const RunOptions& options) {
+    if (options.threads < 0) throw Error("threads: must be at least 0");
+    if (!std::isfinite(options.every) || options.every < 0) throw Error("every: must be at least 0 s");
+    Look look{options};
+    RunSceneOptions how;
+    how.folder = options.folder;
+    how.threads = options.threads;
+    how.every = options.every;
+    if (options.look) how.look = [&](const grainreel::Frame& now) { return look(now); };
+    const SceneEnd end = told([&] { return run_scene(scene.impl().scene, how); });
+    if (look.thrown) std::rethrow_exception(look.thrown);
+    return {outside(end.frame), end.complete};
 }
 
 }  // namespace grainreel::v1
