@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/meaning/names.hpp"
-#include "engine/files/foreign/series/raw_series.hpp"
+#include "engine/files/foreign/raw_series.hpp"
 
 namespace grainreel {
 

@@ -15,7 +15,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
-#include "engine/files/foreign/series/raw_series.hpp"
+#include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/run/import/import_run.hpp"
 

@@ -5,7 +5,7 @@
 #include "build_info.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/foreign/series/raw_series.hpp"
+#include "engine/files/foreign/raw_series.hpp"
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"

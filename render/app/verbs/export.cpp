@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/foreign/series/raw_series.hpp"
+#include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/scene/text/units.hpp"

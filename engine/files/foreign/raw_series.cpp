@@ -1,4 +1,4 @@
-#include "engine/files/foreign/series/raw_series.hpp"
+#include "engine/files/foreign/raw_series.hpp"
 
 #include <fmt/format.h>
 #include <glob.h>
