@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/foreign/foreign_walls.hpp"
 #include "engine/files/foreign/meaning/grain_columns.hpp"
 #include "engine/files/foreign/raw_series.hpp"
-#include "engine/files/foreign/series/wall_motion.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {

@@ -1,13 +1,12 @@
-#include "engine/files/foreign/series/wall_motion.hpp"
+#include "engine/files/foreign/foreign_walls.hpp"
 
+#include <fmt/format.h>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
-
-#include <fmt/format.h>
-#include <Eigen/SVD>
 
 namespace grainreel {
 
