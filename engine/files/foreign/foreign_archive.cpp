@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_series.hpp"
 
 namespace grainreel {

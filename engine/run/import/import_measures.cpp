@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/files/fields_file.hpp"
-#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/measure/bed/bed_observers.hpp"
 #include "engine/measure/drive_observers.hpp"
 #include "engine/measure/measures.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <sstream>
 
-#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "render/scene/keys/words.hpp"
 #include "render/scene/purposes.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "engine/files/foreign/meaning/names.hpp"
+#include "engine/files/foreign/names.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
