@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/files/foreign/foreign_walls.hpp"
-#include "engine/files/foreign/meaning/grain_columns.hpp"
+#include "engine/files/foreign/grain_columns.hpp"
 #include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 

@@ -1,12 +1,11 @@
-#include "engine/files/foreign/meaning/grain_columns.hpp"
+#include "engine/files/foreign/grain_columns.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/names.hpp"
