@@ -125,4 +125,14 @@ void merge_frames(RawFrame& frame, RawFrame&& more);
 std::unique_ptr<RawFile> open_vtk_file(const std::filesystem::path& file,
                                        VtkContents (*read)(const std::filesystem::path& file, VtkPart part));
 
+// Legacy files of VTK (.vtk), text and binary, versions 1 to 5.1: PolyData and UnstructuredGrid.
+
+RawFormat vtk_legacy_format();
+
+// Throws UserError with file and line (text) or byte (binary): damage, grids, cells whose surface is not
+// read.
+VtkContents read_vtk_legacy(const std::filesystem::path& file, VtkPart part);
+
+bool takes_vtk_legacy(const FileHead& head);
+
 }  // namespace grainreel

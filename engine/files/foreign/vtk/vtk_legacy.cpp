@@ -1,4 +1,4 @@
-#include "engine/files/foreign/vtk/vtk_legacy.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/legacy_text.hpp"
-#include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
 #include "engine/mesh/file/words.hpp"

@@ -10,7 +10,6 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
-#include "engine/files/foreign/vtk/vtk_legacy.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
