@@ -1,5 +1,6 @@
 #include "engine/handover/triangle_walls.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,10 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
-#include "engine/handover/wall_polygons.hpp"
 #include "engine/mesh/surface.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "engine/handover/wall_polygons.hpp"
+#include "engine/handover/triangle_walls.hpp"
 
 #include <algorithm>
 #include <array>
