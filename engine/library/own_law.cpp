@@ -1,4 +1,4 @@
-#include "engine/library/own_law.hpp"
+#include "engine/library/internal.hpp"
 
 #include <array>
 #include <cstdint>
