@@ -1,11 +1,10 @@
 #include "engine/run/import/import_run.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <system_error>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/processor.hpp"
@@ -18,7 +17,6 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/run/import/import_ranges.hpp"
-#include "engine/run/import/import_scene.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/body.hpp"

@@ -1,4 +1,4 @@
-#include "engine/run/import/import_scene.hpp"
+#include "engine/run/import/import_run.hpp"
 
 #include <algorithm>
 #include <array>
