@@ -55,7 +55,7 @@ def environment(folder):
 def readers():
     """Name and words of each format that is read, in the program's own order."""
     folder = ROOT / "engine/files/foreign"
-    order = re.findall(r"one\((\w+)\)", (folder / "raw_formats.cpp").read_text().split("namespace")[0])
+    order = re.findall(r"one\((\w+)\)", (folder / "raw_file.cpp").read_text().split("namespace")[0])
     found = {}
     for file in folder.rglob("*.cpp"):
         for key, name, about in re.findall(r'RawFormat (\w+)_format\(\) \{\s*return \{"([^"]+)",\s*"([^"]+)"', file.read_text()):
