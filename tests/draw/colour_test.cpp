@@ -1,7 +1,6 @@
 // Colours that stand for numbers.
 #include <gtest/gtest.h>
 
-#include "render/picture/base/colour_map.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/plots/ticks.hpp"

@@ -8,7 +8,6 @@
 
 #include "engine/scene/text/units.hpp"
 #include "render/page/bed/slabs.hpp"
-#include "render/picture/base/colour_map.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -64,4 +64,9 @@ class ColourScale {
     std::string title_;
 };
 
+// Colour maps for numbers, safe for the colour-blind.
+
+// sRGB; share: 0 at the map's low end, 1 at its high end, held beyond.
+Colour colour_of(ColourMap map, double share);
+
 }  // namespace grainreel
