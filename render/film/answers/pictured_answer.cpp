@@ -11,7 +11,6 @@
 #include "render/film/sources/film_request.hpp"
 #include "render/picture/base/way_of_container.hpp"
 #include "render/picture/camera/camera_path.hpp"
-#include "render/picture/camera/exaggeration.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/picture/words/layout.hpp"

@@ -1,17 +1,33 @@
 // The camera in the course of a film: standing, on an orbit, or on its way from key to key.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "render/picture/base/monotone_curve.hpp"
 #include "render/picture/base/picture_layout.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
+// A smooth curve through points that never overshoots them: between two of them it stays between their
+// values.
+
+// Cubic pieces with the slopes of Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300: a weighted
+// harmonic mean of the secants, zero at a turning point. Flat before the first point and after the last, and
+// with slope zero there, so that it sets out and arrives gently.
+class MonotoneCurve {
+  public:
+    // times: strictly rising, as many as values, at least one.
+    MonotoneCurve(std::vector<double> times, std::vector<double> values);
+    double at(double time) const;
+
+  private:
+    std::vector<double> times_, values_, slopes_;
+};
 
 // An orbit that lasts as long as its film needs the film's length: does nothing where the scene gives its
 // own.
@@ -65,5 +81,28 @@ class CameraPath {
 
 // The scene's camera as the film begins.
 View frame_container(const FilmedScene& scene, const PictureLayout& layout);
+
+// The container's motion drawn larger than it is, so that it can be seen.
+
+// Grains go with the container: seen from there every grain is where it is, so none is drawn inside a wall;
+// only against the lab all of it moves `factor` times as far. That is right for a container that moves as a
+// whole, and the scene's reader refuses any other.
+class Exaggeration {
+  public:
+    explicit Exaggeration(double factor) : factor_(factor) {}
+
+    // The frame itself for a factor of 1; else valid until the next call.
+    const Frame& shown(const Frame& frame) {
+        if (factor_ == 1) return frame;
+        shown_ = frame;
+        for (Vec3& position : shown_.position) position += (factor_ - 1) * frame.container().place;
+        for (BodyPose& body : shown_.bodies) body.place *= factor_;
+        return shown_;
+    }
+
+  private:
+    const double factor_;
+    Frame shown_;
+};
 
 }  // namespace grainreel
