@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "render/picture/base/rectangle.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

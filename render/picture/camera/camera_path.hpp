@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "render/picture/base/picture_layout.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/picture/base/picture_layout.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

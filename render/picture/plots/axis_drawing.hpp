@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "render/picture/base/picture_layout.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/text/text.hpp"
 
 namespace grainreel {

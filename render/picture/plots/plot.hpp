@@ -13,7 +13,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/base/picture_layout.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/plots/side_plot.hpp"
 #include "render/picture/text/cairo_surface.hpp"
 #include "render/scene/film_shows.hpp"

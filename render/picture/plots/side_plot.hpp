@@ -9,7 +9,7 @@
 
 #include "engine/frame.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/base/picture_layout.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

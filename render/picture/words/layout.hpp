@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/frame.hpp"
-#include "render/picture/base/picture_layout.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "render/picture/base/picture.hpp"
-#include "render/picture/base/picture_layout.hpp"
 #include "render/picture/plots/side_plot.hpp"
 #include "render/picture/text/cairo_surface.hpp"
 #include "render/picture/words/numbers_plan.hpp"

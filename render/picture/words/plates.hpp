@@ -7,7 +7,6 @@
 
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
-#include "render/picture/base/picture_layout.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,7 @@
 #include "engine/frame.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/base/picture_layout.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/text/text.hpp"
 #include "render/scene/filmed_scene.hpp"
