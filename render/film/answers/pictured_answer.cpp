@@ -9,7 +9,7 @@
 #include "render/film/codec/png.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/sources/film_request.hpp"
-#include "render/picture/base/way_of_container.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/whole/renderer.hpp"

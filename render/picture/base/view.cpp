@@ -6,6 +6,7 @@
 #include <numbers>
 
 namespace grainreel {
+
 namespace {
 
 constexpr double degrees = std::numbers::pi / 180;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/frame.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -72,5 +73,13 @@ class Framing {
 // its border; then magnified by the zoom. picture_height: pixels, what the field of view spans.
 View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Rectangle& port, double margin,
               int picture_height);
+
+// How far the container has come, for what goes with its shaking and not with its turning.
+
+// m, from its place at rest; of one that turns, of a point on its axis.
+inline Vec3 way_of_container(const FilmedScene& scene, const Frame& frame) {
+    const std::optional<BodyTurn>& turn = scene.container.turn;
+    return turn ? Vec3(frame.container().moved(turn->through) - turn->through) : frame.container().place;
+}
 
 }  // namespace grainreel

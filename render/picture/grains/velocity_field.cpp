@@ -6,7 +6,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
-#include "render/picture/base/way_of_container.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

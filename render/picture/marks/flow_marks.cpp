@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/scene/bed.hpp"
-#include "render/picture/base/way_of_container.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/picture/marks/arrow.hpp"
 #include "render/picture/marks/streamline.hpp"
 #include "render/scene/filmed_scene.hpp"

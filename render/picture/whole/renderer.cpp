@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "render/picture/base/way_of_container.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/exit_fade.hpp"
