@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/picture/text/cairo_surface.hpp"
+#include "render/picture/base/cairo_text.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

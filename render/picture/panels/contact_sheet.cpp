@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/text/text.hpp"
 
 namespace grainreel {
 namespace {

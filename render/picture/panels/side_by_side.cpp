@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/panels/panel_plots.hpp"
 #include "render/picture/panels/panel_words.hpp"
-#include "render/picture/text/cairo_surface.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/halo.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/picture.hpp"
-#include "render/picture/text/text.hpp"
 
 namespace grainreel {
 

@@ -10,9 +10,9 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/plots/axis_drawing.hpp"
 #include "render/picture/plots/ticks.hpp"
-#include "render/picture/text/text.hpp"
 #include "render/scene/grain_values.hpp"
 
 namespace grainreel {

@@ -12,10 +12,10 @@
 
 #include "engine/frame.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/plots/side_plot.hpp"
-#include "render/picture/text/cairo_surface.hpp"
 #include "render/scene/film_shows.hpp"
 #include "render/scene/filmed_scene.hpp"
 

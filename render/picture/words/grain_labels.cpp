@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/picture/text/cairo_surface.hpp"
-#include "render/picture/text/text.hpp"
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/words/plates.hpp"
 
 namespace grainreel {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/plots/side_plot.hpp"
-#include "render/picture/text/cairo_surface.hpp"
 #include "render/picture/words/numbers_plan.hpp"
 #include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cairo.h>
-
 #include <memory>
 #include <string>
 
+#include "render/picture/base/picture.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -34,5 +35,23 @@ double longest_word(const std::string& text, const TextStyle& style);
 // (x, y): top left corner of the text. Returns its size.
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
                    const Colour& colour, double wrap = 0, int lines = 1);
+
+// A part of a picture on which Cairo writes.
+
+struct CairoDestroy {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+using CairoSurface = std::unique_ptr<cairo_surface_t, CairoDestroy>;
+using CairoContext = std::unique_ptr<cairo_t, CairoDestroy>;
+
+// As large as the part, all of one colour, or of none with alpha 0.
+CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double alpha = 1);
+void fill_surface(cairo_t* on, const Colour& colour, double alpha = 1);
+
+// Puts a surface where `to` lies in the picture; they have the same size.
+void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);
+// A part of a surface whose corner lies at (x, y) in the picture.
+void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture);
 
 }  // namespace grainreel
