@@ -5,8 +5,6 @@
 
 #include "engine/state/body.hpp"
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/floor_opening.hpp"
-#include "render/picture/container/wall_profile.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/floor_opening.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/floor_opening.hpp"
-#include "render/picture/container/wall_profile.hpp"
 
 namespace grainreel {
 namespace {

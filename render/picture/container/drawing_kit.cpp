@@ -1,9 +1,13 @@
 #include "render/picture/container/drawing_kit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "render/picture/container/container_drawing.hpp"
+
 namespace grainreel {
+
 namespace {
 
 // The sine of the angle over which a moving camera sees one look become another, to each side.
@@ -70,6 +74,83 @@ void Sketch::dashed(Shapes& on, std::vector<Vec3> points, bool closed, double wi
         }
     }
     if (walked < dash) on.line(piece, false, width, paint);
+}
+
+WallProfile wall_profile(const Container& container, double side) {
+    const double t = drawn_thickness(container), top = container.height;
+    WallProfile profile;
+    const auto add = [&](double inner, double z, double outer, double outer_z) {
+        profile.inner.emplace_back(side * inner, z);
+        profile.outer.emplace_back(side * outer, outer_z);
+    };
+    const double angle = container.shape == Container::Shape::wedge ? container.half_angle : 0;
+    const double bend = angle > 0 ? std::min(container.slant_height, top) : 0;
+    if (bend > 0) add(container.half_width_at(0), 0, container.half_width_at(0) + t / std::cos(angle), 0);
+    if (bend > 0 && bend < top)
+        add(container.half_width, bend, container.half_width + t, bend - t * std::tan(0.5 * angle));
+    if (bend <= 0) add(container.half_width, 0, container.half_width + t, 0);
+    const double slant = bend >= top ? t / std::cos(angle) : t;
+    add(container.half_width_at(top), top, container.half_width_at(top) + slant, top);
+    return profile;
+}
+
+namespace {
+
+constexpr int kSteps = 96;  // of a full circle
+constexpr double kTurn = 2 * std::numbers::pi;
+
+std::vector<double> even_angles() {
+    std::vector<double> angles;
+    for (int i = 0; i < kSteps; ++i) angles.push_back(kTurn * i / kSteps);
+    return angles;
+}
+
+Vec3 at(double radius, double angle, double height) {
+    return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
+// reach(angle): m, from the middle to the outline.
+template <class Reach>
+Pieces around_hole(const Outlet& outlet, const std::vector<double>& angles, double height,
+                   const Reach& reach) {
+    Pieces pieces;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const double a = angles[i], b = angles[(i + 1) % angles.size()];
+        const double hole = outlet.half_width;
+        pieces.push_back(
+            {at(hole, a, height), at(hole, b, height), at(reach(b), b, height), at(reach(a), a, height)});
+    }
+    return pieces;
+}
+
+}  // namespace
+
+Container container_at(const Container& container, double time) {
+    Container now = container;
+    if (now.outlet && time < now.outlet->opens) now.outlet.reset();
+    return now;
+}
+
+std::vector<Vec3> rim_of_hole(const Outlet& outlet, double height) {
+    std::vector<Vec3> points;
+    for (const double angle : even_angles()) points.push_back(at(outlet.half_width, angle, height));
+    return points;
+}
+
+Pieces disc_around_hole(const Outlet& outlet, double radius, double height) {
+    return around_hole(outlet, even_angles(), height, [radius](double) { return radius; });
+}
+
+Pieces rectangle_around_hole(const Outlet& outlet, double half_depth, double half_width, double height) {
+    std::vector<double> angles = even_angles();
+    const double corner = std::atan2(half_width, half_depth);
+    for (const double angle : {corner, kTurn / 2 - corner, kTurn / 2 + corner, kTurn - corner})
+        angles.push_back(angle);
+    std::sort(angles.begin(), angles.end());
+    return around_hole(outlet, angles, height, [&](double angle) {
+        return std::min(half_depth / std::max(std::abs(std::cos(angle)), 1e-12),
+                        half_width / std::max(std::abs(std::sin(angle)), 1e-12));
+    });
 }
 
 }  // namespace grainreel

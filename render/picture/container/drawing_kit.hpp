@@ -1,9 +1,11 @@
 // What the drawings of wedge, box and cylinder share: pens, paints, and points that are projected on the way.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
+#include "engine/base/vector.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -121,5 +123,29 @@ double outer_floor_half_width(const Container& container);
 std::vector<Vec3> prism_corners(const Container& container, double top);
 std::vector<Vec3> cylinder_corners(const Container& container, double top);
 std::vector<Vec3> extent_corners(const Extent& extent);
+
+// The cross-section of a wedge's or a box's side wall, as it is drawn.
+
+// From the floor up: the inner line, and the outer one a wall's thickness away; (y, z) in m, as many points
+// each.
+struct WallProfile {
+    std::vector<Eigen::Vector2d> inner, outer;
+};
+
+// side: +1 for the wall at y > 0, -1 for the other.
+WallProfile wall_profile(const Container& container, double side);
+
+// A floor with a round hole, as flat pieces that are convex each.
+
+// The container as it is at a time (s): without its outlet as long as that is closed.
+Container container_at(const Container& container, double time);
+
+// Points around the hole, at a height; m.
+std::vector<Vec3> rim_of_hole(const Outlet& outlet, double height);
+
+// What is left of a disc, or of a rectangle with corners (+-half_depth, +-half_width), around the hole.
+using Pieces = std::vector<std::vector<Vec3>>;
+Pieces disc_around_hole(const Outlet& outlet, double radius, double height);
+Pieces rectangle_around_hole(const Outlet& outlet, double half_depth, double half_width, double height);
 
 }  // namespace grainreel
