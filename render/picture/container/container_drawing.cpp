@@ -8,6 +8,7 @@
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 // degrees, also of a camera that looks straight down
@@ -63,6 +64,96 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
     }
     draw_lab_marks(scene, sketches, azimuth_of(views.at_rest), shapes.behind);
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);
+}
+
+// Planes of the scene's own: the piece of each that lies in the container, or in the box of what is looked
+// at.
+
+namespace {
+
+// Corners of the plane's cut through the box, in order around it; fewer than three when it misses.
+std::vector<Vec3> cut(const FreeWall& wall, const Vec3& point, const Extent& extent) {
+    const std::vector<Vec3> corners = extent_corners(extent);
+    std::vector<Vec3> crossings;
+    for (int a = 0; a < 8; ++a) {
+        for (const int axis : {1, 2, 4}) {
+            if (a & axis) continue;
+            const Vec3 &one = corners[a], &two = corners[a | axis];
+            const double before = wall.normal.dot(one - point), after = wall.normal.dot(two - point);
+            if (before * after > 0 || before == after) continue;
+            crossings.push_back(one + before / (before - after) * (two - one));
+        }
+    }
+    if (crossings.size() < 3) return {};
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& c : crossings) middle += c / static_cast<double>(crossings.size());
+    const Vec3 u = wall.normal.unitOrthogonal(), v = wall.normal.cross(u);
+    std::sort(crossings.begin(), crossings.end(), [&](const Vec3& a, const Vec3& b) {
+        return std::atan2(v.dot(a - middle), u.dot(a - middle)) <
+               std::atan2(v.dot(b - middle), u.dot(b - middle));
+    });
+    return crossings;
+}
+
+// What of a convex piece lies where normal . (p - point) >= 0 (Sutherland and Hodgman 1974).
+std::vector<Vec3> clipped(const std::vector<Vec3>& piece, const Vec3& point, const Vec3& normal) {
+    std::vector<Vec3> left;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+        const Vec3 &from = piece[k], &to = piece[(k + 1) % piece.size()];
+        const double a = normal.dot(from - point), b = normal.dot(to - point);
+        if (a >= 0) left.push_back(from);
+        if ((a > 0 && b < 0) || (a < 0 && b > 0)) left.push_back(from + a / (a - b) * (to - from));
+    }
+    return left;
+}
+
+// Walls that are not sides of the box of what is looked at.
+std::vector<Vec3> inside(std::vector<Vec3> piece, const Container& container) {
+    if (container.shape == Container::Shape::wedge && container.half_angle > 0) {
+        const double cosine = std::cos(container.half_angle), sine = std::sin(container.half_angle);
+        for (const double side : {-1.0, 1.0})
+            piece = clipped(piece, {0, side * container.floor_half_width(), 0}, {0, -side * cosine, sine});
+    }
+    constexpr int kSides = 96;  // of a circle
+    for (int k = 0; container.shape == Container::Shape::cylinder && k < kSides; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kSides;
+        const Vec3 outward(std::cos(angle), std::sin(angle), 0);
+        piece = clipped(piece, container.half_width * outward, -outward);
+    }
+    return piece;
+}
+
+}  // namespace
+
+std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset) {
+    std::vector<Vec3> piece = inside(cut(wall, wall.point + offset, extent_of(scene)), scene.container);
+    return piece.size() >= 3 ? piece : std::vector<Vec3>();
+}
+
+std::vector<Vec3> extent_corners(const Extent& extent) {
+    std::vector<Vec3> corners;
+    for (int k = 0; k < 8; ++k)
+        corners.emplace_back((k & 1 ? extent.high : extent.low).x(), (k & 2 ? extent.high : extent.low).y(),
+                             (k & 4 ? extent.high : extent.low).z());
+    return corners;
+}
+
+void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
+                    ContainerShapes& shapes) {
+    // The sketch moves what it draws, so the cut is made where the wall is and taken back.
+    std::vector<Vec3> piece = piece_of_plane(wall, scene, sketch.offset());
+    if (piece.empty()) return;
+    for (Vec3& corner : piece) corner -= sketch.offset();
+    WallSide& on = sketch.faces(wall.point, wall.normal) ? shapes.behind : shapes.before;
+    // Solid where the eye is on the grains' side.
+    const double solid = sketch.solid(wall.point, -wall.normal);
+    sketch.polygon(on, piece, blend(sketch.glass_face(), sketch.inner_face(), solid));
+    sketch.line(on, piece, true, sketch.pen, blend(sketch.glass_edge(), sketch.far_edge(), solid));
+}
+
+void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on) {
+    const std::vector<Vec3> piece = piece_of_plane(wall, scene, Vec3(0, 0, 0));
+    if (!piece.empty()) lab.dashed(on, piece, true, 0.8 * lab.pen, lab.ghost());
 }
 
 }  // namespace grainreel
