@@ -2,12 +2,164 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "engine/scene/drive_schedule.hpp"
+#include "render/picture/container/container_drawing.hpp"
+#include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/shade_row.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
+namespace {
+
+constexpr double kLeastRise = 0.25;  // of the key light above the horizon, or shadows would run away
+
+double floor_reach(const Container& container) {
+    const double half_depth =
+        container.shape == Container::Shape::cylinder ? container.half_width : 0.5 * container.depth;
+    return std::hypot(outer_floor_half_width(container), half_depth) + drawn_thickness(container);
+}
+
+// Means of five rows of kSide numbers, added one after the other.
+void mean_of_five(const std::array<const float*, 5>& of, float* out) {
+    const auto [a, b, c, d, e] = of;
+    for (int i = 0; i < ShadowMap::kSide; ++i) out[i] = (a[i] + b[i] + c[i] + d[i] + e[i]) / 5;
+}
+
+}  // namespace
+
+ShadowMap::ShadowMap(const FilmedScene& scene)
+    : container_(scene.container),
+      meshes_(scene),
+      extent_(extent_of(scene)),
+      foot_(scene.container.tray ? tray_container(scene) : scene.container),
+      low_plate_(-1.4 * drawn_thickness(foot_)),
+      cells_(kSide * kSide) {
+    const double stroke =
+        scene.drive.present ? drive_peaks(scene.drive).offset * std::abs(scene.drive.direction.z()) : 0;
+    height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
+    if (meshes_.any())
+        height_ = std::min(height_, meshes_.lowest() - stroke - 0.15 * drawn_thickness(container_));
+    if (container_.shape == Container::Shape::mesh)
+        height_ = meshes_.lowest() - stroke - 0.15 * drawn_thickness(container_);
+    if (container_.tray) height_ = low_plate_ - container_.tray->depth - 0.15 * drawn_thickness(foot_);
+}
+
+Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
+    const Eigen::Vector2d along = to_key.head<2>() / std::max(to_key.z(), kLeastRise);
+    const Eigen::Vector2d at = point.head<2>() - (point.z() - height_) * along;
+    return (at - low_) * (kSide / side_);
+}
+
+// Around the foot and as far as the container's whole height throws.
+void ShadowMap::place(const Vec3& to_key) {
+    low_ = {0, 0};
+    side_ = kSide;  // one cell a metre: fall() then is in metres
+    if (container_.shape == Container::Shape::mesh) return place_around_extent(to_key);
+    const double reach =
+        std::max(floor_reach(foot_), std::hypot(container_.half_width, 0.5 * container_.depth));
+    const Eigen::Vector2d tip = fall({0, 0, container_.height}, to_key);
+    const Eigen::Vector2d low = tip.cwiseMin(Eigen::Vector2d::Zero()),
+                          high = tip.cwiseMax(Eigen::Vector2d::Zero());
+    const Eigen::Vector2d middle = 0.5 * (low + high);
+    side_ = (high - low).maxCoeff() + 2.8 * reach;
+    low_ = middle.array() - 0.5 * side_;
+}
+
+// A vessel may stand anywhere, and its grains throw their shadow from its height.
+void ShadowMap::place_around_extent(const Vec3& to_key) {
+    Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
+    for (int k = 0; k < 8; ++k) {
+        const Vec3 corner((k & 1 ? extent_.high : extent_.low).x(), (k & 2 ? extent_.high : extent_.low).y(),
+                          (k & 4 ? extent_.high : extent_.low).z());
+        low = low.cwiseMin(fall(corner, to_key));
+        high = high.cwiseMax(fall(corner, to_key));
+    }
+    const Eigen::Vector2d middle = 0.5 * (low + high);
+    side_ = 1.4 * (high - low).maxCoeff();
+    low_ = middle.array() - 0.5 * side_;
+}
+
+// The floor's plate, dense at its foot; that of a tray where there is one.
+void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
+    const double half = outer_floor_half_width(foot_), cell = side_ / kSide;
+    const bool round = foot_.shape == Container::Shape::cylinder;
+    const double half_depth = round ? half : 0.5 * foot_.depth;
+    const Vec3 place = container_.tray ? Vec3(0, 0, -container_.tray->depth) : frame.floor().place;
+    for (const double z : {low_plate_, 0.5 * low_plate_, 0.0}) {
+        const Eigen::Vector2d at = fall(Vec3(0, 0, z) + place, to_key);
+        for (int j = 0; j < kSide; ++j)
+            for (int i = 0; i < kSide; ++i) {
+                const double x = (i + 0.5 - at.x()) * cell, y = (j + 0.5 - at.y()) * cell;
+                const double out =
+                    round ? std::hypot(x, y) - half : std::max(std::abs(x) - half_depth, std::abs(y) - half);
+                const double cover = std::clamp(0.5 - out / cell, 0.0, 1.0);
+                float& taken = cells_[static_cast<std::size_t>(j) * kSide + i];
+                taken = std::max(taken, static_cast<float>(4 * cover));
+            }
+    }
+}
+
+// Each grain as what its disc covers, shared between four cells; optical depths add up.
+void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
+    const double per_area = std::pow(kSide / side_, 2);
+    for (std::size_t g = 0; g < frame.size(); ++g)
+        add_depth(fall(frame.position[g], to_key).array() - 0.5,
+                  std::numbers::pi * frame.radius[g] * frame.radius[g] * per_area);
+}
+
+// Each patch of a mesh as what it covers of the light.
+void ShadowMap::add_meshes(const Frame& frame, const Vec3& to_key) {
+    const double per_area = std::pow(kSide / side_, 2) / std::max(to_key.z(), kLeastRise);
+    meshes_.visit(frame, to_key, [&](const Vec3& at, double area) {
+        add_depth(fall(at, to_key).array() - 0.5, area * per_area);
+    });
+}
+
+void ShadowMap::add_depth(const Eigen::Vector2d& at, double depth) {
+    const Eigen::Vector2d base = at.array().floor();
+    if ((base.array() < 0).any() || (base.array() >= kSide - 1).any()) return;
+    const Eigen::Vector2d share = at - base;
+    float* cell = &cells_[static_cast<std::size_t>(base.y()) * kSide + static_cast<std::size_t>(base.x())];
+    cell[0] += static_cast<float>(depth * (1 - share.x()) * (1 - share.y()));
+    cell[1] += static_cast<float>(depth * share.x() * (1 - share.y()));
+    cell[kSide] += static_cast<float>(depth * (1 - share.x()) * share.y());
+    cell[kSide + 1] += static_cast<float>(depth * share.x() * share.y());
+}
+
+// Three box filters after each other, along both axes; beyond the map there is no shadow.
+void ShadowMap::soften() {
+    constexpr int kTimes = 3;
+    constexpr auto side = static_cast<std::size_t>(kSide);
+    std::array<float, side + 4> row{};
+    for (std::size_t j = 0; j < side; ++j)
+        for (int time = 0; time < kTimes; ++time) {
+            float* cells = &cells_[j * side];
+            std::copy_n(cells, side, &row[2]);
+            mean_of_five({&row[0], &row[1], &row[2], &row[3], &row[4]}, cells);
+        }
+    const std::array<float, side> none{};
+    for (int time = 0; time < kTimes; ++time) {
+        before_ = cells_;
+        const auto at = [&](std::size_t j) { return j < side ? &before_[j * side] : none.data(); };
+        for (std::size_t j = 0; j < side; ++j)
+            mean_of_five({at(j - 2), at(j - 1), at(j), at(j + 1), at(j + 2)}, &cells_[j * side]);
+    }
+}
+
+void ShadowMap::cast(const Frame& frame, const Vec3& to_key) {
+    place(to_key);
+    std::fill(cells_.begin(), cells_.end(), 0.0f);
+    add_grains(frame, to_key);
+    add_meshes(frame, to_key);
+    if (container_.shape != Container::Shape::mesh) add_plate(frame, to_key);
+    for (float& cell : cells_) cell = 1 - std::exp(-cell);
+    soften();
+}
+
 namespace {
 
 constexpr int kSide = ShadowMap::kSide;
