@@ -5,7 +5,7 @@
 
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/container/exit_fade.hpp"
-#include "render/picture/container/mesh_reach.hpp"
+#include "render/picture/container/mesh_shadows.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

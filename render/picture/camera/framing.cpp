@@ -11,7 +11,7 @@
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/exit_fade.hpp"
 #include "render/picture/container/lab_marks.hpp"
-#include "render/picture/container/mesh_reach.hpp"
+#include "render/picture/container/mesh_shadows.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

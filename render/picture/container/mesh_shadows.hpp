@@ -1,4 +1,4 @@
-// What meshes take of the light that falls on the ground.
+// The outermost points that meshes come to in the course of a run.
 #pragma once
 
 #include <cmath>
@@ -9,6 +9,12 @@
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
+// m: of all meshes together, the farthest points along many directions, at rest and wherever their turns and
+// paths bring them. Steady velocities, which have no end, and the drive are left out. Empty without meshes.
+std::vector<Vec3> mesh_reach(const FilmedScene& scene);
+
+// What meshes take of the light that falls on the ground.
 
 // Their surfaces as small patches. A vessel lets most of the light through, as all walls do.
 class MeshShadows {
