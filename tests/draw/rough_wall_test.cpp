@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/state/glued_grains.hpp"
-#include "render/picture/grains/glued_spheres.hpp"
+#include "render/picture/grains/spheres.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

@@ -2,11 +2,76 @@
 
 #include <algorithm>
 
+#include "engine/state/glued_grains.hpp"
+#include "render/picture/base/palette.hpp"
 #include "render/picture/grains/shown_grains.hpp"
-#include "render/picture/grains/styles.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
+namespace {
+
+constexpr double kGreyer = 0.55;  // share of the neutral colour
+
+}  // namespace
+
+GluedSpheres::GluedSpheres(const FilmedScene& scene) {
+    if (!scene.container.wall_grains) return;
+    const std::vector<Face> faces = container_faces(scene.container, scene.drive);
+    const GluedGrains glued = glue_grains(scene, faces);
+    for (std::size_t g = 0; g < glued.size(); ++g) {
+        const Face& face = faces[static_cast<std::size_t>(glued.face[g])];
+        const Vec3 at = glued.centre(g, faces, {});
+        const bool plane = face.kind == Face::Kind::plane;
+        const Vec3 inward = plane ? face.normal : Vec3(-Vec3(at.x(), at.y(), 0).normalized());
+        glued_.push_back({at, inward, glued.place[g].radius, static_cast<std::size_t>(face.body.number),
+                          plane && face.normal.y() != 0});
+    }
+    const Colour species = scene.film.shows.colour.of_grains()
+                               ? neutral_grain
+                               : scene.colours[scene.container.wall_grains->species];
+    colour_ = to_albedo(mix(species, neutral_grain, kGreyer));
+}
+
+std::vector<GluedSpheres::Seen> GluedSpheres::seen(const View& view, const Frame& frame) const {
+    std::vector<Seen> all;
+    for (const Glued& one : glued_) {
+        const BodyPose pose = frame.body(one.body);
+        const Vec3 centre = pose.moved(one.at_rest);
+        if (one.at_side || view.faces(centre, pose.rotation * one.inward))
+            all.push_back({centre, one.radius});
+    }
+    return all;
+}
+
+Lamp lamp_of(const FilmLook& look, bool colours_are_read) {
+    Lamp lamp;
+    if (look.style == FilmLook::Style::flat) {  // a hint of form, and outlines that survive a photocopier
+        lamp.key = 0.22f;
+        lamp.sky = 0.80f;
+        lamp.ground = 0.72f;
+        lamp.rim = 0.12f;
+        lamp.rim_width = 0.42f;
+        lamp.shine = 0;
+        lamp.cap = 0.90f;
+    } else if (look.style == FilmLook::Style::dark) {  // a harder key, less fill
+        lamp.key = 0.90f;
+        lamp.sky = 0.50f;
+        lamp.ground = 0.20f;
+        lamp.rim = 0.85f;
+        lamp.shine = 0.20f;
+    }
+    if (colours_are_read && look.style != FilmLook::Style::flat) {  // half as far from the map's colours
+        lamp.key = 0.45f;
+        lamp.sky = 0.50f;
+        lamp.ground = 0.35f;
+        lamp.even = 0.32f;
+        lamp.shine = 0.05f;
+    }
+    lamp.occlusion = look.occlusion;
+    lamp.shadows = look.shadows;
+    return lamp;
+}
 
 SpherePainter::SpherePainter(const FilmedScene& scene, int width, int height, Team& team, bool ghosts)
     : grain_colours_(scene),
