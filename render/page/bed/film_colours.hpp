@@ -9,7 +9,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/picture/base/colour_scale.hpp"
-#include "render/picture/grains/quantities.hpp"
+#include "render/picture/grains/grain_colours.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

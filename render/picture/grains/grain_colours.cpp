@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "engine/base/error.hpp"
 #include "render/picture/base/colour_scale.hpp"
@@ -9,6 +11,89 @@
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// J: of translation, and of rotation with 2/5 m r2 of a solid sphere.
+double kinetic_energy(const Frame& frame, std::size_t i, double density) {
+    const double r = frame.radius[i];
+    const double mass = density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
+}
+
+}  // namespace
+
+Quantities::Quantities(const FilmedScene& scene, GrainValue by) : by_(by) {
+    for (const Species& species : scene.species) density_.push_back(species.density);
+}
+
+void Quantities::start_from(const Frame& frame) {
+    if (by_ != GrainValue::start_height) return;
+    start_id_ = frame.id;
+    start_height_.clear();
+    for (const Vec3& position : frame.position) start_height_.push_back((position - frame.floor().place).z());
+}
+
+double Quantities::start_height_of(std::int32_t id) const {
+    const auto at = std::lower_bound(start_id_.begin(), start_id_.end(), id);
+    if (at == start_id_.end() || *at != id) return none;
+    return start_height_[static_cast<std::size_t>(at - start_id_.begin())];
+}
+
+// Ids rise along a frame, but some may be missing.
+void Quantities::count_touches(const Frame& frame, bool forces) {
+    values_.assign(frame.size(), 0);
+    const auto add = [&](std::int32_t id, double force) {
+        if (id < 0) return;  // a wall
+        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+        if (at != frame.id.end() && *at == id)
+            values_[static_cast<std::size_t>(at - frame.id.begin())] += forces ? force : 1;
+    };
+    for (const Touch& touch : frame.touches) {
+        add(touch.first, touch.force);
+        add(touch.second, touch.force);
+    }
+}
+
+const std::vector<double>& Quantities::of(const Frame& frame) {
+    if (start_height_.empty()) start_from(frame);
+    if (by_ == GrainValue::coordination || by_ == GrainValue::contact_force) {
+        count_touches(frame, by_ == GrainValue::contact_force);
+        return values_;
+    }
+    values_.assign(frame.size(), none);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        switch (by_) {
+            case GrainValue::speed:
+                values_[i] = frame.velocity[i].norm();
+                break;
+            case GrainValue::vertical_velocity:
+                values_[i] = frame.velocity[i].z();
+                break;
+            case GrainValue::start_height:
+                values_[i] = start_height_of(frame.id[i]);
+                break;
+            case GrainValue::displacement:
+                if (!frame.displacement.empty()) values_[i] = frame.displacement[i].norm();
+                break;
+            case GrainValue::rise:
+                if (!frame.displacement.empty()) values_[i] = frame.displacement[i].z();
+                break;
+            case GrainValue::spin:
+                values_[i] = frame.spin[i].norm();
+                break;
+            case GrainValue::kinetic_energy:
+                values_[i] = kinetic_energy(frame, i, density_[static_cast<std::size_t>(frame.species[i])]);
+                break;
+            default:
+                break;
+        }
+    }
+    return values_;
+}
+
 namespace {
 
 constexpr Colour pale_grain{0.93, 0.93, 0.93};  // sRGB

@@ -9,7 +9,7 @@
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/grains/quantities.hpp"
+#include "render/picture/grains/grain_colours.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

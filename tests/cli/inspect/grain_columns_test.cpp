@@ -12,7 +12,7 @@
 #include "engine/questions/questions.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "render/film/answers/pictured_answer.hpp"
-#include "render/picture/grains/quantities.hpp"
+#include "render/picture/grains/grain_colours.hpp"
 #include "render/scene/grain_values.hpp"
 #include "render/scene/read_scene.hpp"
 
