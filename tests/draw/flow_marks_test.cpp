@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "render/picture/marks/streamline.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
