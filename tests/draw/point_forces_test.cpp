@@ -1,5 +1,5 @@
 // Forces on a body as arrows.
-#include "render/picture/marks/point_forces.hpp"
+#include "render/picture/marks/force_marks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Arrows of forces on walls.
-#include "render/picture/marks/wall_force_marks.hpp"
+#include "render/picture/marks/force_marks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "engine/state/point_force.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
-#include "render/picture/marks/point_forces.hpp"
+#include "render/picture/marks/force_marks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 
 #include "engine/scene/bed.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/marks/arrow.hpp"
+#include "render/picture/marks/force_marks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

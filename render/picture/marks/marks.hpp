@@ -12,8 +12,8 @@
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/marks/field_layer.hpp"
 #include "render/picture/marks/flow_marks.hpp"
+#include "render/picture/marks/force_marks.hpp"
 #include "render/picture/marks/trails.hpp"
-#include "render/picture/marks/wall_force_marks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
-#include "render/picture/marks/point_forces.hpp"
+#include "render/picture/marks/force_marks.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 

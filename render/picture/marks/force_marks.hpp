@@ -1,0 +1,87 @@
+// An arrow over the grains, on a border of the background's colour so that it reads on any grain.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "engine/frame.hpp"
+#include "engine/state/container_faces.hpp"
+#include "engine/state/point_force.hpp"
+#include "render/picture/base/canvas.hpp"
+#include "render/picture/base/palette.hpp"
+#include "render/picture/base/view.hpp"
+#include "render/scene/filmed_scene.hpp"
+
+namespace grainreel {
+
+struct ArrowStyle {
+    Colour colour, border;
+    double width;  // pixels, of its shaft
+    double pen;    // pixels, of the border
+};
+
+inline void draw_arrow(Shapes& on, const Pixel& tail, const Pixel& tip, const ArrowStyle& style) {
+    const double length = (tip - tail).norm();
+    if (length < 1) return;
+    const Pixel ahead = (tip - tail) / length, aside(-ahead.y(), ahead.x());
+    const double head = std::min(3.6 * style.width, 0.5 * length);
+    const Pixel neck = tip - head * ahead;
+    const std::vector<Pixel> corners{tip, neck + 0.45 * head * aside, neck - 0.45 * head * aside};
+    on.line(corners, true, 2 * style.pen, {style.border, 1});
+    on.line({tail, neck}, false, style.width + 2 * style.pen, {style.border, 1});
+    on.line({tail, neck}, false, style.width, {style.colour, 1});
+    on.polygon(corners, {style.colour, 1});
+    on.line(corners, true, 0.5 * style.pen, {style.colour, 1});
+}
+
+// Forces on a body, each an arrow at the point where it acts.
+
+// Pixels of the arrow of the strongest force.
+double longest_force_arrow(const View& view);
+
+// Where the arrows lie in the picture. Lengths are proportional to the forces, but for weak ones, which stay
+// long enough to be seen. Where a grain is so small in the picture that heads would hide it and each other,
+// arrows are moved away from its centre. A force along the line of sight has a length near 0.
+struct ForceArrow {
+    Pixel tail, tip;
+    double share;     // of the strongest force
+    bool at_eye;      // it points towards the eye
+    double in_space;  // pixels, if it lay across the line of sight
+};
+std::vector<ForceArrow> force_arrows(const View& view, const std::vector<PointForce>& forces, double pen);
+
+// A force along the line of sight is a circle: with a point where it comes towards the eye, with a cross
+// where it goes away. pen: pixels, of the border.
+void draw_point_forces(const View& view, const std::vector<PointForce>& forces, const Palette& palette,
+                       double pen, Shapes& on);
+
+// Arrows of the mean force of the grains on each wall, as the last row of measures has it (instrument
+// `walls`). An arrow's tip is where the force acts on the wall.
+
+// m an arrow is long for each N.
+double wall_force_scale(const FilmedScene& scene);
+
+// Where the line of action of a force crosses a plane. moment: N m, about the origin. None where the force
+// runs along the plane: within 3 degrees.
+std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const Vec3& moment);
+
+class WallForceMarks {
+  public:
+    WallForceMarks(const FilmedScene& scene, const Palette& palette);
+    void draw(const View& view, const Frame& frame, Shapes& on) const;
+
+  private:
+    struct Wall {
+        Face face;
+        std::string name;  // as columns have it
+    };
+    void draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const;
+
+    const FilmedScene& scene_;
+    const Palette palette_;
+    const double pen_;  // pixels
+    std::vector<Wall> walls_;
+};
+
+}  // namespace grainreel
