@@ -1,7 +1,7 @@
-// MercuryDPM's .data: a line of count, time and box before the rows of each frame. In three dimensions it has
-// 8 numbers and rows 14, in two dimensions 6 and 8 (the formats 14 and 8 of its xballs files).
-
+// Two files of MercuryDPM: .data has the grains, .fstat has the contacts. Both are text, frame after frame.
+// What both have in common stands first. The .restart is read in mercury_restart.cpp.
 #include <fmt/format.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -17,20 +17,50 @@ namespace {
 
 using Numbers = std::vector<double>;
 
+// The box between its lowest corner and its highest one, which are the two halves of `corners`.
+WorldCell box_between(const Numbers& corners) {
+    const std::size_t dimensions = corners.size() / 2;
+    WorldCell box;
+    for (std::size_t axis = 0; axis < dimensions; ++axis) {
+        const double from = corners[axis], to = corners[dimensions + axis];
+        box.origin[static_cast<int>(axis)] = from;
+        box.edges[axis][static_cast<int>(axis)] = std::max(0.0, to - from);
+    }
+    return box;
+}
+
+// The number that a word of a row is. column: its number in the row, from 1.
+double number_in_row(const TextLines& lines, std::string_view word, std::size_t column, const char* name) {
+    const std::optional<double> number = number_of(word);
+    if (!number)
+        lines.fault(fmt::format("column {} ({}) has {}, which is no number", column, name, in_quotes(word)));
+    return *number;
+}
+
+class MercuryFile : public TextFrames {
+  protected:
+    MercuryFile(const std::filesystem::path& file, const char* format) : TextFrames(file) {
+        facts_.format = format;
+        facts_.program = "MercuryDPM";
+    }
+};
+
+// Grains. A line of count, time and box stands before the rows of each frame. In three dimensions this line
+// has 8 numbers and a row has 14; in two dimensions they have 6 and 8 (formats 14 and 8 of xballs files).
+
 constexpr std::array<const char*, 14> names_3d{"x",     "y",    "z",     "vx", "vy", "vz", "radius",
                                                "alpha", "beta", "gamma", "wx", "wy", "wz", "info"};
 constexpr std::array<const char*, 8> names_2d{"x", "y", "vx", "vy", "radius", "gamma", "wz", "info"};
 
 // The line before a frame: N, t, lower corner, upper corner.
-struct Header {
+struct DataHeader {
     std::int64_t grains = 0;
     double time = 0;
     Numbers corners;
     std::size_t dimensions = 3;
 };
 
-std::optional<Header> header_of(std::string_view line) {
-    Header header;
+std::optional<DataHeader> data_header_of(std::string_view line) {
     const std::optional<std::int64_t> grains = whole_number_of(take_word(line));
     const std::optional<double> time = number_of(take_word(line));
     const std::optional<Numbers> corners = numbers_of(line);
@@ -38,26 +68,19 @@ std::optional<Header> header_of(std::string_view line) {
     if (corners->size() != 4 && corners->size() != 6) return std::nullopt;
     for (const double corner : *corners)
         if (!std::isfinite(corner)) return std::nullopt;
-    return Header{*grains, *time, *corners, corners->size() / 2};
+    return DataHeader{*grains, *time, *corners, corners->size() / 2};
 }
 
-std::optional<WorldCell> box_of(const Header& header) {
-    WorldCell box;
-    for (std::size_t axis = 0; axis < header.dimensions; ++axis) {
-        const double from = header.corners[axis], to = header.corners[header.dimensions + axis];
-        if (to < from) return std::nullopt;
-        box.origin[static_cast<int>(axis)] = from;
-        box.edges[axis][static_cast<int>(axis)] = to - from;
-    }
-    return box;
+// None where the corners have changed places.
+std::optional<WorldCell> box_of(const DataHeader& header) {
+    for (std::size_t axis = 0; axis < header.dimensions; ++axis)
+        if (header.corners[header.dimensions + axis] < header.corners[axis]) return std::nullopt;
+    return box_between(header.corners);
 }
 
-class MercuryData : public TextFrames {
+class MercuryData : public MercuryFile {
   public:
-    explicit MercuryData(const std::filesystem::path& file) : TextFrames(file) {
-        facts_.format = "MercuryDPM data";
-        facts_.program = "MercuryDPM";
-    }
+    explicit MercuryData(const std::filesystem::path& file) : MercuryFile(file, "MercuryDPM data") {}
 
   protected:
     Passed pass_over(TextLines& lines, RawMoment& moment) override;
@@ -73,7 +96,7 @@ class MercuryData : public TextFrames {
 
 TextFrames::Passed MercuryData::pass_over(TextLines& lines, RawMoment& moment) {
     if (!lines.next_filled()) return Passed::end;
-    const std::optional<Header> header = header_of(lines.text());
+    const std::optional<DataHeader> header = data_header_of(lines.text());
     if (!lines.ended()) return Passed::cut;
     const std::uint64_t first = lines.number();
     if (!header)
@@ -105,13 +128,10 @@ void MercuryData::add_row(const TextLines& lines, RawTable& grains) const {
     std::string_view rest = lines.text();
     for (std::size_t i = 0; i < columns(); ++i) {
         const std::string_view word = take_word(rest);
-        const std::optional<double> number = number_of(word);
-        if (!number)
-            lines.fault(
-                fmt::format("column {} ({}) has {}, which is no number", i + 1, name(i), in_quotes(word)));
-        if (i < dimensions_ && !std::isfinite(*number))
+        const double number = number_in_row(lines, word, i + 1, name(i));
+        if (i < dimensions_ && !std::isfinite(number))
             lines.fault(fmt::format("the grain has no place: its {} is {}", name(i), in_quotes(word)));
-        grains.columns[i].values.push_back(*number);
+        grains.columns[i].values.push_back(number);
     }
 }
 
@@ -119,7 +139,7 @@ RawFrame MercuryData::read_frame(TextLines& lines, const RawMoment& moment) cons
     RawFrame frame;
     frame.time = moment.time;
     lines.next_filled();
-    if (const std::optional<Header> header = header_of(lines.text())) frame.box = box_of(*header);
+    if (const std::optional<DataHeader> header = data_header_of(lines.text())) frame.box = box_of(*header);
     for (std::size_t i = 0; i < columns(); ++i) frame.grains.columns.push_back({name(i), {}, {}});
     for (std::int64_t i = 0; i < moment.grains; ++i) {
         if (!lines.next()) lines.fault("the file has become shorter while it was read");
@@ -133,33 +153,22 @@ bool takes_mercury_data(const FileHead& head) {
     if (head.folder) return false;
     const std::vector<std::string_view> lines = lines_of(head, 2);
     if (lines.empty()) return false;
-    const std::optional<Header> header = header_of(lines[0]);
+    const std::optional<DataHeader> header = data_header_of(lines[0]);
     if (!header) return false;
     if (lines.size() < 2) return header->grains == 0 || head.bytes.size() < kHeadBytes;
-    if (header->grains == 0) return header_of(lines[1]).has_value();
+    if (header->grains == 0) return data_header_of(lines[1]).has_value();
     const std::optional<Numbers> row = numbers_of(lines[1]);
     return row && row->size() == (header->dimensions == 2 ? names_2d.size() : names_3d.size());
 }
 
-}  // namespace
-
-RawFormat mercury_data_format() {
-    return {"mercury-data", "grains of MercuryDPM (.data)", takes_mercury_data,
-            open_text_frames<MercuryData>};
-}
-
-// MercuryDPM's .fstat: three lines with "#" before the contacts of each frame. Version 1 has each pair twice,
-// once from either side; a pair is given once. A partner with a negative number is a wall.
-
-namespace {
-
-using Numbers = std::vector<double>;
+// Contacts. Three lines with "#" stand before those of each frame. Version 1 of the format has each pair
+// twice, once from either side; here it is given once. A partner with a negative number is a wall.
 
 constexpr std::size_t columns_of_file = 16;  // the first is the time
-constexpr std::array<const char*, 15> names{"id1", "id2", "x",  "y",  "z",  "overlap", "tangential_overlap",
-                                            "Fn",  "Ft",  "nx", "ny", "nz", "tx",      "ty",
-                                            "tz"};
-constexpr std::size_t first_place = 2;  // of the names
+constexpr std::array<const char*, 15> contact_names{
+    "id1", "id2", "x",  "y",  "z",  "overlap", "tangential_overlap", "Fn", "Ft",
+    "nx",  "ny",  "nz", "tx", "ty", "tz"};
+constexpr std::size_t first_place = 2;  // among the names
 
 std::optional<Numbers> numbers_of_remark(std::string_view line) {
     line = trimmed(line);
@@ -167,32 +176,25 @@ std::optional<Numbers> numbers_of_remark(std::string_view line) {
     return numbers_of(line.substr(1));
 }
 
-struct Header {
+struct ContactsHeader {
     double time = 0;
     WorldCell box;
 };
 
 // The header that these three lines are, or none.
-std::optional<Header> header_of(const std::array<std::optional<Numbers>, 3>& lines) {
+std::optional<ContactsHeader> contacts_header_of(const std::array<std::optional<Numbers>, 3>& lines) {
     if (!lines[0] || !lines[1] || !lines[2]) return std::nullopt;
     if (lines[0]->size() != 2 || lines[1]->size() != 6 || lines[2]->size() < 6) return std::nullopt;
     if (!std::isfinite(lines[0]->front())) return std::nullopt;
-    Header header;
+    ContactsHeader header;
     header.time = lines[0]->front();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double from = (*lines[1])[axis], to = (*lines[1])[axis + 3];
-        header.box.origin[static_cast<int>(axis)] = from;
-        header.box.edges[axis][static_cast<int>(axis)] = std::max(0.0, to - from);
-    }
+    header.box = box_between(*lines[1]);
     return header;
 }
 
-class MercuryContacts : public TextFrames {
+class MercuryContacts : public MercuryFile {
   public:
-    explicit MercuryContacts(const std::filesystem::path& file) : TextFrames(file) {
-        facts_.format = "MercuryDPM contacts";
-        facts_.program = "MercuryDPM";
-    }
+    explicit MercuryContacts(const std::filesystem::path& file) : MercuryFile(file, "MercuryDPM contacts") {}
 
   protected:
     Passed pass_over(TextLines& lines, RawMoment& moment) override;
@@ -205,13 +207,13 @@ class MercuryContacts : public TextFrames {
 };
 
 // Reads the header; none where the file ends within it.
-std::optional<Header> read_header(TextLines& lines) {
+std::optional<ContactsHeader> read_header(TextLines& lines) {
     std::array<std::optional<Numbers>, 3> three;
     for (std::optional<Numbers>& one : three) {
         if (!lines.next_filled() || !lines.ended()) return std::nullopt;
         one = numbers_of_remark(lines.text());
     }
-    std::optional<Header> header = header_of(three);
+    std::optional<ContactsHeader> header = contacts_header_of(three);
     if (!header) lines.fault("the three lines with # that begin a frame must end here: time, box, radii");
     return header;
 }
@@ -233,7 +235,7 @@ MercuryContacts::Row MercuryContacts::next_row(TextLines& lines) const {
 TextFrames::Passed MercuryContacts::pass_over(TextLines& lines, RawMoment& moment) {
     if (!lines.next_filled()) return Passed::end;
     lines.put_back();
-    const std::optional<Header> header = read_header(lines);
+    const std::optional<ContactsHeader> header = read_header(lines);
     if (!header) return Passed::cut;
     moment.time = header->time;
     moment.has_contacts = true;
@@ -249,19 +251,17 @@ Numbers MercuryContacts::numbers(const TextLines& lines) const {
     Numbers row;
     std::string_view rest = lines.text();
     take_word(rest);
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t i = 0; i < contact_names.size(); ++i) {
         const std::string_view word = take_word(rest);
-        const std::optional<double> number = number_of(word);
-        if (!number)
-            lines.fault(
-                fmt::format("column {} ({}) has {}, which is no number", i + 2, names[i], in_quotes(word)));
-        const bool whole = std::isfinite(*number) && std::floor(*number) == *number;
+        const double number = number_in_row(lines, word, i + 2, contact_names[i]);
+        const bool whole = std::isfinite(number) && std::floor(number) == number;
         if (i < first_place && !whole)
+            lines.fault(fmt::format("column {} ({}) has {}, which is no grain", i + 2, contact_names[i],
+                                    in_quotes(word)));
+        if (i >= first_place && i < first_place + 3 && !std::isfinite(number))
             lines.fault(
-                fmt::format("column {} ({}) has {}, which is no grain", i + 2, names[i], in_quotes(word)));
-        if (i >= first_place && i < first_place + 3 && !std::isfinite(*number))
-            lines.fault(fmt::format("the contact has no place: its {} is {}", names[i], in_quotes(word)));
-        row.push_back(*number);
+                fmt::format("the contact has no place: its {} is {}", contact_names[i], in_quotes(word)));
+        row.push_back(number);
     }
     return row;
 }
@@ -269,8 +269,8 @@ Numbers MercuryContacts::numbers(const TextLines& lines) const {
 RawFrame MercuryContacts::read_frame(TextLines& lines, const RawMoment& moment) const {
     RawFrame frame;
     frame.time = moment.time;
-    if (const std::optional<Header> header = read_header(lines)) frame.box = header->box;
-    for (const char* name : names) frame.contacts.columns.push_back({name, {}, {}});
+    if (const std::optional<ContactsHeader> header = read_header(lines)) frame.box = header->box;
+    for (const char* name : contact_names) frame.contacts.columns.push_back({name, {}, {}});
     std::map<std::pair<double, double>, int> waiting;  // pairs that were not yet seen from the other side
     while (next_row(lines) == Row::row) {
         const Numbers row = numbers(lines);
@@ -289,11 +289,16 @@ RawFrame MercuryContacts::read_frame(TextLines& lines, const RawMoment& moment) 
 bool takes_mercury_contacts(const FileHead& head) {
     if (head.folder) return false;
     const std::vector<std::string_view> lines = lines_of(head, 3);
-    return lines.size() == 3 &&
-           header_of({numbers_of_remark(lines[0]), numbers_of_remark(lines[1]), numbers_of_remark(lines[2])});
+    return lines.size() == 3 && contacts_header_of({numbers_of_remark(lines[0]), numbers_of_remark(lines[1]),
+                                                    numbers_of_remark(lines[2])});
 }
 
 }  // namespace
+
+RawFormat mercury_data_format() {
+    return {"mercury-data", "grains of MercuryDPM (.data)", takes_mercury_data,
+            open_text_frames<MercuryData>};
+}
 
 RawFormat mercury_contacts_format() {
     return {"mercury-contacts", "contacts of MercuryDPM (.fstat)", takes_mercury_contacts,
