@@ -3,7 +3,7 @@
 
 #include "engine/measure/fields/field_names.hpp"
 #include "engine/measure/fields/field_record.hpp"
-#include "engine/measure/fields/state_builder.hpp"
+#include "engine/measure/fields/field_state.hpp"
 #include "engine/measure/observer.hpp"
 
 namespace grainreel::observers {

@@ -3,7 +3,7 @@
 
 #include "engine/measure/fields/coarse_graining_observer.hpp"
 #include "engine/measure/fields/field_record.hpp"
-#include "engine/measure/fields/state_builder.hpp"
+#include "engine/measure/fields/field_state.hpp"
 #include "tests/physics/fields/field_scene.hpp"
 
 namespace grainreel {
