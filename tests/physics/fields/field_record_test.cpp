@@ -1,5 +1,5 @@
 // Fields of whole runs: what a bed at rest weighs, alike on any number of threads, and through a checkpoint.
-#include "engine/measure/fields/field_record.hpp"
+#include "engine/measure/fields/coarse_graining_observer.hpp"
 
 #include <gtest/gtest.h>
 

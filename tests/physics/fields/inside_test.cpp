@@ -4,7 +4,7 @@
 #include <numeric>
 #include <random>
 
-#include "engine/measure/fields/field_names.hpp"
+#include "engine/measure/fields/coarse_graining_observer.hpp"
 #include "engine/scene/bed.hpp"
 #include "tests/physics/fields/field_scene.hpp"
 
