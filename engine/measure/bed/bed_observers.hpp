@@ -10,7 +10,6 @@
 #include "engine/measure/heights.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/rows.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/plan/times.hpp"

@@ -7,7 +7,6 @@
 
 #include "engine/measure/flow/drift.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/rows.hpp"
 
 namespace grainreel::observers {
 

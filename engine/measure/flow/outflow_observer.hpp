@@ -10,7 +10,6 @@
 
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/rows.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/step/geometry/wall_sums.hpp"
 

@@ -14,7 +14,6 @@
 
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/rows.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/measure/walls/wall_work.hpp"
 #include "engine/state/container_faces.hpp"
