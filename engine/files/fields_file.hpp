@@ -15,7 +15,7 @@
 
 #include "engine/files/file_facts.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
-#include "engine/measure/field.hpp"
+#include "engine/measure/measures.hpp"
 
 namespace grainreel {
 

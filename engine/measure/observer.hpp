@@ -21,7 +21,7 @@
 
 #include "engine/base/binary.hpp"
 #include "engine/base/clock.hpp"
-#include "engine/measure/field.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/plan/times.hpp"
 #include "engine/scene/output.hpp"

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "engine/base/binary.hpp"
-#include "engine/measure/field.hpp"
 #include "engine/measure/fields/coarse_graining.hpp"
 #include "engine/measure/fields/field_state.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/plan/times.hpp"
 

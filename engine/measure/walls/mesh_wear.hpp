@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/measure/field.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

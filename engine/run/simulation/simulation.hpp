@@ -12,7 +12,6 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/frame.hpp"
-#include "engine/measure/field.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
