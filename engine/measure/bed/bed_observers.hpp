@@ -7,7 +7,6 @@
 
 #include "engine/measure/bed/bed_motion.hpp"
 #include "engine/measure/bed/bed_shape.hpp"
-#include "engine/measure/heights.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/segregation/segregation.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/vector.hpp"
@@ -80,5 +81,14 @@ class SideWalls {
     std::vector<Face> faces_;
     double gap_ = 0;  // m
 };
+
+// Heights of grains above the floor. m.
+
+// Heights of all grains' centres above the floor, or of those of one species. floor: m, its height.
+std::vector<double> heights_above(const Grains& grains, double floor,
+                                  std::optional<std::size_t> species = {});
+
+// Mean of each of so many species.
+std::vector<double> mean_heights(const Grains& grains, std::size_t species, double floor);
 
 }  // namespace grainreel

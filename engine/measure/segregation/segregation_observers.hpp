@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/measure/heights.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/segregation/segregation.hpp"
