@@ -7,7 +7,7 @@
 
 #include "engine/measure/bed/bed_observers.hpp"
 #include "engine/measure/drive_observers.hpp"
-#include "engine/measure/energy/energy_observers.hpp"
+#include "engine/measure/energy_observers.hpp"
 #include "engine/measure/fields/coarse_graining_observer.hpp"
 #include "engine/measure/flow/convection_observer.hpp"
 #include "engine/measure/flow/outflow_observer.hpp"

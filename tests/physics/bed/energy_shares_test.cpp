@@ -1,6 +1,6 @@
 // The energy balance as an instrument of a run: its terms are what is lost, at any number of threads and when
 // a run is taken up again.
-#include "engine/measure/energy/energy_observers.hpp"
+#include "engine/measure/energy_observers.hpp"
 
 #include <gtest/gtest.h>
 
