@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "engine/measure/energy/energy.hpp"
-#include "engine/measure/energy/energy_balance.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/measure/observer.hpp"
 
 namespace grainreel::observers {
@@ -45,7 +44,7 @@ class Energies final : public Observer {
 }  // namespace grainreel::observers
 
 // Where the energy goes, term by term: each is measured at the contacts, and none is the rest of the others.
-// The formulas are those of engine/measure/energy/energy_balance.hpp.
+// The formulas are those of engine/measure/energy.hpp.
 
 namespace grainreel::observers {
 

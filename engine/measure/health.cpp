@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/measure/energy/energy.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/step/wall_name.hpp"
 
 namespace grainreel {

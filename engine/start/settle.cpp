@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/measure/energy/energy.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/measure/health.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "engine/measure/energy/energy.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "engine/measure/energy/energy.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

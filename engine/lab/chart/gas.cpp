@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "engine/base/random.hpp"
-#include "engine/measure/energy/energy.hpp"
-#include "engine/measure/energy/energy_balance.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/step/motion/scheme.hpp"
 

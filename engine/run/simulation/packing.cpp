@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
-#include "engine/measure/energy/energy.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/mesh/load_mesh.hpp"

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/measure/energy/energy.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
 #include "engine/start/rain.hpp"
 #include "engine/step/fed_grain.hpp"

@@ -1,5 +1,5 @@
 // The energy balance, term by term: each against its closed form, and all together over vibrated beds.
-#include "engine/measure/energy/energy_balance.hpp"
+#include "engine/measure/energy.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "engine/measure/columns.hpp"
-#include "engine/measure/energy/energy_balance.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/scene_surroundings.hpp"

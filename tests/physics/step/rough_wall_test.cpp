@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/measure/columns.hpp"
-#include "engine/measure/energy/energy_balance.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"

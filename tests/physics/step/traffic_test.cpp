@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "engine/base/binary.hpp"
-#include "engine/measure/energy/energy_balance.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/start/restart.hpp"
 #include "tests/physics/world.hpp"
 

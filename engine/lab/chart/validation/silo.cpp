@@ -9,7 +9,7 @@
 #include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
-#include "engine/measure/energy/energy.hpp"
+#include "engine/measure/energy.hpp"
 
 namespace grainreel {
 

@@ -1,11 +1,4 @@
-// The energy balance of a run, term by term: what walls give and what contacts take is measured at the
-// contacts, and none of it is inferred from the others. What is left is the error of the finite step.
-//
-// Latching takes what its law says, the area between its slopes: (K1/2)(1 - e^2) a_max^2, as a_max grows.
-// Friction takes T . ds less what its springs keep, dashpots their force times velocity, walls give theirs
-// times the wall's velocity; all three by the trapezoidal rule over the steps. With velocity Verlet that rule
-// is what the step itself does with a force: sum dt F . v is the change of m v^2 / 2 to the last digit, but
-// for m (dt a)^2 / 8 at either end (by expanding Swope et al. 1982, J. Chem. Phys. 76, 637).
+// Energies of the grains. J.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +8,42 @@
 #include <vector>
 
 #include "engine/base/binary.hpp"
+#include "engine/state/grains.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {
+
+class StepLoop;
+struct Surroundings;
+
+struct Kinetic {
+    double translation = 0, rotation = 0;
+};
+
+Kinetic kinetic_energy(const Grains& grains);
+double gravitational_energy(const Grains& grains, const Vec3& gravity);  // zero at the origin
+double wall_work(const Grains& grains);  // by moving walls, since the drive started
+
+// What all contacts would give back, and how they stand. One pass over the contacts.
+struct ContactSummary {
+    double stored = 0;           // J
+    double carrying = 0;         // contacts that carry force, a pair counted for both grains
+    double largest_overlap = 0;  // over the smaller radius
+};
+ContactSummary summarise_contacts(const StepLoop& loop, std::int64_t step);
+
+// J: kinetic, rotational, gravitational and elastic together.
+double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop,
+                    std::int64_t step);
+
+// The energy balance of a run, term by term: what walls give and what contacts take is measured at the
+// contacts, and none of it is inferred from the others. What is left is the error of the finite step.
+//
+// Latching takes what its law says, the area between its slopes: (K1/2)(1 - e^2) a_max^2, as a_max grows.
+// Friction takes T . ds less what its springs keep, dashpots their force times velocity, walls give theirs
+// times the wall's velocity; all three by the trapezoidal rule over the steps. With velocity Verlet that rule
+// is what the step itself does with a force: sum dt F . v is the change of m v^2 / 2 to the last digit, but
+// for m (dt a)^2 / 8 at either end (by expanding Swope et al. 1982, J. Chem. Phys. 76, 637).
 
 struct EnergyTerms {
     double kinetic = 0, rotational = 0, gravitational = 0, stored = 0;  // J, now
