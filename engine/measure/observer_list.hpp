@@ -9,7 +9,7 @@
 #include "engine/measure/drive_observers.hpp"
 #include "engine/measure/energy_observers.hpp"
 #include "engine/measure/fields/coarse_graining_observer.hpp"
-#include "engine/measure/flow/convection_observer.hpp"
+#include "engine/measure/flow/drift.hpp"
 #include "engine/measure/flow/outflow_observer.hpp"
 #include "engine/measure/segregation/segregation_observers.hpp"
 #include "engine/measure/surface/drum_surface.hpp"
