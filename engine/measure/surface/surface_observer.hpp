@@ -8,7 +8,6 @@
 
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
-#include "engine/measure/surface/spectrum.hpp"
 #include "engine/measure/surface/surface.hpp"
 
 namespace grainreel::observers {

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "engine/base/random.hpp"
-#include "engine/measure/surface/spectrum.hpp"
 #include "engine/measure/surface/surface.hpp"
 
 namespace grainreel {
