@@ -15,7 +15,6 @@
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
-#include "engine/measure/walls/wall_work.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel::observers {
