@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
-#include "engine/step/wall_name.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/grain_table.hpp"
-#include "engine/step/wall_name.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 
