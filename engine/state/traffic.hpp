@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -58,5 +59,11 @@ struct Traffic {
 
     bool any() const { return came != 0 || left != 0 || next_id != 0 || openings != 0; }
 };
+
+// The grains that feeds give: which one comes as a feed's n-th is settled by the scene and its seed, so that
+// how many have come tells what has come.
+
+// All but its place. feed: which of the scene's; number: from 0.
+NewGrain fed_grain(const Scene& scene, std::size_t feed, std::int64_t number);
 
 }  // namespace grainreel

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "engine/state/grains.hpp"
-#include "engine/step/fed_grain.hpp"
+#include "engine/state/traffic.hpp"
 
 namespace grainreel {
 

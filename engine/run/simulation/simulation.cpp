@@ -11,7 +11,7 @@
 #include "engine/measure/energy.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
 #include "engine/start/rain.hpp"
-#include "engine/step/fed_grain.hpp"
+#include "engine/state/traffic.hpp"
 #include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 #include "engine/measure/flow/drift.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/step/fed_grain.hpp"
+#include "engine/state/traffic.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"

@@ -1,4 +1,4 @@
-#include "engine/step/fed_grain.hpp"
+#include "engine/state/traffic.hpp"
 
 #include "engine/base/random.hpp"
 #include "engine/scene/bed.hpp"
