@@ -72,4 +72,24 @@ struct Frame {
 
 using FramePtr = std::shared_ptr<const Frame>;
 
+// A contact that carries force, as files keep it.
+
+struct ContactRecord {
+    std::int32_t first, second;  // ids; second is -1 - wall for a wall: faces first, then meshes
+    double normal;               // N, >= 0
+    Vec3 tangential;             // N, on `second`
+    Vec3 point;                  // m
+    std::int32_t triangle = -1;  // of a mesh: where it is touched
+    bool operator==(const ContactRecord&) const = default;
+};
+
+// A force on a body at the point where it acts.
+
+struct PointForce {
+    Vec3 at;                       // m
+    Vec3 force;                    // N
+    bool pulls = false;            // its arrow begins at the point; else it ends there
+    std::optional<Vec3> centre{};  // m, of the grain that it is a force of
+};
+
 }  // namespace grainreel

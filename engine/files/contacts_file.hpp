@@ -17,7 +17,6 @@
 #include "engine/files/file_facts.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/frame.hpp"
-#include "engine/state/contact_record.hpp"
 
 namespace grainreel {
 

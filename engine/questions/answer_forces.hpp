@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/frame.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "engine/state/point_force.hpp"
 
 namespace grainreel {
 

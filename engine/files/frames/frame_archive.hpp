@@ -15,7 +15,6 @@
 #include "engine/files/frame_faults.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
-#include "engine/state/contact_record.hpp"
 
 namespace grainreel {
 

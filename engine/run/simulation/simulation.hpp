@@ -15,7 +15,6 @@
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/state/contact_record.hpp"
 #include "engine/state/traffic.hpp"
 
 namespace grainreel {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/frame.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/questions/ray.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "engine/state/point_force.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/marks/force_marks.hpp"

@@ -7,7 +7,6 @@
 
 #include "engine/frame.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/point_force.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"

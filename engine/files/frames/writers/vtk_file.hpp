@@ -12,7 +12,6 @@
 
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
-#include "engine/state/contact_record.hpp"
 
 namespace grainreel {
 
