@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "engine/base/text.hpp"
-#include "engine/run/driver/useful_threads.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "grainreel/simulation.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/run/driver/useful_threads.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
+#include "engine/run/simulation/simulation.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/run/driver/also_exports.hpp"
-#include "engine/run/driver/useful_threads.hpp"
+#include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -1,3 +1,4 @@
+#include "engine/run/simulation/simulation.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
+#include "engine/base/team.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
 #include "engine/start/rain.hpp"
@@ -289,6 +291,16 @@ void Feeder::check_patience(std::size_t feed, double time) const {
         "the container",
         scene_.where(fmt::format("feed[{}]", feed)), time, given_[feed] + 1,
         scene_.species[from.species].name, waited));
+}
+
+constexpr std::int64_t grains_a_thread = 500;  // fewer, and the barriers cost more than the company is worth
+
+int useful_threads(int processors, std::int64_t grains) {
+    return static_cast<int>(std::clamp<std::int64_t>(grains / grains_a_thread, 1, processors));
+}
+
+int engine_threads(const Scene& scene) {
+    return useful_threads(scene.run.threads > 0 ? scene.run.threads : usable_processors(), scene.grains());
 }
 
 }  // namespace grainreel

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
-#include "engine/run/driver/useful_threads.hpp"
+#include "engine/run/simulation/simulation.hpp"
 
 namespace grainreel {
 
