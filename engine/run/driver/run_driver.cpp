@@ -11,7 +11,7 @@
 #include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/driver/agenda.hpp"
-#include "engine/run/packings/packing_cache.hpp"
+#include "engine/run/driver/packing_cache.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "engine/vector/instructions.hpp"

@@ -12,7 +12,7 @@
 #include <fstream>
 
 #include "engine/measure/columns.hpp"
-#include "engine/run/packings/packing_cache.hpp"
+#include "engine/run/driver/packing_cache.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/cli/program.hpp"

@@ -1,15 +1,13 @@
-#include "engine/run/packings/packing_cache.hpp"
+#include "engine/run/driver/packing_cache.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
-
+#include <xxhash.h>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <system_error>
 #include <vector>
-
-#include <fmt/format.h>
-#include <xxhash.h>
 
 #include "engine/base/program.hpp"
 
