@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/lab/bench/bench_case.hpp"
-#include "engine/step/threads/cost_clock.hpp"
+#include "engine/step/threads/work_shares.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,7 @@
 #include "engine/step/lists/large_bed.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
 #include "engine/step/motion/integrate.hpp"
-#include "engine/step/threads/cost_clock.hpp"
+#include "engine/step/threads/work_shares.hpp"
 
 namespace grainreel {
 

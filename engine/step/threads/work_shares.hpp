@@ -2,9 +2,11 @@
 // run do not depend on the ranges.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/processor.hpp"
 #include "engine/base/team.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/threads/halo.hpp"
@@ -64,6 +66,37 @@ class WorkShares {
     std::vector<Thread> threads_;
     Shares share_, last_share_;
     Shares search_share_, last_search_share_;
+};
+
+// Measures where a thread's time goes. It is off unless someone asks for it. It then reads the processor's
+// counter several times for each chunk of contacts.
+
+// neighbours: lists and cells. contacts: geometry and laws of pairs. gather: their forces into the grains'
+// loads. walls: all of that for walls. integrate: kicks and drifts. other: waiting for threads, and the rest.
+enum class Cost { neighbours, contacts, walls, gather, integrate, other };
+constexpr int kCosts = 6;
+
+class CostClock {
+  public:
+    // Counts from nothing.
+    void clear() { spent_.fill(0); }
+    void turn(bool on) { on_ = on; }
+    void start() {
+        if (on_) last_ = ticks();
+    }
+    // The time since start() or the last lap() went into `cost`.
+    void lap(Cost cost) {
+        if (!on_) return;
+        const std::uint64_t now = ticks();
+        spent_[static_cast<int>(cost)] += static_cast<double>(now - last_);
+        last_ = now;
+    }
+    const std::array<double, kCosts>& spent() const { return spent_; }  // ticks; their length is not known
+
+  private:
+    bool on_ = false;
+    std::uint64_t last_ = 0;
+    std::array<double, kCosts> spent_{};
 };
 
 }  // namespace grainreel
