@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "engine/step/forces/loads.hpp"
-#include "engine/step/forces/point_loads.hpp"
 #include "engine/step/lists/large_bed.hpp"
 
 namespace grainreel {

@@ -1,7 +1,7 @@
 // Loads of meshes as point_loads.cpp adds them, for a register of contacts at once.
 #include <algorithm>
 
-#include "engine/step/forces/point_loads.hpp"
+#include "engine/step/forces/loads.hpp"
 #include "engine/step/lists/contact_rules.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,4 +1,4 @@
-#include "engine/step/forces/point_loads.hpp"
+#include "engine/step/forces/loads.hpp"
 
 #include "engine/step/lists/contact_rules.hpp"
 
