@@ -19,7 +19,7 @@
 #include "engine/step/lists/contact_rules.hpp"
 #include "engine/step/lists/contact_table.hpp"
 #include "engine/step/lists/mesh_near.hpp"
-#include "engine/step/motion/loaded.hpp"
+#include "engine/step/motion/integrate.hpp"
 #include "engine/step/threads/halo.hpp"
 
 namespace grainreel {
