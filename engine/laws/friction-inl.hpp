@@ -6,6 +6,8 @@
 #define GRAINREEL_LAWS_FRICTION_INL
 #endif
 
+#include "engine/laws/touch-inl.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/vector/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,6 +32,36 @@ template <class R>
 HWY_INLINE R squared_within(const Triple<R>& force, R limit) {
     return smaller(force.squared(), limit * limit);
 }
+
+// Carrying a tangential force along with a contact that turns.
+
+// Turns `force` as its contact has turned: Cayley's rotation, about the axis of `turn` by 2 atan |turn|,
+// exact in length. Projection alone, as in the original program, cannot see the twist. What rounding leaves
+// of it along `normal`, the contact's own of now, goes.
+template <class R>
+HWY_INLINE Triple<R> carry_along(const Triple<R>& force, const Triple<R>& turn, const Triple<R>& normal) {
+    const Triple<R> once = turn.cross(force), twice = turn.cross(once);
+    return force.plus(once + twice, R(2) / (R(1) + turn.squared())).across(normal);
+}
+
+// No tangential force: no history, no torque, no spin.
+
+struct Frictionless {
+    static constexpr bool rubs = false, gains_by_onset = false;
+
+    template <class R>
+    struct Parameters {
+        template <class Each>
+        HWY_INLINE void each(const Each&) {}
+    };
+    static Parameters<double> from(const PairPlan&) { return {}; }
+
+    template <class R>
+    struct History {
+        template <class Each>
+        HWY_INLINE void each(const Each&) {}
+    };
+};
 
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -13,7 +13,6 @@
 #define GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
 #endif
 
-#include "engine/laws/carry-inl.hpp"
 #include "engine/laws/friction-inl.hpp"
 #include "engine/laws/power-inl.hpp"
 #include "engine/laws/touch-inl.hpp"

@@ -8,7 +8,6 @@
 #define GRAINREEL_LAWS_LINEAR_SPRING_INL
 #endif
 
-#include "engine/laws/carry-inl.hpp"
 #include "engine/laws/friction-inl.hpp"
 #include "engine/laws/touch-inl.hpp"
 #include "engine/plan/plan.hpp"

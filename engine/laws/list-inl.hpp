@@ -8,7 +8,7 @@
 #endif
 
 #include "engine/laws/contact_law-inl.hpp"
-#include "engine/laws/frictionless-inl.hpp"
+#include "engine/laws/friction-inl.hpp"
 #include "engine/laws/hertz-inl.hpp"
 #include "engine/laws/incremental_slip-inl.hpp"
 #include "engine/laws/kernel-inl.hpp"

@@ -10,7 +10,6 @@
 #define GRAINREEL_LAWS_MINDLIN_INL
 #endif
 
-#include "engine/laws/carry-inl.hpp"
 #include "engine/laws/friction-inl.hpp"
 #include "engine/laws/touch-inl.hpp"
 #include "engine/plan/plan.hpp"

@@ -12,7 +12,6 @@
 #define GRAINREEL_LAWS_ROLLING_INL
 #endif
 
-#include "engine/laws/carry-inl.hpp"
 #include "engine/laws/friction-inl.hpp"
 #include "engine/plan/plan.hpp"
 

@@ -25,7 +25,7 @@ Vec3 vector_at(const Row* rows, int c) {
     return {rows[0][c], rows[1][c], rows[2][c]};
 }
 
-// As the program's laws do (engine/laws/carry-inl.hpp): Cayley's rotation, then across the normal.
+// As the program's laws do (engine/laws/friction-inl.hpp): Cayley's rotation, then across the normal.
 Vec3 carried(const Vec3& vector, const Vec3& turn, const Vec3& normal) {
     const Vec3 once = turn.cross(vector), twice = turn.cross(once);
     const Vec3 turned = vector + (once + twice) * (2 / (1 + turn.squaredNorm()));

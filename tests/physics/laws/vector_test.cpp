@@ -5,7 +5,7 @@
 #include <random>
 
 #include "engine/laws/contact_law-inl.hpp"
-#include "engine/laws/frictionless-inl.hpp"
+#include "engine/laws/friction-inl.hpp"
 #include "engine/laws/hertz-inl.hpp"
 #include "engine/laws/incremental_slip-inl.hpp"
 #include "engine/laws/law_kernel.hpp"
