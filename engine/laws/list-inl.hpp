@@ -14,7 +14,7 @@
 #include "engine/laws/kernel-inl.hpp"
 #include "engine/laws/linear_spring-inl.hpp"
 #include "engine/laws/mindlin-inl.hpp"
-#include "engine/laws/rolling_kernel-inl.hpp"
+#include "engine/laws/rolling-inl.hpp"
 #include "engine/laws/spring_dashpot-inl.hpp"
 #include "engine/laws/walton_braun-inl.hpp"
 #include "engine/laws/walton_braun_corrected-inl.hpp"
