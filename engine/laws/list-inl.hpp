@@ -19,7 +19,6 @@
 #include "engine/laws/walton_braun-inl.hpp"
 #include "engine/laws/walton_braun_corrected-inl.hpp"
 #include "engine/laws/walton_braun_speed-inl.hpp"
-#include "engine/laws/walton_braun_table-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

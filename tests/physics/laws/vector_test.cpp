@@ -15,7 +15,6 @@
 #include "engine/laws/walton_braun-inl.hpp"
 #include "engine/laws/walton_braun_corrected-inl.hpp"
 #include "engine/laws/walton_braun_speed-inl.hpp"
-#include "engine/laws/walton_braun_table-inl.hpp"
 #include "engine/step/lists/histories.hpp"
 #include "tests/instruction_sets.hpp"
 #include "tests/physics/one_lane.hpp"
