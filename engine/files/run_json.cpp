@@ -248,8 +248,6 @@ std::vector<AcceptedKey> accepted_in_run_json(const std::filesystem::path& path)
 
 namespace {
 
-using Json = nlohmann::json;
-
 std::string text_at(const Json& object, const char* key) {
     return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string();
 }

@@ -1,3 +1,5 @@
+// The frames of another program's run: its moments, its world and its grains in SI. The files are chosen in
+// foreign_files.cpp, and walls are followed in foreign_walls.cpp.
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <algorithm>
@@ -9,61 +11,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/names.hpp"
-#include "engine/files/foreign/raw_series.hpp"
 
 namespace grainreel {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// What a file holds, by its first frame.
-enum class Holds { nothing, grains, contacts, walls };
-
-Holds what_holds(const fs::path& file) {
-    const RawFormat* format = raw_format_of(file);
-    if (format == nullptr) return Holds::nothing;
-    try {
-        const std::unique_ptr<RawFile> one = format->open(file);
-        for (const RawMoment& moment : one->moments()) {
-            if (moment.grains > 0) return Holds::grains;
-            if (moment.has_walls) return Holds::walls;
-            if (moment.has_contacts) return Holds::contacts;
-        }
-        return one->moments().empty() ? Holds::nothing : Holds::grains;
-    } catch (const UserError&) {
-        return Holds::nothing;
-    }
-}
-
-bool is_passed_over(const fs::path& file) {
-    return file.filename().string().find("_boundingBox") != std::string::npos;
-}
-
-std::vector<fs::path> without_passed_over(std::vector<fs::path> files) {
-    std::erase_if(files, is_passed_over);
-    return files;
-}
-
-std::vector<fs::path> files_named(const std::string& name) {
-    const fs::path path = name;
-    std::error_code ignored;
-    if (is_pattern(path)) return without_passed_over(files_of_pattern(path));
-    if (fs::is_directory(path, ignored)) return without_passed_over(files_in(path));
-    return {path};
-}
-
-}  // namespace
-
-bool is_foreign(const fs::path& path) {
-    std::error_code ignored;
-    if (is_pattern(path)) return true;
-    if (!fs::is_directory(path, ignored)) return fs::exists(path, ignored) && raw_format_of(path) != nullptr;
-    if (fs::exists(path / "scene.toml", ignored)) return false;
-    for (const fs::path& file : files_in(path))
-        if (!is_passed_over(file) && raw_format_of(file) != nullptr) return true;
-    return false;
-}
 
 ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& options, Looks looks)
     : path_(path), options_(options), looks_(looks) {
@@ -76,100 +27,6 @@ ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& optio
     match_walls();
     for (std::size_t w = 0; w < walls_.size(); ++w) world_.bodies[kFirstPlaneBody + w].mesh = walls_[w].shape;
     decide_velocities();
-}
-
-void ForeignArchive::choose_files() {
-    std::error_code ignored;
-    const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
-    if (many) {
-        choose_from(files_named(path_.string()));
-    } else {
-        const FileGroup series = series_of(path_);
-        if (options_.one || series.files.size() == 1) {
-            grains_ = std::make_unique<RawSeries>(std::vector<fs::path>{path_});
-            if (series.files.size() > 1)
-                news_.push_back(fmt::format("{}: is one of {} numbered files; '{}' is all of them",
-                                            path_.string(), series.files.size(), series.pattern));
-        } else {
-            grains_ = std::make_unique<RawSeries>(series.files);
-            news_.push_back(
-                fmt::format("{}: is one of {} numbered files, and all are read; --one reads it alone",
-                            path_.string(), series.files.size()));
-        }
-        add_companions(path_);
-    }
-    if (!options_.contacts.empty()) {
-        std::vector<fs::path> files;
-        for (const std::string& name : options_.contacts)
-            for (fs::path& file : files_named(name)) files.push_back(std::move(file));
-        contacts_ =
-            std::make_unique<RawSeries>(grouped(files).size() == 1 ? grouped(files).front().files : files);
-    }
-    for (const std::string& name : options_.walls)
-        for (FileGroup& group : grouped(files_named(name))) wall_files_.push_back(std::move(group.files));
-    all_files_ = grains_->files();
-    if (contacts_) all_files_.insert(all_files_.end(), contacts_->files().begin(), contacts_->files().end());
-    for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
-}
-
-// Takes the longest of several series of grains in a folder, because a run is often written in two formats.
-void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
-    const std::vector<FileGroup> groups = grouped(files);
-    const FileGroup* chosen = nullptr;
-    std::vector<const FileGroup*> contacts, walls, others;
-    for (const FileGroup& group : groups) {
-        // The first frames of a series may be empty, so its middle is asked as well.
-        Holds holds = what_holds(group.files.front());
-        if (holds != Holds::walls && group.files.size() > 1) {
-            const Holds middle = what_holds(group.files[group.files.size() / 2]);
-            if (middle != Holds::nothing) holds = middle;
-        }
-        if (holds == Holds::grains) {
-            if (chosen) others.push_back(chosen->files.size() < group.files.size() ? chosen : &group);
-            if (!chosen || chosen->files.size() < group.files.size()) chosen = &group;
-        }
-        if (holds == Holds::contacts) contacts.push_back(&group);
-        if (holds == Holds::walls) walls.push_back(&group);
-    }
-    if (chosen == nullptr)
-        throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at",
-                                    path_.string(), files.size()));
-    grains_ = std::make_unique<RawSeries>(chosen->files);
-    for (const FileGroup* other : others)
-        news_.push_back(
-            fmt::format("{}: holds grains too and is passed over; name it alone to read it", other->pattern));
-    if (options_.contacts.empty() && !contacts.empty())
-        contacts_ = std::make_unique<RawSeries>(contacts.front()->files);
-    if (!options_.walls.empty()) return;
-    // Surfaces that come again at each moment are where they are; a lone file beside them is what they were
-    // made of.
-    const bool moving =
-        std::any_of(walls.begin(), walls.end(), [](const FileGroup* one) { return one->files.size() > 1; });
-    for (const FileGroup* wall : walls) {
-        if (moving && wall->files.size() == 1)
-            news_.push_back(fmt::format(
-                "{}: a single surface beside those of each moment is passed over; --walls takes it",
-                wall->pattern));
-        else
-            wall_files_.push_back(wall->files);
-    }
-}
-
-// MercuryDPM writes NAME.data, NAME.fstat and NAME.restart.
-void ForeignArchive::add_companions(const fs::path& file) {
-    if (grains_->facts().program.find("Mercury") == std::string::npos &&
-        grains_->facts().format.find("Mercury") == std::string::npos)
-        return;
-    std::error_code ignored;
-    fs::path other = file;
-    other.replace_extension(".fstat");
-    if (other != file && options_.contacts.empty() && fs::is_regular_file(other, ignored) &&
-        raw_format_of(other) != nullptr)
-        contacts_ = std::make_unique<RawSeries>(std::vector<fs::path>{other});
-    other.replace_extension(".restart");
-    if (other != file && options_.walls.empty() && fs::is_regular_file(other, ignored) &&
-        what_holds(other) != Holds::nothing)
-        wall_files_.push_back({other});
 }
 
 // Steps and times agree in every moment: where the files' own do not, steps are ticks of a millionth of the
@@ -373,107 +230,6 @@ void ForeignArchive::make_world() {
         wall.name = name;
         world_.bodies.push_back({name, {}, wall.shape});
     }
-}
-
-// Where no other walls are known, the sides and the floor of a box that is not periodic stand for them.
-void ForeignArchive::add_box() {
-    if (!walls_.empty() || !world_.cell || !options_.container.empty()) return;
-    const WorldCell& cell = *world_.cell;
-    const auto solid = [&](std::size_t axis) { return !cell.periodic[axis] && cell.edges[axis].norm() > 0; };
-    TriangleMesh mesh;
-    const auto face = [&](const Vec3& corner, const Vec3& a, const Vec3& b) {
-        const auto first = static_cast<std::int32_t>(mesh.vertices.size());
-        for (const Vec3& vertex : {corner, Vec3(corner + a), Vec3(corner + a + b), Vec3(corner + b)})
-            mesh.vertices.push_back(vertex);
-        mesh.triangles.push_back({first, first + 1, first + 2});
-        mesh.triangles.push_back({first, first + 2, first + 3});
-    };
-    const auto& [x, y, z] = cell.edges;
-    if (!solid(2) || x.norm() == 0 || y.norm() == 0) return;
-    face(cell.origin, x, y);
-    if (solid(0)) face(cell.origin, y, z), face(cell.origin + x, z, y);
-    if (solid(1)) face(cell.origin, z, x), face(cell.origin + y, x, z);
-    MovingWall box;
-    box.name = "box";
-    box.shape = mesh;
-    box.poses = {BodyPose()};
-    walls_.push_back(std::move(box));
-    wall_moments_ = {WallMoment()};
-}
-
-void ForeignArchive::read_walls() {
-    const double unit = options_.walls_scale.value_or(meaning_->units().length);
-    const bool in_frames = std::any_of(grains_->moments().begin(), grains_->moments().end(),
-                                       [](const RawMoment& one) { return one.has_walls; });
-    if (in_frames) {
-        for (std::size_t k = 0; k < moments_.size(); ++k)
-            wall_moments_.push_back({raw_steps_[k], moments_[k].time, raw(k).walls});
-        while (!wall_moments_.empty() && wall_moments_.front().walls.empty())
-            wall_moments_.erase(wall_moments_.begin());
-        walls_ = follow_walls(wall_moments_, unit, path_.string(), news_);
-    }
-    if (!in_frames && wall_files_.size() == 1) {
-        const RawSeries series(wall_files_.front());
-        for (std::size_t k = 0; k < series.moments().size(); ++k) {
-            RawFrame frame = series.read(k);
-            wall_moments_.push_back({frame.step, frame.time, std::move(frame.walls)});
-        }
-        walls_ = follow_walls(wall_moments_, unit, wall_files_.front().front().string(), news_);
-        return;
-    }
-    // Several series: those of one file stand still, and of the others all must have the same moments.
-    for (const std::vector<fs::path>& files : wall_files_) {
-        const RawSeries series(files);
-        std::vector<WallMoment> moments;
-        for (std::size_t k = 0; k < series.moments().size(); ++k) {
-            RawFrame frame = series.read(k);
-            moments.push_back({frame.step, frame.time, std::move(frame.walls)});
-        }
-        std::vector<MovingWall> more = follow_walls(moments, unit, files.front().string(), news_);
-        if (moments.size() > wall_moments_.size()) wall_moments_ = std::move(moments);
-        std::move(more.begin(), more.end(), std::back_inserter(walls_));
-    }
-}
-
-// A wall rests where it is at the first moment of the grains.
-void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
-    const BodyPose rest = wall.poses[first];
-    for (Vec3& vertex : wall.shape.vertices) vertex = rest.moved(vertex);
-    for (BodyPose& pose : wall.poses) {
-        pose.rotation = pose.rotation * rest.rotation.conjugate();
-        pose.place -= pose.rotation * rest.place;
-    }
-}
-
-// The pose of each wall at each moment: the last one that is not later, by step or by time.
-void ForeignArchive::match_walls() {
-    for (std::size_t k = 0; k < moments_.size(); ++k) {
-        std::vector<std::size_t> at;
-        for (const MovingWall& wall : walls_) {
-            std::size_t pose = 0;
-            for (std::size_t m = 1; m < std::min(wall.poses.size(), wall_moments_.size()); ++m) {
-                const WallMoment& moment = wall_moments_[m];
-                const bool reached = moment.step   ? *moment.step <= raw_steps_[k]
-                                     : moment.time ? *moment.time <= moments_[k].time * (1 + 1e-9)
-                                                   : m <= k;
-                if (reached) pose = m;
-            }
-            at.push_back(pose);
-        }
-        if (k == 0)
-            for (std::size_t w = 0; w < walls_.size(); ++w) rest_at_first(walls_[w], at[w]);
-        wall_at_.push_back(std::move(at));
-        Frame& moment = moments_[k];
-        moment.bodies.resize(kFirstPlaneBody + walls_.size());
-        for (std::size_t w = 0; w < walls_.size(); ++w)
-            moment.bodies[kFirstPlaneBody + w] = walls_[w].poses[wall_at_[k][w]];
-    }
-}
-
-const RawTable* ForeignArchive::wall_cells(std::size_t index, std::size_t wall) const {
-    const std::vector<RawTable>& cells = walls_.at(wall).cells;
-    const std::size_t at = wall_at_.at(index).at(wall);
-    return at < cells.size() ? &cells[at] : nullptr;
 }
 
 Frame ForeignArchive::read(std::size_t index) const {

@@ -1,3 +1,6 @@
+// Walls of another program's run. The first half follows surfaces from moment to moment; the second is the
+// part of ForeignArchive that reads the files of walls and finds the pose of each wall at each moment of the
+// grains.
 #include "engine/files/foreign/foreign_walls.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +10,8 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+
+#include "engine/files/foreign/foreign_archive.hpp"
 
 namespace grainreel {
 
@@ -170,6 +175,107 @@ std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, dou
         news.push_back(fmt::format(
             "{}: a wall changes its shape, or is missing at times; it stays as it was before", name));
     return all;
+}
+
+// Where no other walls are known, the sides and the floor of a box that is not periodic stand for them.
+void ForeignArchive::add_box() {
+    if (!walls_.empty() || !world_.cell || !options_.container.empty()) return;
+    const WorldCell& cell = *world_.cell;
+    const auto solid = [&](std::size_t axis) { return !cell.periodic[axis] && cell.edges[axis].norm() > 0; };
+    TriangleMesh mesh;
+    const auto face = [&](const Vec3& corner, const Vec3& a, const Vec3& b) {
+        const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+        for (const Vec3& vertex : {corner, Vec3(corner + a), Vec3(corner + a + b), Vec3(corner + b)})
+            mesh.vertices.push_back(vertex);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first, first + 2, first + 3});
+    };
+    const auto& [x, y, z] = cell.edges;
+    if (!solid(2) || x.norm() == 0 || y.norm() == 0) return;
+    face(cell.origin, x, y);
+    if (solid(0)) face(cell.origin, y, z), face(cell.origin + x, z, y);
+    if (solid(1)) face(cell.origin, z, x), face(cell.origin + y, x, z);
+    MovingWall box;
+    box.name = "box";
+    box.shape = mesh;
+    box.poses = {BodyPose()};
+    walls_.push_back(std::move(box));
+    wall_moments_ = {WallMoment()};
+}
+
+void ForeignArchive::read_walls() {
+    const double unit = options_.walls_scale.value_or(meaning_->units().length);
+    const bool in_frames = std::any_of(grains_->moments().begin(), grains_->moments().end(),
+                                       [](const RawMoment& one) { return one.has_walls; });
+    if (in_frames) {
+        for (std::size_t k = 0; k < moments_.size(); ++k)
+            wall_moments_.push_back({raw_steps_[k], moments_[k].time, raw(k).walls});
+        while (!wall_moments_.empty() && wall_moments_.front().walls.empty())
+            wall_moments_.erase(wall_moments_.begin());
+        walls_ = follow_walls(wall_moments_, unit, path_.string(), news_);
+    }
+    if (!in_frames && wall_files_.size() == 1) {
+        const RawSeries series(wall_files_.front());
+        for (std::size_t k = 0; k < series.moments().size(); ++k) {
+            RawFrame frame = series.read(k);
+            wall_moments_.push_back({frame.step, frame.time, std::move(frame.walls)});
+        }
+        walls_ = follow_walls(wall_moments_, unit, wall_files_.front().front().string(), news_);
+        return;
+    }
+    // Several series: those of one file stand still, and of the others all must have the same moments.
+    for (const std::vector<fs::path>& files : wall_files_) {
+        const RawSeries series(files);
+        std::vector<WallMoment> moments;
+        for (std::size_t k = 0; k < series.moments().size(); ++k) {
+            RawFrame frame = series.read(k);
+            moments.push_back({frame.step, frame.time, std::move(frame.walls)});
+        }
+        std::vector<MovingWall> more = follow_walls(moments, unit, files.front().string(), news_);
+        if (moments.size() > wall_moments_.size()) wall_moments_ = std::move(moments);
+        std::move(more.begin(), more.end(), std::back_inserter(walls_));
+    }
+}
+
+// A wall rests where it is at the first moment of the grains.
+void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
+    const BodyPose rest = wall.poses[first];
+    for (Vec3& vertex : wall.shape.vertices) vertex = rest.moved(vertex);
+    for (BodyPose& pose : wall.poses) {
+        pose.rotation = pose.rotation * rest.rotation.conjugate();
+        pose.place -= pose.rotation * rest.place;
+    }
+}
+
+// The pose of each wall at each moment: the last one that is not later, by step or by time.
+void ForeignArchive::match_walls() {
+    for (std::size_t k = 0; k < moments_.size(); ++k) {
+        std::vector<std::size_t> at;
+        for (const MovingWall& wall : walls_) {
+            std::size_t pose = 0;
+            for (std::size_t m = 1; m < std::min(wall.poses.size(), wall_moments_.size()); ++m) {
+                const WallMoment& moment = wall_moments_[m];
+                const bool reached = moment.step   ? *moment.step <= raw_steps_[k]
+                                     : moment.time ? *moment.time <= moments_[k].time * (1 + 1e-9)
+                                                   : m <= k;
+                if (reached) pose = m;
+            }
+            at.push_back(pose);
+        }
+        if (k == 0)
+            for (std::size_t w = 0; w < walls_.size(); ++w) rest_at_first(walls_[w], at[w]);
+        wall_at_.push_back(std::move(at));
+        Frame& moment = moments_[k];
+        moment.bodies.resize(kFirstPlaneBody + walls_.size());
+        for (std::size_t w = 0; w < walls_.size(); ++w)
+            moment.bodies[kFirstPlaneBody + w] = walls_[w].poses[wall_at_[k][w]];
+    }
+}
+
+const RawTable* ForeignArchive::wall_cells(std::size_t index, std::size_t wall) const {
+    const std::vector<RawTable>& cells = walls_.at(wall).cells;
+    const std::size_t at = wall_at_.at(index).at(wall);
+    return at < cells.size() ? &cells[at] : nullptr;
 }
 
 }  // namespace grainreel

@@ -1,5 +1,8 @@
-// A record of frames that lies on disk, in whichever format: it can be read in any order, as often as one
-// likes. Who draws, asks or counts takes frames from here and need not know where they come from.
+// A FrameArchive holds the frames of a run on disk, whatever their format. They can be read in any order.
+// Code that draws, asks or counts takes frames from here and need not know where they come from.
+//
+// A new format is a FrameReader: a file in engine/files/frames/readers and a line in the list of
+// open_frames.cpp.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +23,7 @@ namespace grainreel {
 
 class FieldsReader;  // engine/files/fields_file.hpp
 
-// What the frames of a record have beside ids, species, radii and places.
+// What the frames of an archive have beside ids, species, radii and places.
 struct FrameSupply {
     bool velocities = true;        // Frame::velocity; else they are zero
     bool spins = true;             // Frame::spin; else they are zero
@@ -29,73 +32,74 @@ struct FrameSupply {
     bool contacts = false;         // touches()
     bool measures = false;         // measured_near()
 
-    // "velocities", "contacts": what it has not.
+    // Words for what is missing: "velocities", "contacts".
     std::vector<std::string> lacks() const;
 };
 
-// What the run's observers measured (columns of measures.csv).
+// What the run's observers measured at one moment: a row of measures.csv.
 struct MeasuredRow {
     double time = 0;  // s
     std::vector<std::string> columns;
-    std::vector<double> values;  // NaN: none
+    std::vector<double> values;  // NaN where nothing was measured
 };
 
 class FrameArchive {
   public:
     virtual ~FrameArchive() = default;
 
-    // As it was given; messages and run.json name it.
+    // The path as the user gave it. Messages and run.json name it.
     virtual const std::filesystem::path& path() const = 0;
     virtual const World& world() const = 0;
     virtual FrameSupply supply() const = 0;
 
-    // The moments that are kept, without their grains, by rising time. An index below is a place in this
-    // list. Where the time is not known it is NaN.
+    // The moments of all frames, without their grains, by rising time. Every `index` below is a place in
+    // this list. A time that is not known is NaN.
     virtual const std::vector<Frame>& moments() const = 0;
-    // Grains and bodies, as they were kept. Throws DamagedFrame when the file is damaged there.
+    // A whole frame, with grains and bodies. Throws DamagedFrame when the file is damaged there.
     virtual Frame grains(std::size_t index) const = 0;
-    // Which bodies push each other then; nothing where that is not known. Throws UserError where it is
-    // damaged.
+    // Which bodies push each other at that moment; nothing where that is not known. Throws UserError where
+    // the contacts are damaged.
     virtual std::optional<std::vector<Touch>> touches(std::size_t) const { return std::nullopt; }
     // Whether all contacts of a moment are known.
     virtual bool has_contacts_of(std::size_t) const { return false; }
-    // What was measured about then; nothing where it does not lie beside the moments.
+    // What was measured nearest to that moment; nothing where the run has no measures.
     virtual std::optional<MeasuredRow> measured_near(std::size_t) const { return std::nullopt; }
-    // The number that the moment's frame has in the file, from 0; those that were left out count.
+    // Number of the moment's frame in the file, from 0. Frames that were left out count too.
     virtual std::size_t place(std::size_t index) const { return index; }
 
-    // Periods of the drive after which the bed repeats itself.
+    // Number of periods of the drive after which the bed repeats itself.
     virtual int periods() const { return 1; }
-    // The first moment that there was, from which ways are counted; without grains where it is not known.
+    // The first moment of the run, from which displacements are counted; without grains where it is not
+    // known.
     virtual Frame first() const { return moments().size() > 1 ? first_whole() : Frame(); }
-    // The scene as it was used. Null for records that are not ours, and where it does not lie beside them.
+    // The scene as it was run. Null for runs of other programs, and where the scene does not lie beside the
+    // frames.
     virtual const Scene* scene() const { return nullptr; }
 
     // Why each damaged frame was left out of the moments.
     virtual std::vector<std::string> damage() const { return {}; }
-    // What the user is to know of it, a line each: damage, and what there is not.
+    // What the user should know, a line each: what is damaged and what is missing.
     virtual std::vector<std::string> news() const { return damage(); }
 
-    // What only other formats want. The contacts of touches() with their points and tangential forces;
-    // nothing where these are not known. Throws UserError where they are damaged.
+    // The contacts of touches() with their points and tangential forces, for export; nothing where these are
+    // not known. Throws UserError where they are damaged.
     virtual std::optional<std::vector<ContactRecord>> contacts(std::size_t) const { return std::nullopt; }
-    // Means on grids that were kept beside the frames; null where there are none. Throws UserError where they
+    // The fields on grids (fields.nc), for export; null where there are none. Throws UserError where they
     // are damaged.
     virtual std::shared_ptr<const FieldsReader> fields() const { return nullptr; }
 
-    // All of these need a moment.
-    std::size_t nearest(double time) const;  // s
-    // Grains of the first frame that is not damaged.
+    // The three below need at least one moment. This is the index of the one nearest to a time (s).
+    std::size_t nearest(double time) const;
+    // The first frame that is not damaged, with its grains.
     Frame first_whole() const;
-    // Those before `index` that reach no further back than `duration` (s): what its trails go through.
+    // Indices of the moments before `index` that lie within `duration` (s); trails go through them.
     std::vector<std::size_t> before(std::size_t index, double duration) const;
 };
 
 // A frame without its grains.
 Frame moment_of(const Frame& frame);
 
-// What a user says of files of other programs, where these do not say it themselves.
-
+// What a user says about files of other programs, where these do not say it themselves.
 struct ReadingOptions {
     // --columns "radius=c_rad,type=mol": the file's column for a meaning. Meanings are id, type, x, y, z, vx,
     // vy, vz, wx, wy, wz, radius, diameter, density, mass, qw, qx, qy, qz, step, time, id1, id2, force.
@@ -115,18 +119,13 @@ struct ReadingOptions {
     bool moves_with_container = false;             // --moves-with container
 };
 
-// Paths that name many files.
-
-// Whether a text is a pattern (* ? [) and no file has that name.
+// Whether a path is a pattern (* ? [) and no file has that name.
 inline bool is_pattern(const std::filesystem::path& path) {
     std::error_code ignored;
     return path.string().find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path, ignored);
 }
 
-// What reads one format of frames. A reader is a file in engine/files/frames/readers and a line in the list
-// of open_frames.cpp.
-
-// What lies under a name, and how it begins.
+// What lies under a path, and how its content begins.
 struct FileHead {
     std::filesystem::path path;
     bool folder = false;
@@ -136,20 +135,20 @@ struct FileHead {
 inline constexpr std::size_t kHeadBytes = 65536;
 
 struct FrameRequest {
-    // The name of the reader, for who knows what a file must be; empty: its content decides.
+    // Name of the reader that must be used. Empty: the content of the file decides.
     std::string format{};
-    // Reads the scene.toml of a run's folder; none: as the engine reads it.
+    // Reads the scene.toml of a run's folder. None: it is read as the engine reads it.
     std::function<Scene(const std::filesystem::path& folder)> scene_of_run{};
-    // What the user says of files of other programs.
+    // What the user says about files of other programs.
     ReadingOptions reading{};
 };
 
 struct FrameReader {
     const char* name;   // "trajectory"
     const char* about;  // "a trajectory.nc of a run", for the list of what can be read
-    // By content: the name of a file says nothing.
+    // Whether this reader reads such a file. The content decides, not the name.
     bool (*takes)(const FileHead& head);
-    // Throws UserError when it cannot be read.
+    // Throws UserError when the file cannot be read.
     std::unique_ptr<FrameArchive> (*open)(const std::filesystem::path& path, const FrameRequest& request);
 };
 

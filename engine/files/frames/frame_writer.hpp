@@ -1,5 +1,6 @@
-// What writes frames in one format. A writer is a file in engine/files/frames/writers and a line in the list
-// of write_frames.cpp.
+// Frames written in any format: what a writer must do, the list of all formats, and export_frames(), which
+// writes the frames of an archive. A new format is a class in engine/files/frames/writers and a line in the
+// list of frame_writer.cpp.
 #pragma once
 
 #include <cstdint>
@@ -21,41 +22,46 @@ class FrameWriter {
   public:
     virtual ~FrameWriter() = default;
 
-    // Called in this order: begin() once, frame() by rising time, end() once. `supply` says what each frame
-    // will have beside its places. All throw RunError when it cannot be written; what is whole by then stays
-    // readable.
+    // They are called in this order: begin() once, frame() by rising time, end() once. `supply` says what
+    // each frame will have beside its places. They throw RunError when the file cannot be written. Frames
+    // that are whole by then stay readable.
     virtual void begin(const World& world, const FrameSupply& supply) = 0;
     virtual void frame(const Frame& frame) = 0;
     virtual void end() = 0;
 
-    // For formats that have them. Before frame(): the contacts of that frame, where the record knows their
-    // points and tangential forces. Before end(): those records of the fields that are means over a time with
-    // one of the frames in it.
+    // Whether the format also has contacts and fields, so that the next two functions are called.
     virtual bool takes_all() const { return false; }
+    // Called before frame() with the contacts of that frame, where the archive knows their points and
+    // tangential forces.
     virtual void contacts(const std::vector<ContactRecord>&) {}
+    // Called before end(). Each of these records of fields.nc is a mean over a time in which a frame lies.
     virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
 };
 
 struct FrameFormat {
     const char* name;    // "trajectory"
     const char* about;   // "a trajectory.nc, as runs have it"
-    const char* ending;  // of a file's or folder's usual name: ".xyz", "-vtk"
-    // Nothing is written before begin().
+    const char* ending;  // the usual end of the file's or folder's name: ".xyz", "-vtk"
+    // Makes a writer. Nothing is written before begin().
     std::unique_ptr<FrameWriter> (*make)(const std::filesystem::path& path);
 };
 
-// Writes frames in any format that there is.
+// For FrameFormat::make: makes a writer of that class.
+template <class Writer>
+std::unique_ptr<FrameWriter> make_writer(const std::filesystem::path& path) {
+    return std::make_unique<Writer>(path);
+}
 
+// All formats, in the order in which help lists them.
 const std::vector<FrameFormat>& frame_formats();
 
-// Throws UserError, with a list of the names, where there is no such format.
+// A writer of the format with that name. Throws UserError with a list of the names where there is none.
 std::unique_ptr<FrameWriter> frame_writer(const std::string& format, const std::filesystem::path& path);
 
-// Writes the frames of any record in any format: what a converter does.
-
+// Which frames of an archive are exported.
 struct ExportChoice {
     std::optional<double> from, until, at;  // s
-    std::int64_t every = 1;                 // one of so many frames
+    std::int64_t every = 1;                 // every so many frames, one is taken
 };
 
 struct Exported {
@@ -64,22 +70,21 @@ struct Exported {
     std::uintmax_t bytes = 0;
 };
 
-// format: a name of frame_formats(). The result gets its name only when it is whole. Throws UserError where
-// no frame is chosen, where `path` is there already (unless `replace`) or cannot be made, RunError where the
-// disk is full. watcher: called with the share that is done; false stops, and nothing is left.
+// Writes frames in the format of that name. The result gets its name only when it is whole. Throws UserError
+// where no frame is chosen, and where `path` exists already (unless `replace`) or cannot be made; throws
+// RunError where the disk is full. watcher: called with the share that is done. If it returns false, the
+// export stops and leaves nothing.
 Exported export_frames(const FrameArchive& frames, const std::string& format,
                        const std::filesystem::path& path, const ExportChoice& choice, bool replace,
                        const std::function<bool(double)>& watcher);
 
-// What writers of text share: a file that says when the disk is full, and the box around a frame.
-
-// Text that is written in pieces of some MB.
+// For writers of text: a text file that is written in pieces of some MB.
 class TextPieces {
   public:
     explicit TextPieces(const std::filesystem::path& path) : file_(path) {}
 
     std::string& text() { return text_; }
-    // Writes where much has gathered.
+    // Writes the text so far if much has gathered.
     void pass() {
         if (text_.size() > (std::size_t{1} << 22)) flush();
     }
@@ -93,10 +98,10 @@ class TextPieces {
     std::string text_;
 };
 
-// The world's cell along its periodic edges, and else what holds all grains of the frame, whole.
+// The box of a frame: along periodic edges the world's cell, along others just wide enough for all grains.
 WorldCell box_of(const World& world, const Frame& frame);
 
-// The name of a species without blanks, for formats that part words by them.
+// The name of a species without blanks, for formats in which blanks separate words.
 std::string one_word(const std::string& name);
 
 }  // namespace grainreel

@@ -1,4 +1,5 @@
-// Opens whatever has frames.
+// open_frames() opens any file or folder that holds frames. The list of readers is in open_frames.cpp; a
+// program that uses the engine as a library can add readers of its own.
 #pragma once
 
 #include <filesystem>
@@ -13,17 +14,17 @@ namespace grainreel {
 // All readers, in the order in which they are asked.
 const std::vector<FrameReader>& frame_readers();
 
-// The one that takes what lies there; null where none does. Throws UserError where nothing lies there, or no
-// ordinary file.
+// The first reader that reads what lies under the path; null where none does. Throws UserError where there is
+// nothing, or something that is neither a file nor a folder.
 const FrameReader* reader_of(const std::filesystem::path& path);
 
-// By the first reader that takes it, and with a frame at least; or by the one that is asked for. Throws
-// UserError where there is none, with a list of what can be read, and for what its reader finds wrong.
+// Opens an archive with the first reader that reads it, or with the one that `request` names. It then has at
+// least one frame. Throws UserError for what the reader finds wrong and, with a list of what can be read,
+// where no reader reads it.
 std::unique_ptr<FrameArchive> open_frames(const std::filesystem::path& path,
                                           const FrameRequest& request = {});
 
-// Readers that a program gives which uses the engine as a library. open_frames() asks them before its own.
-
+// A reader of a program that uses the engine as a library. open_frames() asks these readers first.
 class OwnReader {
   public:
     virtual ~OwnReader() = default;
@@ -34,9 +35,9 @@ class OwnReader {
                                                const FrameRequest& request) const = 0;
 };
 
-// In place of one that has its name. May be called from any thread.
+// Adds a reader, in place of one with the same name. May be called from any thread.
 void add_own_reader(std::shared_ptr<const OwnReader> reader);
-// The last one first.
+// All readers that were added; the last one comes first.
 std::vector<std::shared_ptr<const OwnReader>> own_readers();
 
 }  // namespace grainreel

@@ -1,4 +1,5 @@
-// The scenes that lie beside frames, as the engine reads them.
+// Scenes that were saved with a run, in its folder or in a checkpoint, and the clock of its frames. They are
+// read as the engine reads them, without [film].
 #pragma once
 
 #include <filesystem>
@@ -12,31 +13,31 @@
 
 namespace grainreel {
 
-// "a/b/" and "a/b/." mean "a/b", and "." has a name too. Throws UserError when there is no such folder.
+// The folder's path in one form: "a/b/" and "a/b/." become "a/b", and "." gets its name. Throws UserError
+// when there is no such folder.
 std::filesystem::path folder_of_run(const std::filesystem::path& folder);
 
-// Throws UserError with the advice when the folder has no such file.
+// The path of a file in the folder. Throws UserError with the advice when there is no such file.
 std::filesystem::path file_of_run(const std::filesystem::path& folder, const char* name, const char* advice);
 
-// The scene.toml of a run's folder; named after the folder. Throws UserError for one that cannot be read.
+// The scene.toml of a run's folder. The scene is named after the folder. Throws UserError when it cannot be
+// read.
 Scene plain_scene_of_run(const std::filesystem::path& folder);
 
-// The text of a checkpoint's scene as it was used, and what makes it start from the checkpoint, which does
-// not say how its grains came to be. Whoever reads it adds own changes. Throws UserError where the file is
-// none.
+// The scene that a checkpoint holds, as text. A checkpoint does not say how its grains were made; `sets`
+// makes the scene start from the checkpoint instead. The caller may add settings of its own.
 struct CheckpointScene {
     NamedText text;
     Assignments sets;
 };
+// Throws UserError where the file is no checkpoint.
 CheckpointScene scene_in_checkpoint(const std::filesystem::path& checkpoint);
 Scene scene_of_checkpoint(const std::filesystem::path& checkpoint);
 
-// The clock of a record's moments.
-
-// A clock with steps of that length (s). With 0 it stands still.
+// The scene's clock with steps of that length (s). With 0 it stands still.
 Clock clock_of_steps(const Scene& scene, double step);
 
-// The clock of a trajectory's frames, of which only the moments count. Its step is 0 when all are at step 0.
+// The clock of these moments, from their times and steps. Its step is 0 when all are at step 0.
 Clock clock_of(const Scene& scene, const std::vector<Frame>& moments);
 
 }  // namespace grainreel

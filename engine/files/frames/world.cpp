@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "engine/files/frames/frame_archive.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {

@@ -191,7 +191,6 @@ void unname_types(RawColumn& column) {
 }
 
 void merge_tables(RawTable& table, RawTable&& more) {
-    constexpr double missing = std::numeric_limits<double>::quiet_NaN();
     if (table.rows == 0 || more.rows == 0) {
         if (table.rows == 0 && (more.rows > 0 || table.columns.empty())) table = std::move(more);
         return;

@@ -1,5 +1,5 @@
-// trajectory.nc, and the other files of moments that a run writes in its format, without what lies beside
-// them.
+// Two readers of our own runs: the folder of a run with all that lies in it, and a trajectory.nc alone. The
+// other files of moments that a run writes have the format of trajectory.nc, so the second reads them too.
 
 #include <fmt/format.h>
 #include <system_error>
@@ -52,39 +52,27 @@ class Trajectory final : public FrameArchive {
     TrajectoryReader reader_;
     World world_;
     std::vector<Frame> moments_;
-    std::vector<std::size_t> places_;  // in the file, of the moments
+    std::vector<std::size_t> places_;  // of each moment: the number of its frame in the file
     std::vector<std::string> damage_;
 };
 
-// The header of classic NetCDF, with the words that the convention and this program put there.
-bool takes(const FileHead& head) {
+// A trajectory of ours is a classic NetCDF file that names the convention and this program.
+bool takes_trajectory(const FileHead& head) {
     const auto says = [&](const char* text) { return head.bytes.find(text) != std::string::npos; };
     return head.bytes.starts_with("CDF") && says("AMBER") && says("grainreel");
 }
 
-std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest&) {
+std::unique_ptr<FrameArchive> open_trajectory(const fs::path& path, const FrameRequest&) {
     return std::make_unique<Trajectory>(path);
 }
 
-}  // namespace
-
-FrameReader trajectory_reader() {
-    return {"trajectory", "the trajectory.nc of a run", takes, open};
-}
-
-// The folder of a run: its scene.toml, its trajectory.nc and what lies beside them.
-
-namespace {
-
-namespace fs = std::filesystem;
-
-bool takes(const FileHead& head) {
+bool takes_run(const FileHead& head) {
     std::error_code ignored;
     return head.folder && (fs::exists(head.path / "scene.toml", ignored) ||
                            fs::exists(head.path / "trajectory.nc", ignored));
 }
 
-std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest& request) {
+std::unique_ptr<FrameArchive> open_run(const fs::path& path, const FrameRequest& request) {
     const fs::path folder = folder_of_run(path);
     const bool for_questions = true;
     auto run = std::make_unique<RunArchive>(
@@ -97,8 +85,12 @@ std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest& req
 
 }  // namespace
 
+FrameReader trajectory_reader() {
+    return {"trajectory", "the trajectory.nc of a run", takes_trajectory, open_trajectory};
+}
+
 FrameReader run_folder_reader() {
-    return {"run", "the folder of a run (scene.toml and trajectory.nc)", takes, open};
+    return {"run", "the folder of a run (scene.toml and trajectory.nc)", takes_run, open_run};
 }
 
 }  // namespace grainreel

@@ -91,15 +91,11 @@ class Blender final : public FrameWriter {
     std::uint64_t place_ = 0;
 };
 
-std::unique_ptr<FrameWriter> make(const fs::path& path) {
-    return std::make_unique<Blender>(path);
-}
-
 }  // namespace
 
 FrameFormat blender_format() {
     return {"blender", "folder for Blender: all frames, and a script that builds the moving bed", "-blender",
-            make};
+            make_writer<Blender>};
 }
 
 const char* blender_script() {

@@ -181,14 +181,10 @@ class Gsd final : public FrameWriter {
     std::uint64_t place_ = 0, frames_ = 0;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<Gsd>(path);
-}
-
 }  // namespace
 
 FrameFormat gsd_writer_format() {
-    return {"gsd", "GSD with schema hoomd, floats", ".gsd", make};
+    return {"gsd", "GSD with schema hoomd, floats", ".gsd", make_writer<Gsd>};
 }
 
 }  // namespace grainreel

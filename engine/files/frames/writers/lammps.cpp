@@ -78,15 +78,11 @@ class LammpsData final : public FrameWriter {
     std::optional<Frame> last_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<LammpsData>(path);
-}
-
 }  // namespace
 
 FrameFormat lammps_data_format() {
     return {"lammps-data", "data file of LAMMPS (read_data, atom_style sphere), of the last frame", ".data",
-            make};
+            make_writer<LammpsData>};
 }
 
 // A text dump as LAMMPS writes it (manual, command dump custom): `read_dump` of LAMMPS and LIGGGHTS takes it,
@@ -154,14 +150,11 @@ class LammpsDump final : public FrameWriter {
     FrameSupply supply_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<LammpsDump>(path);
-}
-
 }  // namespace
 
 FrameFormat lammps_dump_format() {
-    return {"lammps-dump", "text dump of LAMMPS and LIGGGHTS; OVITO opens it", ".dump", make};
+    return {"lammps-dump", "text dump of LAMMPS and LIGGGHTS; OVITO opens it", ".dump",
+            make_writer<LammpsDump>};
 }
 
 }  // namespace grainreel

@@ -222,14 +222,11 @@ class Gltf final : public FrameWriter {
     std::optional<Frame> last_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<Gltf>(path);
-}
-
 }  // namespace
 
 FrameFormat gltf_format() {
-    return {"gltf", "glTF 2.0 (.glb) of the last frame: instanced spheres and walls", ".glb", make};
+    return {"gltf", "glTF 2.0 (.glb) of the last frame: instanced spheres and walls", ".glb",
+            make_writer<Gltf>};
 }
 
 // Binary STL of the walls, where they are in the last of the frames.
@@ -283,14 +280,10 @@ class Stl final : public FrameWriter {
     std::optional<Frame> last_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<Stl>(path);
-}
-
 }  // namespace
 
 FrameFormat stl_format() {
-    return {"stl", "walls as binary STL, where they are in the last frame", ".stl", make};
+    return {"stl", "walls as binary STL, where they are in the last frame", ".stl", make_writer<Stl>};
 }
 
 }  // namespace grainreel

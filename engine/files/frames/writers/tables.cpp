@@ -47,14 +47,11 @@ class Csv final : public FrameWriter {
     FrameSupply supply_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<Csv>(path);
-}
-
 }  // namespace
 
 FrameFormat csv_format() {
-    return {"csv", "one table of all frames, SI units: for spreadsheets, pandas and R", ".csv", make};
+    return {"csv", "one table of all frames, SI units: for spreadsheets, pandas and R", ".csv",
+            make_writer<Csv>};
 }
 
 // The table of grains of a final.csv: the last of the frames.
@@ -77,14 +74,11 @@ class GrainTable final : public FrameWriter {
     std::optional<Frame> last_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<GrainTable>(path);
-}
-
 }  // namespace
 
 FrameFormat grain_table_format() {
-    return {"grain-table", "a table of grains (final.csv), of the last frame", ".csv", make};
+    return {"grain-table", "a table of grains (final.csv), of the last frame", ".csv",
+            make_writer<GrainTable>};
 }
 
 // Extended XYZ, by the rules of ASE and OVITO: columns element, pos, radius, velo, omega, id; Lattice and pbc
@@ -136,14 +130,10 @@ class Xyz final : public FrameWriter {
     FrameSupply supply_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<Xyz>(path);
-}
-
 }  // namespace
 
 FrameFormat xyz_writer_format() {
-    return {"xyz", "extended XYZ, as ASE and OVITO read it", ".xyz", make};
+    return {"xyz", "extended XYZ, as ASE and OVITO read it", ".xyz", make_writer<Xyz>};
 }
 
 }  // namespace grainreel

@@ -32,14 +32,11 @@ class Trajectory final : public FrameWriter {
     std::optional<TrajectoryWriter> writer_;
 };
 
-std::unique_ptr<FrameWriter> make(const std::filesystem::path& path) {
-    return std::make_unique<Trajectory>(path);
-}
-
 }  // namespace
 
 FrameFormat trajectory_format() {
-    return {"netcdf", "a trajectory.nc, as runs have it; OVITO and any AMBER reader open it", ".nc", make};
+    return {"netcdf", "a trajectory.nc, as runs have it; OVITO and any AMBER reader open it", ".nc",
+            make_writer<Trajectory>};
 }
 
 }  // namespace grainreel

@@ -216,15 +216,11 @@ class Vtk final : public FrameWriter {
     std::int64_t frames_ = 0;
 };
 
-std::unique_ptr<FrameWriter> make(const fs::path& path) {
-    return std::make_unique<Vtk>(path);
-}
-
 }  // namespace
 
 FrameFormat vtk_format() {
     return {"vtk", "folder for ParaView and VTK: grains, walls, contacts, fields (.pvd, .vtp, .vti)", "-vtk",
-            make};
+            make_writer<Vtk>};
 }
 
 }  // namespace grainreel

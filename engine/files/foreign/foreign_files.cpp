@@ -1,0 +1,177 @@
+// Which files of another program are read as one run: the grains, and the contacts and walls beside them.
+// This part of ForeignArchive chooses them; foreign_reader() is its line in the list of readers of frames.
+#include "engine/files/foreign/foreign_archive.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+
+namespace grainreel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What a file holds, by its first frame.
+enum class Holds { nothing, grains, contacts, walls };
+
+Holds what_holds(const fs::path& file) {
+    const RawFormat* format = raw_format_of(file);
+    if (format == nullptr) return Holds::nothing;
+    try {
+        const std::unique_ptr<RawFile> one = format->open(file);
+        for (const RawMoment& moment : one->moments()) {
+            if (moment.grains > 0) return Holds::grains;
+            if (moment.has_walls) return Holds::walls;
+            if (moment.has_contacts) return Holds::contacts;
+        }
+        return one->moments().empty() ? Holds::nothing : Holds::grains;
+    } catch (const UserError&) {
+        return Holds::nothing;
+    }
+}
+
+bool is_passed_over(const fs::path& file) {
+    return file.filename().string().find("_boundingBox") != std::string::npos;
+}
+
+std::vector<fs::path> without_passed_over(std::vector<fs::path> files) {
+    std::erase_if(files, is_passed_over);
+    return files;
+}
+
+std::vector<fs::path> files_named(const std::string& name) {
+    const fs::path path = name;
+    std::error_code ignored;
+    if (is_pattern(path)) return without_passed_over(files_of_pattern(path));
+    if (fs::is_directory(path, ignored)) return without_passed_over(files_in(path));
+    return {path};
+}
+
+}  // namespace
+
+bool is_foreign(const fs::path& path) {
+    std::error_code ignored;
+    if (is_pattern(path)) return true;
+    if (!fs::is_directory(path, ignored)) return fs::exists(path, ignored) && raw_format_of(path) != nullptr;
+    if (fs::exists(path / "scene.toml", ignored)) return false;
+    for (const fs::path& file : files_in(path))
+        if (!is_passed_over(file) && raw_format_of(file) != nullptr) return true;
+    return false;
+}
+
+void ForeignArchive::choose_files() {
+    std::error_code ignored;
+    const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
+    if (many) {
+        choose_from(files_named(path_.string()));
+    } else {
+        const FileGroup series = series_of(path_);
+        if (options_.one || series.files.size() == 1) {
+            grains_ = std::make_unique<RawSeries>(std::vector<fs::path>{path_});
+            if (series.files.size() > 1)
+                news_.push_back(fmt::format("{}: is one of {} numbered files; '{}' is all of them",
+                                            path_.string(), series.files.size(), series.pattern));
+        } else {
+            grains_ = std::make_unique<RawSeries>(series.files);
+            news_.push_back(
+                fmt::format("{}: is one of {} numbered files, and all are read; --one reads it alone",
+                            path_.string(), series.files.size()));
+        }
+        add_companions(path_);
+    }
+    if (!options_.contacts.empty()) {
+        std::vector<fs::path> files;
+        for (const std::string& name : options_.contacts)
+            for (fs::path& file : files_named(name)) files.push_back(std::move(file));
+        contacts_ =
+            std::make_unique<RawSeries>(grouped(files).size() == 1 ? grouped(files).front().files : files);
+    }
+    for (const std::string& name : options_.walls)
+        for (FileGroup& group : grouped(files_named(name))) wall_files_.push_back(std::move(group.files));
+    all_files_ = grains_->files();
+    if (contacts_) all_files_.insert(all_files_.end(), contacts_->files().begin(), contacts_->files().end());
+    for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
+}
+
+// Takes the longest of several series of grains in a folder, because a run is often written in two formats.
+void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
+    const std::vector<FileGroup> groups = grouped(files);
+    const FileGroup* chosen = nullptr;
+    std::vector<const FileGroup*> contacts, walls, others;
+    for (const FileGroup& group : groups) {
+        // The first frames of a series may be empty, so its middle is asked as well.
+        Holds holds = what_holds(group.files.front());
+        if (holds != Holds::walls && group.files.size() > 1) {
+            const Holds middle = what_holds(group.files[group.files.size() / 2]);
+            if (middle != Holds::nothing) holds = middle;
+        }
+        if (holds == Holds::grains) {
+            if (chosen) others.push_back(chosen->files.size() < group.files.size() ? chosen : &group);
+            if (!chosen || chosen->files.size() < group.files.size()) chosen = &group;
+        }
+        if (holds == Holds::contacts) contacts.push_back(&group);
+        if (holds == Holds::walls) walls.push_back(&group);
+    }
+    if (chosen == nullptr)
+        throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at",
+                                    path_.string(), files.size()));
+    grains_ = std::make_unique<RawSeries>(chosen->files);
+    for (const FileGroup* other : others)
+        news_.push_back(
+            fmt::format("{}: holds grains too and is passed over; name it alone to read it", other->pattern));
+    if (options_.contacts.empty() && !contacts.empty())
+        contacts_ = std::make_unique<RawSeries>(contacts.front()->files);
+    if (!options_.walls.empty()) return;
+    // Surfaces that come again at each moment are where they are; a lone file beside them is what they were
+    // made of.
+    const bool moving =
+        std::any_of(walls.begin(), walls.end(), [](const FileGroup* one) { return one->files.size() > 1; });
+    for (const FileGroup* wall : walls) {
+        if (moving && wall->files.size() == 1)
+            news_.push_back(fmt::format(
+                "{}: a single surface beside those of each moment is passed over; --walls takes it",
+                wall->pattern));
+        else
+            wall_files_.push_back(wall->files);
+    }
+}
+
+// MercuryDPM writes NAME.data, NAME.fstat and NAME.restart.
+void ForeignArchive::add_companions(const fs::path& file) {
+    if (grains_->facts().program.find("Mercury") == std::string::npos &&
+        grains_->facts().format.find("Mercury") == std::string::npos)
+        return;
+    std::error_code ignored;
+    fs::path other = file;
+    other.replace_extension(".fstat");
+    if (other != file && options_.contacts.empty() && fs::is_regular_file(other, ignored) &&
+        raw_format_of(other) != nullptr)
+        contacts_ = std::make_unique<RawSeries>(std::vector<fs::path>{other});
+    other.replace_extension(".restart");
+    if (other != file && options_.walls.empty() && fs::is_regular_file(other, ignored) &&
+        what_holds(other) != Holds::nothing)
+        wall_files_.push_back({other});
+}
+
+namespace {
+
+bool takes(const FileHead& head) {
+    return is_foreign(head.path);
+}
+
+std::unique_ptr<FrameArchive> open(const std::filesystem::path& path, const FrameRequest& request) {
+    return std::make_unique<ForeignArchive>(path, request.reading);
+}
+
+}  // namespace
+
+FrameReader foreign_reader() {
+    return {"foreign",
+            "files of other programs: LAMMPS, LIGGGHTS, MercuryDPM, YADE, Lethe, VTK, XYZ, GSD, AMBER, CSV",
+            takes, open};
+}
+
+}  // namespace grainreel
