@@ -224,7 +224,7 @@ void ForeignArchive::read_walls() {
         return;
     }
     // Several series: those of one file stand still, and of the others all must have the same moments.
-    for (const std::vector<fs::path>& files : wall_files_) {
+    for (const std::vector<std::filesystem::path>& files : wall_files_) {
         const RawSeries series(files);
         std::vector<WallMoment> moments;
         for (std::size_t k = 0; k < series.moments().size(); ++k) {
