@@ -9,7 +9,7 @@
 #include "engine/measure/measures.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/picture/grains/shown_grains.hpp"
-#include "render/picture/marks/trails.hpp"
+#include "render/picture/marks/marks.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/overlay.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -1,9 +1,11 @@
-// What is drawn over the grains: a field, lines of force, trails, arrows and streamlines of the flow, forces
-// on walls, rings around chosen grains.
+// Where chosen grains have been in the frames drawn lately.
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "engine/frame.hpp"
 #include "render/picture/base/canvas.hpp"
@@ -13,10 +15,41 @@
 #include "render/picture/marks/field_layer.hpp"
 #include "render/picture/marks/flow_marks.hpp"
 #include "render/picture/marks/force_marks.hpp"
-#include "render/picture/marks/trails.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
+class Trails {
+  public:
+    explicit Trails(const FilmedScene& scene);
+
+    // Frames in the order of time; one that is seen again adds nothing, one from before starts anew.
+    void take(const Frame& frame);
+
+    struct Point {
+        double age;  // 0: now, 1: as old as trails get
+        Vec3 at;     // m
+    };
+    // One a grain, the newest point first; broken where a grain left through a periodic wall and came back
+    // at the other.
+    std::vector<std::vector<Point>> paths() const;
+
+  private:
+    struct Moment {
+        double time;
+        std::vector<std::int32_t> id;  // rising
+        std::vector<Vec3> at;
+    };
+    bool chosen(std::int32_t id, std::int32_t species) const;
+
+    std::vector<bool> species_;
+    std::vector<std::int32_t> grains_;
+    double duration_, longest_jump_;
+    std::deque<Moment> moments_;  // the newest first
+};
+
+// What is drawn over the grains: a field, lines of force, trails, arrows and streamlines of the flow, forces
+// on walls, rings around chosen grains.
 
 bool has_marks(const FilmShows& look);
 // N of a contact whose line is as wide as lines of force get.
