@@ -1,10 +1,16 @@
 #include "render/picture/whole/compose.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include "engine/base/error.hpp"
+#include "render/picture/base/palette.hpp"
 #include "render/picture/spheres/lay_over.hpp"
+#include "render/picture/spheres/light/tone.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr std::uint32_t kGhost = 90;  // strength of a ghost, of 255
@@ -33,6 +39,60 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
             if (layers.marks) lay_row(*layers.marks, y, out);
         }
     });
+}
+
+namespace {
+
+constexpr std::uint32_t kMost = 0xffff;  // of linear light, and moments that its sums hold
+
+// sRGB bytes in linear light, 16 bits.
+const std::array<std::uint32_t, 256>& linear_of_byte() {
+    static const std::array<std::uint32_t, 256> table = [] {
+        std::array<std::uint32_t, 256> made{};
+        for (std::size_t i = 0; i < made.size(); ++i)
+            made[i] =
+                static_cast<std::uint32_t>(std::lround(kMost * to_linear(static_cast<double>(i) / 255)));
+        return made;
+    }();
+    return table;
+}
+
+}  // namespace
+
+Exposure::Exposure(const Rectangle& port)
+    : port_(port), sum_(static_cast<std::size_t>(port.width) * port.height * 4, 0) {}
+
+void Exposure::add(const Picture& picture) {
+    GRAINREEL_CHECK(count_ < kMost);
+    const auto& linear = linear_of_byte();
+    std::uint32_t* sum = sum_.data();
+    for (int y = 0; y < port_.height; ++y) {
+        const std::uint8_t* pixel = picture.pixel(port_.x, port_.y + y);
+        for (int x = 0; x < port_.width; ++x, pixel += 4, sum += 4) {
+            const std::uint32_t alpha = pixel[3];
+            for (int c = 0; c < 3; ++c) sum[c] += (linear[pixel[c]] * alpha + 127) / 255;
+            sum[3] += alpha;
+        }
+    }
+    ++count_;
+}
+
+void Exposure::develop(Picture& picture) {
+    GRAINREEL_CHECK(count_ > 0);
+    const ToneTable& tone = ToneTable::get();
+    const std::uint32_t* sum = sum_.data();
+    for (int y = 0; y < port_.height; ++y) {
+        std::uint8_t* pixel = picture.pixel(port_.x, port_.y + y);
+        for (int x = 0; x < port_.width; ++x, pixel += 4, sum += 4) {
+            const float alpha = static_cast<float>(sum[3]);
+            const float scale = alpha > 0 ? 255.0f / (kMost * alpha) : 0.0f;
+            for (int c = 0; c < 3; ++c)
+                pixel[c] = static_cast<std::uint8_t>(tone.byte(scale * static_cast<float>(sum[c])));
+            pixel[3] = static_cast<std::uint8_t>((sum[3] + count_ / 2) / count_);
+        }
+    }
+    std::fill(sum_.begin(), sum_.end(), 0);
+    count_ = 0;
 }
 
 }  // namespace grainreel

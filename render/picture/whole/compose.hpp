@@ -29,4 +29,21 @@ struct Layers {
 // The result goes into the port's part of the picture.
 void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
 
+// Many moments in one picture, as a shutter that stays open sees them: their mean in linear light.
+
+class Exposure {
+  public:
+    explicit Exposure(const Rectangle& port);  // the part of the pictures that is exposed
+
+    void add(const Picture& picture);  // at most 65,535 a picture
+    // The mean of what was added, which is forgotten.
+    void develop(Picture& picture);
+
+  private:
+    const Rectangle port_;
+    std::uint32_t count_ = 0;
+    // A pixel: red, green and blue in linear light times alpha, then alpha; in 255ths of 16 and of 8 bits.
+    std::vector<std::uint32_t> sum_;
+};
+
 }  // namespace grainreel

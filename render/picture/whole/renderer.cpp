@@ -19,7 +19,6 @@
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/spheres/pixel.hpp"
 #include "render/picture/whole/compose.hpp"
-#include "render/picture/whole/exposure.hpp"
 #include "render/picture/words/grain_labels.hpp"
 #include "render/picture/words/overlay.hpp"
 #include "render/scene/filmed_scene.hpp"
