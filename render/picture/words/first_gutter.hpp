@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/picture/words/plates.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/picture/base/cairo_text.hpp"
-#include "render/picture/words/plates.hpp"
+#include "render/picture/words/layout.hpp"
 
 namespace grainreel {
 

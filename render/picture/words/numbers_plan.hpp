@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/picture/words/plates.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
