@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -53,5 +54,19 @@ void fill_surface(cairo_t* on, const Colour& colour, double alpha = 1);
 void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);
 // A part of a surface whose corner lies at (x, y) in the picture.
 void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture);
+
+// Words without a background, which have to be read on whatever they are laid over: each stands on a halo.
+
+struct Halo {
+    Colour colour;
+    double reach = 0;  // pixels beyond the words
+};
+// The halo, in the colour that the words are made for.
+Halo halo_of(const TypeScale& type, const Palette& palette);
+
+// As copy_part(), with a halo under it: around each pixel as strong as that is, and gone beyond its reach.
+// Words beside the part reach into it too.
+void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const Halo& halo,
+                       Picture& picture);
 
 }  // namespace grainreel

@@ -13,7 +13,6 @@
 #include "render/picture/panels/panel_words.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/halo.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

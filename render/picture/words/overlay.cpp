@@ -8,9 +8,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
+#include "render/picture/base/cairo_text.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/first_gutter.hpp"
-#include "render/picture/words/halo.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
