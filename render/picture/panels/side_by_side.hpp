@@ -10,6 +10,7 @@
 #include "render/picture/base/picture.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/panels/panels.hpp"
+#include "render/picture/plots/side_plot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -37,6 +38,30 @@ class SideBySide {
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
+};
+
+// The plots under panels that stand side by side. Those of one quantity have one span of values and of time,
+// so that their curves can be compared.
+
+class PanelPlots {
+  public:
+    // As many as the layout has places for.
+    PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layout, const TypeScale& type,
+               const Palette& palette);
+
+    // Takes one frame a panel. False when nothing changed.
+    bool take(const std::vector<FramePtr>& frames);
+    struct Placed {
+        std::unique_ptr<SidePlot> plot;
+        std::string quantity;
+        Rectangle place;    // in the picture
+        std::size_t panel;  // of its own
+    };
+    std::vector<Placed>& all() { return plots_; }
+
+  private:
+    void share_limits();
+    std::vector<Placed> plots_;
 };
 
 }  // namespace grainreel
