@@ -3,7 +3,7 @@
 
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/grains/grain_colours.hpp"
-#include "render/picture/plots/ticks.hpp"
+#include "render/picture/plots/axes.hpp"
 #include "render/scene/grain_values.hpp"
 #include "tests/draw/support.hpp"
 

@@ -11,7 +11,7 @@
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/panels/panels.hpp"
-#include "render/picture/plots/ticks.hpp"
+#include "render/picture/plots/axes.hpp"
 #include "render/picture/words/writer.hpp"
 #include "tests/draw/support.hpp"
 

@@ -21,7 +21,7 @@
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/page/facts/run_names.hpp"
 #include "render/page/page_measures.hpp"
-#include "render/picture/plots/ticks.hpp"
+#include "render/picture/plots/axes.hpp"
 
 namespace grainreel {
 namespace {

@@ -11,8 +11,7 @@
 #include "engine/measure/measures.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/cairo_text.hpp"
-#include "render/picture/plots/axis_drawing.hpp"
-#include "render/picture/plots/ticks.hpp"
+#include "render/picture/plots/axes.hpp"
 #include "render/scene/grain_values.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/grains/velocity_field.hpp"
-#include "render/picture/plots/axis_drawing.hpp"
+#include "render/picture/plots/axes.hpp"
 #include "render/scene/grain_values.hpp"
 
 namespace grainreel {

@@ -9,8 +9,8 @@
 
 #include "engine/measure/fields/coarse_graining.hpp"
 #include "engine/measure/fields/profile.hpp"
+#include "render/picture/plots/axes.hpp"
 #include "render/picture/plots/side_plot.hpp"
-#include "render/picture/plots/ticks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -15,7 +15,7 @@
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/grains/grain_colours.hpp"
-#include "render/picture/plots/ticks.hpp"
+#include "render/picture/plots/axes.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"

@@ -1,11 +1,11 @@
-#include "render/picture/plots/ticks.hpp"
+#include "render/picture/plots/axes.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 namespace grainreel {
+
 namespace {
 
 // The smallest 1, 2 or 5 times a power of ten that is not below `least`.
