@@ -10,7 +10,7 @@
 #include "render/picture/base/picture.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/panels/panels.hpp"
-#include "render/picture/plots/side_plot.hpp"
+#include "render/picture/plots/plot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -1,7 +1,6 @@
 #include "render/picture/plots/plot.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,9 +11,25 @@
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/plots/axes.hpp"
+#include "render/picture/plots/profile_plot.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "render/scene/grain_values.hpp"
 
 namespace grainreel {
+
+std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlot& plot,
+                                         const Rectangle& place, double end, const TypeScale& type,
+                                         const Palette& palette, double expected) {
+    if (plot.is_profile())
+        return std::make_unique<ProfilePlot>(scene, plot, place.width, place.height, type, palette);
+    PlotFrame frame = plot_frame(scene, plot);
+    frame.time[1] = end;
+    frame.expected = std::max(frame.expected, expected);
+    frame.width = place.width;
+    frame.height = place.height;
+    return std::make_unique<Plot>(frame, type, palette);
+}
+
 namespace {
 
 constexpr int most_ticks = 4;

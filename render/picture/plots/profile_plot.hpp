@@ -10,7 +10,7 @@
 #include "engine/measure/fields/coarse_graining.hpp"
 #include "engine/measure/fields/profile.hpp"
 #include "render/picture/plots/axes.hpp"
-#include "render/picture/plots/side_plot.hpp"
+#include "render/picture/plots/plot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

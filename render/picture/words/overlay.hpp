@@ -11,7 +11,7 @@
 
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/picture.hpp"
-#include "render/picture/plots/side_plot.hpp"
+#include "render/picture/plots/plot.hpp"
 #include "render/picture/words/numbers_plan.hpp"
 #include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
