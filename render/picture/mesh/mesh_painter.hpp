@@ -15,7 +15,6 @@
 #include "engine/base/team.hpp"
 #include "render/picture/mesh/mesh_projection.hpp"
 #include "render/picture/spheres/layer.hpp"
-#include "render/picture/spheres/row_bits.hpp"
 #include "render/picture/spheres/visibility.hpp"
 
 namespace grainreel {

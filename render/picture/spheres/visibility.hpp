@@ -5,15 +5,43 @@
 // measurements.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "engine/base/team.hpp"
-#include "render/picture/spheres/row_bits.hpp"
 #include "render/picture/spheres/sphere.hpp"
+#include "render/picture/spheres/sphere_kernels.hpp"
 
 namespace grainreel {
+
+// The marked pixels of a row.
+
+class RowBits {
+  public:
+    // Room for a row of `width` pixels, all to be written before they are read.
+    std::uint64_t* room(int width) {
+        width_ = width;
+        words_.resize(static_cast<std::size_t>(width) / 64 + 1);
+        words_.back() = 0;
+        return words_.data();
+    }
+    bool at(int x) const { return words_[static_cast<std::size_t>(x) / 64] >> (x % 64) & 1; }
+    // The first marked pixel from x on, or the width.
+    int next(int x) const {
+        if (x >= width_) return width_;
+        std::size_t word = static_cast<std::size_t>(x) / 64;
+        std::uint64_t left = words_[word] & (~std::uint64_t{0} << (x % 64));
+        while (left == 0 && ++word < words_.size()) left = words_[word];
+        return left ? static_cast<int>(word * 64) + std::countr_zero(left) : width_;
+    }
+
+  private:
+    int width_ = 0;
+    std::vector<std::uint64_t> words_;
+};
 
 // What stands before grains: z in the middle of each pixel, infinite where there is nothing; m. Rows of
 // `stride` numbers.
@@ -84,5 +112,15 @@ class Visibility {
     std::vector<Worker> workers_;
     std::vector<std::uint32_t> shown_;
 };
+
+// Who may be seen in a pixel on an edge.
+
+// Puts pixel x, y and the different grains that it and its four neighbours show into place `at` of the block;
+// `who`: their indices.
+void take_candidates(const Visibility& visibility, const std::vector<ViewSphere>& spheres, int x, int y,
+                     EdgeBlock& block, std::uint32_t (&who)[kCandidates][kPointBlock], int at);
+
+// Nobody in the places from `begin` on.
+void clear_candidates(EdgeBlock& block, int begin);
 
 }  // namespace grainreel

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/picture/spheres/edge_candidates.hpp"
+#include "render/picture/spheres/visibility.hpp"
 
 namespace grainreel {
 namespace {

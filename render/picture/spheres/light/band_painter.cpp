@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 
-#include "render/picture/spheres/edge_candidates.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"
 #include "render/picture/spheres/light/tone.hpp"
+#include "render/picture/spheres/visibility.hpp"
 
 namespace grainreel {
 namespace {

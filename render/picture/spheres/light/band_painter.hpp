@@ -6,7 +6,6 @@
 
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/neighbourhood.hpp"
-#include "render/picture/spheres/row_bits.hpp"
 #include "render/picture/spheres/sphere_kernels.hpp"
 #include "render/picture/spheres/visibility.hpp"
 
