@@ -8,8 +8,8 @@
 
 #include "engine/mesh/load_mesh.hpp"
 #include "render/picture/mesh/mesh_painter.hpp"
+#include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"
-#include "render/picture/spheres/pixel.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -8,7 +8,7 @@
 
 #include "render/picture/container/shade_row.hpp"
 #include "render/picture/spheres/lay_over.hpp"
-#include "render/picture/spheres/pixel.hpp"
+#include "render/picture/spheres/layer.hpp"
 #include "tests/instruction_sets.hpp"
 
 namespace grainreel::test {

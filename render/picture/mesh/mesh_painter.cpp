@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/picture/spheres/pixel.hpp"
+#include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/sphere_kernels.hpp"
 
 namespace grainreel {

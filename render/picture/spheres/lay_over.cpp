@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "render/picture/spheres/lay_over.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "render/picture/spheres/pixel.hpp"
+#include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/pixels-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -17,7 +17,7 @@
 #include "render/picture/grains/spheres.hpp"
 #include "render/picture/marks/marks.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
-#include "render/picture/spheres/pixel.hpp"
+#include "render/picture/spheres/layer.hpp"
 #include "render/picture/whole/compose.hpp"
 #include "render/picture/words/grain_labels.hpp"
 #include "render/picture/words/overlay.hpp"

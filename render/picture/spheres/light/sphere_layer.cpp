@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "engine/base/processor.hpp"
-#include "render/picture/spheres/pixel.hpp"
+#include "render/picture/spheres/layer.hpp"
 
 namespace grainreel {
 
