@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "render/picture/spheres/light/lamp.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"
-#include "render/picture/spheres/light/tone.hpp"
 #include "render/picture/spheres/visibility.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "render/picture/spheres/light/tone.hpp"
+#include "render/picture/spheres/light/lamp.hpp"
 
 #include <algorithm>
 #include <cmath>
