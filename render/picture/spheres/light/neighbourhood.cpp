@@ -1,10 +1,79 @@
 #include "render/picture/spheres/light/neighbourhood.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 namespace grainreel {
+
+void LightGrid::set_axes(const Lamp& lamp) {
+    const Eigen::Vector3f w(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]);
+    const Eigen::Vector3f u = w.unitOrthogonal(), v = w.cross(u);
+    const Eigen::Vector3f axes[3] = {u, v, w};
+    for (int a = 0; a < 3; ++a)
+        for (int c = 0; c < 3; ++c) axis_[a][c] = axes[a][c];
+}
+
+// A cell is as wide as nearly all spheres; the few larger ones are put into all the cells that they reach.
+void LightGrid::set_cells(const std::vector<ViewSphere>& spheres, float reach) {
+    constexpr double kNearlyAll = 0.9, kMostCells = 4;  // cells a sphere
+    std::vector<float> radii;
+    const std::size_t stride = spheres.size() / 4096 + 1;
+    for (std::size_t i = 0; i < spheres.size(); i += stride) radii.push_back(spheres[i].radius);
+    const auto typical =
+        radii.begin() + static_cast<std::ptrdiff_t>(kNearlyAll * static_cast<double>(radii.size() - 1));
+    std::nth_element(radii.begin(), typical, radii.end());
+    small_ = 1.2f * *typical;
+    Place high = place(spheres[0]);
+    low_ = high;
+    for (const ViewSphere& s : spheres) {
+        const Place at = place(s);
+        for (int a = 0; a < 3; ++a) low_[a] = std::min(low_[a], at[a]), high[a] = std::max(high[a], at[a]);
+    }
+    double volume = 1;
+    for (int a = 0; a < 3; ++a) volume *= static_cast<double>(high[a] - low_[a]) + 2 * small_;
+    const double least = std::cbrt(volume / (kMostCells * static_cast<double>(spheres.size()) + 64));
+    const float size = std::max(2 * small_, static_cast<float>(least));
+    per_cell_ = 1 / size;
+    for (int a = 0; a < 3; ++a) cells_[a] = static_cast<int>((high[a] - low_[a]) * per_cell_) + 1;
+    reach_ = reach;
+    widest_small_ = 0;
+    for (const ViewSphere& s : spheres)
+        if (s.radius <= small_) widest_small_ = std::max(widest_small_, s.radius);
+    widest_ = (1 + reach) * widest_small_;
+}
+
+template <class Visit>
+void LightGrid::for_cells(const ViewSphere& s, const Visit& visit) const {
+    const Place at = place(s);
+    const float wide = s.radius <= small_ ? 0 : (1 + reach_) * s.radius;
+    for (int u = cell(at[0] - wide, 0); u <= cell(at[0] + wide, 0); ++u)
+        for (int v = cell(at[1] - wide, 1); v <= cell(at[1] + wide, 1); ++v)
+            for (int w = cell(at[2] - wide, 2); w <= cell(at[2] + wide, 2); ++w)
+                visit(column(u, v) * cells_[2] + w);
+}
+
+void LightGrid::fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, float reach) {
+    start_.clear();
+    if (spheres.empty()) return;
+    set_axes(lamp);
+    set_cells(spheres, reach);
+    const std::size_t columns = static_cast<std::size_t>(cells_[0]) * cells_[1];
+    start_.assign(columns * cells_[2] + 2, 0);  // counted two places on, so that filling leaves the starts
+    for (const ViewSphere& s : spheres) for_cells(s, [&](std::size_t c) { ++start_[c + 2]; });
+    for (std::size_t c = 2; c < start_.size(); ++c) start_[c] += start_[c - 1];
+    item_.resize(start_.back());
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+        for_cells(spheres[i], [&](std::size_t c) { item_[start_[c + 1]++] = static_cast<std::uint32_t>(i); });
+    top_.assign(columns, -1);
+    for (std::size_t c = 0; c < columns; ++c)
+        for (int w = cells_[2] - 1; w >= 0 && top_[c] < 0; --w) {
+            const std::size_t at = c * cells_[2] + w;
+            if (start_[at + 1] > start_[at]) top_[c] = w;
+        }
+}
+
 namespace {
 
 constexpr std::size_t kMostCasters = 24;

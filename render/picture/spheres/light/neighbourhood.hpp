@@ -1,16 +1,91 @@
-// Which grains take light from which: for each grain that is seen, those near it (ambient light) and those
-// between it and the key light (shadows).
+// Spheres in cells whose third axis points to the key light: who is near a grain, and who stands between it
+// and the light, are both found along short rows of cells.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "engine/base/team.hpp"
-#include "render/picture/spheres/light/light_grid.hpp"
+#include "render/picture/spheres/light/lamp.hpp"
+#include "render/picture/spheres/sphere.hpp"
 #include "render/picture/spheres/sphere_kernels.hpp"
 
 namespace grainreel {
+
+class LightGrid {
+  public:
+    // reach: how far around a sphere it is to be found, in its radii beyond its surface.
+    void fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, float reach);
+
+    // Calls visit(index) for every sphere that may be within its own reach of `s`, itself included; a large
+    // one perhaps more than once.
+    template <class Visit>
+    void around(const ViewSphere& s, const Visit& visit) const {
+        const Place at = place(s);
+        const float wide = s.radius + widest_;
+        for (int u = cell(at[0] - wide, 0); u <= cell(at[0] + wide, 0); ++u)
+            for (int v = cell(at[1] - wide, 1); v <= cell(at[1] + wide, 1); ++v)
+                visit_row(u, v, cell(at[2] - wide, 2), cell(at[2] + wide, 2), visit);
+    }
+
+    // Calls visit(index) for spheres that may stand between `s` and the light, cell by cell towards it, until
+    // enough() is true after a layer of cells.
+    template <class Visit, class Enough>
+    void towards_light(const ViewSphere& s, float beside, const Visit& visit, const Enough& enough) const {
+        const Place at = place(s);
+        const float wide = s.radius + beside + widest_small_;
+        const int u0 = cell(at[0] - wide, 0), u1 = cell(at[0] + wide, 0);
+        const int v0 = cell(at[1] - wide, 1), v1 = cell(at[1] + wide, 1);
+        int top = -1;
+        for (int u = u0; u <= u1; ++u)
+            for (int v = v0; v <= v1; ++v) top = std::max(top, top_[column(u, v)]);
+        for (int w = cell(at[2] - widest_small_, 2); w <= top && !enough(); ++w)
+            for (int u = u0; u <= u1; ++u)
+                for (int v = v0; v <= v1; ++v) visit_row(u, v, w, w, visit);
+    }
+
+    // Along the key light's direction; m.
+    float height(const ViewSphere& s) const { return place(s)[2]; }
+
+  private:
+    using Place = std::array<float, 3>;
+    Place place(const ViewSphere& s) const {
+        Place p;
+        for (int a = 0; a < 3; ++a) p[a] = axis_[a][0] * s.x + axis_[a][1] * s.y + axis_[a][2] * s.z;
+        return p;
+    }
+    int cell(float coordinate, int axis) const {
+        return static_cast<int>(
+            std::clamp((coordinate - low_[axis]) * per_cell_, 0.0f, static_cast<float>(cells_[axis] - 1)));
+    }
+    std::size_t column(int u, int v) const { return static_cast<std::size_t>(u) * cells_[1] + v; }
+    template <class Visit>
+    void visit_row(int u, int v, int first, int last, const Visit& visit) const {
+        const std::size_t row = column(u, v) * cells_[2];
+        for (std::uint32_t k = start_[row + first]; k < start_[row + last + 1]; ++k) visit(item_[k]);
+    }
+    void set_axes(const Lamp& lamp);
+    void set_cells(const std::vector<ViewSphere>& spheres, float reach);
+    // Calls visit(cell) for the cells that a sphere is put into.
+    template <class Visit>
+    void for_cells(const ViewSphere& s, const Visit& visit) const;
+
+    float axis_[3][3] = {};
+    Place low_{};
+    std::array<int, 3> cells_{1, 1, 1};
+    float per_cell_ = 1;  // 1/m
+    float reach_ = 0;
+    float small_ = 0;         // m: radius up to which a sphere is put into the cell of its centre alone
+    float widest_ = 0;        // m: how far from the centre such a one may be looked for
+    float widest_small_ = 0;  // m: largest radius among them
+    std::vector<std::uint32_t> start_, item_;
+    std::vector<int> top_;  // a column's last cell that holds something, or -1
+};
+
+// Which grains take light from which: for each grain that is seen, those near it (ambient light) and those
+// between it and the key light (shadows).
 
 class Neighbourhood {
   public:
