@@ -1,5 +1,4 @@
-// Lit grains on nothing: who is seen (Visibility), what walls hide of them (WallOrder), who takes light from
-// whom (Neighbourhood), then each pixel lit once, and those on edges once for each grain that shares them.
+// Lights a few rows of the picture.
 #pragma once
 
 #include <array>
@@ -8,12 +7,78 @@
 
 #include "engine/base/team.hpp"
 #include "render/picture/spheres/layer.hpp"
-#include "render/picture/spheres/light/band_painter.hpp"
 #include "render/picture/spheres/light/neighbourhood.hpp"
+#include "render/picture/spheres/sphere_kernels.hpp"
 #include "render/picture/spheres/visibility.hpp"
 #include "render/picture/spheres/wall_order.hpp"
 
 namespace grainreel {
+
+struct Spheres;
+
+struct PaintJob {
+    const Sight& sight;
+    const Cut& cut;
+    const Lamp& lamp;
+    const Spheres& spheres;
+    const Visibility& visibility;
+    const Neighbourhood& neighbourhood;
+    const std::vector<std::uint32_t>& slot_of;
+};
+
+class BandPainter {
+  public:
+    // Rows y0 to y1 (excluded) of the layer.
+    void paint(const PaintJob& job, int y0, int y1, Layer& layer);
+
+  private:
+    // Pixels of a row between edges, which show one grain and nothing else.
+    struct Run {
+        std::uint32_t grain;
+        int x, y, count;
+    };
+    // A part of a pixel that one grain takes.
+    struct Part {
+        std::uint32_t grain, pixel;  // index; place among `soft_`
+        float x, y, share;           // pixels
+    };
+    // A pixel put together from its parts.
+    struct Soft {
+        int x, y;
+        float red = 0, green = 0, blue = 0, share = 0;
+    };
+
+    void paint_row(const PaintJob& job, int y, Layer& layer);
+    void take_edge(const PaintJob& job, int x, int y);
+    void settle_edges(const PaintJob& job);
+    template <class Of, class Light>
+    void for_each_grain(const PaintJob& job, const std::vector<Of>& all, std::vector<Of>& sorted,
+                        const Light& light);
+    void light_runs(const PaintJob& job, Layer& layer);
+    void light_parts(const PaintJob& job);
+    void add_parts(std::size_t begin, std::size_t end);
+    void light(const PaintJob& job, std::uint32_t grain, const LitPoints& points);
+    NeighbourSpan nearest(const PaintJob& job, const ViewSphere& own, const NeighbourSpan& all,
+                          const LitPoints& points);
+    void encode(Layer& layer) const;
+    void make_room(std::size_t points);
+    void pad(std::size_t points);
+
+    RowBits edges_;
+    std::vector<Run> runs_, sorted_runs_;
+    std::vector<Part> parts_, sorted_;
+    std::vector<std::uint32_t> count_, met_;  // entries a grain shown (kept at 0); grains met in this band
+    std::vector<Soft> soft_;
+    EdgeBlock block_;
+    std::uint32_t block_who_[kCandidates][kPointBlock] = {};
+    int block_x_[kPointBlock] = {}, block_y_[kPointBlock] = {};
+    int block_size_ = 0;
+    std::vector<float> x_, y_, red_, green_, blue_;
+    std::vector<NearGrain> near_;
+};
+
+// Lit grains on nothing: who is seen (Visibility), what walls hide of them (WallOrder), who takes light from
+// whom (Neighbourhood), then each pixel lit once, and those on edges once for each grain that shares them.
 
 // What is drawn. One entry a grain; `poles` and `painted` may be empty.
 struct Spheres {
