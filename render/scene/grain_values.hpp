@@ -3,7 +3,7 @@
 
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/film_shows.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/film_look.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 

@@ -11,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/film/codec/film_writer.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 

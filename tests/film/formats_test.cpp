@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/film/codec/encoder.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 

@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

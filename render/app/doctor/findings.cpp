@@ -20,7 +20,7 @@
 #include "render/film/codec/codec.hpp"
 #include "render/picture/gl/context.hpp"
 #include "render/picture/words/missing_letters.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "engine/files/foreign/names.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"
 
 namespace grainreel {

@@ -14,7 +14,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/codec/join_films.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "engine/scene/text/units.hpp"
-#include "render/scene/film_look.hpp"
-#include "render/scene/film_shows.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/grain_values.hpp"
 

@@ -11,7 +11,7 @@
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"
-#include "render/scene/film_look.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

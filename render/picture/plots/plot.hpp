@@ -14,7 +14,7 @@
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
-#include "render/scene/film_shows.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

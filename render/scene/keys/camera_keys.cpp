@@ -6,8 +6,8 @@
 #include "engine/base/numbers.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/keys/film_keys.hpp"
-#include "render/scene/keys/words.hpp"
 
 namespace grainreel {
 namespace {

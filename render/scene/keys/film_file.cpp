@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"
 
 namespace grainreel {

@@ -1,7 +1,7 @@
 // The keys of [film] itself: the picture and the file. What only shows more has chapters of its own
 // (film_keys.hpp).
 #include "render/scene/keys/film_keys.hpp"
-#include "render/scene/keys/words.hpp"
+#include "render/scene/film.hpp"
 
 #include <charconv>
 

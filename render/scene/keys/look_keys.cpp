@@ -1,7 +1,7 @@
 // The keys of style, light and cut: part of [film], and [film.cut].
 #include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/keys/film_keys.hpp"
-#include "render/scene/keys/words.hpp"
 
 namespace grainreel {
 namespace {
