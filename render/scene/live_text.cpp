@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {

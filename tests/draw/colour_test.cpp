@@ -4,7 +4,7 @@
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/plots/axes.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

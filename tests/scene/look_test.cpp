@@ -12,7 +12,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

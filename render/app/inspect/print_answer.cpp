@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/text/units.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {

@@ -8,8 +8,7 @@
 
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/scene/grain_values.hpp"
-#include "render/scene/wall_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

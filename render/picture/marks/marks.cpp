@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "render/scene/filmed_scene.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 #include "render/picture/marks/marks.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {

@@ -13,7 +13,7 @@
 #include "render/picture/plots/axes.hpp"
 #include "render/picture/plots/profile_plot.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,7 @@
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/grains/velocity_field.hpp"
 #include "render/picture/plots/axes.hpp"
-#include "render/scene/grain_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {

@@ -6,8 +6,8 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/grain_values.hpp"
 #include "render/scene/keys/film_keys.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {

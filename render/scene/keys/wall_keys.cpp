@@ -7,7 +7,7 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/keys/film_keys.hpp"
-#include "render/scene/wall_values.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {
