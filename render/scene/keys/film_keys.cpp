@@ -12,7 +12,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/scene/colours.hpp"
 #include "render/scene/film.hpp"
-#include "render/scene/keys/word_kinds.hpp"
+#include "render/scene/keys/word_keys.hpp"
 #include "render/scene/purposes.hpp"
 
 namespace grainreel {

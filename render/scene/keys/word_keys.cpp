@@ -1,0 +1,177 @@
+// The keys of [[film.caption]]: words that the film shows for a while, and how long it stands still for them.
+#include "render/scene/keys/word_keys.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <iterator>
+
+#include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
+#include "engine/base/text.hpp"
+#include "engine/scene/chapters/drive_keys.hpp"
+#include "engine/scene/keys/bound_key.hpp"
+#include "render/scene/keys/film_keys.hpp"
+
+namespace grainreel {
+
+namespace {
+
+using namespace keys;
+
+constexpr double longest_hold = 60;  // s of film
+
+const KeyTable<FilmCaption>& caption_table() {
+    using C = FilmCaption;
+    static const KeyTable<C> table{
+        quantity("from", &C::from, Dimension::time, not_negative, required(),
+                 "Simulated time at which the words appear."),
+        quantity("to", &C::to, Dimension::time, positive, note("the next caption, or the end"),
+                 "Simulated time at which they go."),
+        text("text", &C::text, required(), "\"\\n\" begins another line."),
+        quantity("hold", &C::hold, Dimension::time, {0, longest_hold, false, false}, initial(),
+                 "Time of the film for which the picture stands still when they appear, to read them."),
+    };
+    return table;
+}
+
+void check_caption(const Document& document, const FilmedScene& scene, std::size_t k) {
+    const std::vector<FilmCaption>& captions = scene.film.captions;
+    const std::string table = fmt::format("film.caption[{}]", k);
+    const FilmCaption& caption = captions[k];
+    if (k > 0 && clearly_less(caption.from, captions[k - 1].to))
+        document.fail(
+            table + ".from",
+            fmt::format("is {:.6g} s, but the caption before it stays until {:.6g} s; captions follow "
+                        "each other in time",
+                        caption.from, captions[k - 1].to));
+    if (!clearly_less(caption.from, scene.run.duration))
+        document.fail(table + ".from",
+                      fmt::format("is {:.6g} s, but the run ends at {:.6g} s; bring it forward or lengthen "
+                                  "run.duration",
+                                  caption.from, scene.run.duration));
+    if (!clearly_more(caption.to, caption.from))
+        document.fail(table + ".to",
+                      fmt::format("is {:.6g} s, not later than 'from', {:.6g} s; write a later time",
+                                  caption.to, caption.from));
+    if (caption.text.empty()) document.fail(table + ".text", "must not be empty; take the caption out");
+}
+
+}  // namespace
+
+void list_captions(Keys& all) {
+    caption_table().list(all, "film.caption[]");
+}
+
+void read_captions(Document& document, FilmedScene& scene) {
+    std::vector<FilmCaption>& captions = scene.film.captions;
+    const std::size_t count = document.size("film.caption");
+    caption_table().read_elements(document, scene, "film.caption", captions);
+    for (std::size_t k = 0; k < count; ++k)
+        if (captions[k].to == 0)
+            captions[k].to =
+                k + 1 < count ? captions[k + 1].from : std::max(scene.run.duration, captions[k].from);
+    if (ends_early(document)) {
+        std::size_t late = 0;
+        while (late < count && !clearly_less(captions[count - 1 - late].from, scene.run.duration)) ++late;
+        captions.resize(count - late);
+        leave_out(scene, late, "caption", "captions");
+    }
+    for (std::size_t k = 0; k < captions.size(); ++k) check_caption(document, scene, k);
+}
+
+void write_captions(SceneText& out, const FilmedScene& scene) {
+    caption_table().write_elements(out, scene, "film.caption", scene.film.captions);
+}
+
+// The keys of [[film.label]]: words beside single grains.
+
+namespace {
+
+using namespace keys;
+
+const KeyTable<FilmLabel>& label_table() {
+    using L = FilmLabel;
+    static const KeyTable<L> table{
+        integer("id", &L::id, 0, most_grains, required(), "Of the grain; `inspect` tells ids."),
+        text("text", &L::text, required(), "The words beside it."),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_labels(Keys& all) {
+    label_table().list(all, "film.label[]");
+}
+
+void read_labels(Document& document, FilmedScene& scene) {
+    std::vector<FilmLabel>& labels = scene.film.labels;
+    label_table().read_elements(document, scene, "film.label", labels);
+    constexpr std::size_t most = 50;
+    if (labels.size() > most)
+        document.fail("film.label", fmt::format("there are {} labels; a picture has room for {} at most",
+                                                labels.size(), most));
+    for (std::size_t k = 0; k < labels.size(); ++k)
+        if (labels[k].text.empty())
+            document.fail(fmt::format("film.label[{}].text", k), "must not be empty; take the label out");
+}
+
+void write_labels(SceneText& out, const FilmedScene& scene) {
+    label_table().write_elements(out, scene, "film.label", scene.film.labels);
+}
+
+namespace {
+
+struct WordKind {
+    const char* name;
+    bool WordKinds::*member;
+};
+constexpr WordKind word_kinds[] = {
+    {"title", &WordKinds::title},       {"legend", &WordKinds::legend},    {"time", &WordKinds::time},
+    {"cycle", &WordKinds::cycle},       {"dial", &WordKinds::dial},        {"drive", &WordKinds::drive},
+    {"playback", &WordKinds::playback}, {"scale", &WordKinds::scale},      {"arrows", &WordKinds::arrows},
+    {"counts", &WordKinds::counts},     {"captions", &WordKinds::captions}};
+
+std::vector<std::string> word_kind_names() {
+    std::vector<std::string> names;
+    for (const WordKind& kind : word_kinds) names.emplace_back(kind.name);
+    return names;
+}
+
+void read_word_kinds(Document& document, const Scene&, const std::string& path, Film& film) {
+    film.word_kinds = {};
+    if (!document.has(path)) return;
+    for (const WordKind& kind : word_kinds) film.word_kinds.*kind.member = false;
+    const std::vector<std::string> names = document.name_list(path);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto* const kind = std::find_if(std::begin(word_kinds), std::end(word_kinds),
+                                              [&](const WordKind& known) { return known.name == names[i]; });
+        if (kind == std::end(word_kinds))
+            throw UserError(fmt::format("{}: 'show' has \"{}\", which is none of the words: {}",
+                                        document.place(fmt::format("{}[{}]", path, i)), excerpt(names[i]),
+                                        fmt::join(word_kind_names(), ", ")));
+        film.word_kinds.*kind->member = true;
+    }
+}
+
+std::string word_kinds_text(const Film& film, const Scene&) {
+    std::vector<std::string> names;
+    for (const WordKind& kind : word_kinds)
+        if (film.word_kinds.*kind.member) names.push_back(quoted(kind.name));
+    return toml_list(names);
+}
+
+}  // namespace
+
+keys::BoundKey<Film> word_kinds_key() {
+    using namespace keys;
+    return bound_by<Film>(
+               of_choices(entry("show", KeyKind::name_list, note("all of them"),
+                                "Words and signs that the film has; [] for none. `words` says where."),
+                          word_kind_names()),
+               read_word_kinds, word_kinds_text)
+        .unwritten_if([](const Film& film) { return film.word_kinds == WordKinds(); });
+}
+
+}  // namespace grainreel
