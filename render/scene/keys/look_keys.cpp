@@ -1,9 +1,17 @@
 // The keys of style, light and cut: part of [film], and [film.cut].
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/keys/film_keys.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
+
 namespace {
 
 using namespace keys;
@@ -80,6 +88,120 @@ void write_cut(SceneText& out, const FilmedScene& scene) {
     if (!scene.film.look.cut.present) return;
     out.table("film.cut");
     cut_table().write(out, scene, scene.film.look.cut);
+}
+
+// The keys of [film.walls]: how meshes are drawn.
+
+namespace {
+
+using namespace keys;
+
+// Throws UserError for a name that no mesh has.
+std::vector<std::string> mesh_names(Document& document, const Scene& scene, const std::string& path) {
+    std::vector<std::string> names = document.name_list(path);
+    std::string known;
+    for (const SceneMesh& mesh : scene.meshes)
+        known += (known.empty() ? "\"" : ", \"") + excerpt(mesh.name) + "\"";
+    for (const std::string& name : names)
+        if (std::none_of(scene.meshes.begin(), scene.meshes.end(),
+                         [&](const SceneMesh& mesh) { return mesh.name == name; }))
+            document.fail(path, fmt::format("names the mesh \"{}\", which is not there; there is {}",
+                                            excerpt(name), known.empty() ? "none" : known));
+    return names;
+}
+
+BoundKey<FilmWalls> names_key(const char* name, std::vector<std::string> FilmWalls::*member,
+                              const char* about) {
+    return bound_by<FilmWalls>(
+        entry(name, KeyKind::name_list, note("by their shape"), about),
+        [member](Document& document, const Scene& scene, const std::string& path, FilmWalls& into) {
+            if (document.has(path)) into.*member = mesh_names(document, scene, path);
+        },
+        [member](const FilmWalls& from, const Scene&) {
+            std::vector<std::string> words;
+            for (const std::string& word : from.*member) words.push_back(quoted(word));
+            return words.empty() ? "" : toml_list(words);
+        });
+}
+
+// Comes after the colour. Keys behind it are not read where walls are plain.
+void read_range(Document& document, const Scene& scene, const std::string& path, FilmWalls& walls) {
+    const std::string key = "film.walls.colour";
+    if (scene.meshes.empty()) document.fail(key, "colours meshes, and the scene has none; leave it out");
+    const auto range = document.interval(path, dimension_of(walls.colour));
+    walls.fixed = range.has_value();
+    walls.range = range.value_or(usual_range(walls.colour, scene));
+    if (walls.fixed && !(walls.range[0] >= 0 && walls.range[0] < walls.range[1]))
+        document.fail(path, "must rise from 0 or more, from low to high; exchange them or widen it");
+    if (!walls.fixed && !(walls.range[1] > 0 && std::isfinite(walls.range[1])))
+        document.fail(key,
+                      fmt::format("is \"{}\", for which this scene gives no scale; write a 'range' for it",
+                                  word_of(walls.colour, wall_colour_words)));
+}
+
+std::string range_text(const FilmWalls& walls, const Scene&) {
+    return walls.fixed ? toml_list({as_toml(walls.range[0]), as_toml(walls.range[1])}) : "";
+}
+
+// Colours change from record to record: where the scene says nothing of these, and keeps no fields that would
+// go by them too, each is as short as a film needs it.
+void shorten_records(const Document& document, double duration, FieldOutput& fields) {
+    constexpr double records = 100;
+    if (fields.wanted()) return;
+    if (fields.interval > 0 && !document.has("output.fields.interval")) fields.interval = duration / records;
+    if (fields.periods > 0 && !document.has("output.fields.periods")) fields.periods = 1;
+}
+
+const char* of_plain_walls(const FilmWalls& walls) {
+    return walls.coloured() ? nullptr : "walls are plain; give them a 'colour'";
+}
+
+const KeyTable<FilmWalls>& walls_table() {
+    static const KeyTable<FilmWalls> table{
+        choice(
+            "colour", &FilmWalls::colour, wall_colour_words, initial(),
+            "Colours of meshes: plain, or by what the grains do to each triangle: the mean normal force over "
+            "its area, or the work of rubbing over its area (instrument wear). As the last record of "
+            "fields.nc "
+            "has it, and records are a hundredth of the run or a period of the drive where nothing else is "
+            "said.")
+            .owns({"range"})
+            .unwritten_if([](const FilmWalls& walls) { return !walls.coloured(); }),
+        bound_by<FilmWalls>(
+            entry("range", KeyKind::interval, note("three powers of ten, from bed and motion"),
+                  "Of that, [\"10 Pa\", \"10 kPa\"] or [\"1 J/m2\", \"1 kJ/m2\"]: the colours' ends, for the "
+                  "whole film. Colours go by powers of ten, or, where it begins at 0, evenly."),
+            read_range, range_text)
+            .useless_for(of_plain_walls),
+        quantity("edge_angle", &FilmWalls::edge_angle, Dimension::degrees, {0, 180, false, false}, initial(),
+                 "Edges of a mesh whose faces turn more than this are drawn, beside its outlines.")
+            .unwritten_if([](const FilmWalls& walls) { return walls == FilmWalls(); }),
+        names_key("solid", &FilmWalls::solid, "Meshes that hide what is behind them from all sides."),
+        names_key("glass", &FilmWalls::glass, "Meshes that are glass from outside and solid from within."),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_film_walls(Keys& all) {
+    walls_table().list(all, "film.walls");
+}
+
+void read_film_walls(Document& document, FilmedScene& scene) {
+    FilmWalls& walls = scene.film.look.walls;
+    walls_table().read(document, scene, "film.walls", walls);
+    if (walls.coloured()) shorten_records(document, scene.run.duration, scene.output.fields);
+    for (const std::string& name : walls.solid)
+        if (std::find(walls.glass.begin(), walls.glass.end(), name) != walls.glass.end())
+            document.fail("film.walls.glass",
+                          fmt::format("names \"{}\", which 'solid' names too; take one out", excerpt(name)));
+}
+
+void write_film_walls(SceneText& out, const FilmedScene& scene) {
+    if (scene.film.look.walls == FilmWalls()) return;
+    out.table("film.walls");
+    walls_table().write(out, scene, scene.film.look.walls);
 }
 
 }  // namespace grainreel
