@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/picture/mesh/mesh_sides.hpp"
-
 namespace grainreel {
+
 namespace {
 
 // Which corner of a triangle is neither of these vertices.

@@ -48,4 +48,10 @@ std::vector<std::int32_t> smooth_patches(const Surface& surface, double edge_ang
 // rad, between the planes of a triangle and its neighbour across an edge.
 double turn_of(const Surface& surface, std::int32_t triangle, const Neighbour& neighbour);
 
+// Which sides of a mesh look into something that it encloses, and which look out.
+
+// The sides of each triangle. A side is told by how much of what is around it is surface again: a few rays
+// from each patch say so.
+std::vector<MeshShape::Sides> find_sides(const Surface& surface, double edge_angle, MeshLook look);
+
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-#include "render/picture/mesh/mesh_sides.hpp"
+#include "render/picture/mesh/mesh_shape.hpp"
 
 #include <algorithm>
 #include <array>
