@@ -18,7 +18,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "grainreel/picture.hpp"
 #include "render/picture/whole/renderer.hpp"
-#include "render/scene/colours.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/read_scene.hpp"
 
 namespace grainreel::v1 {

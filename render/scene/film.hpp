@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/vector.hpp"
@@ -341,5 +342,20 @@ inline const Words<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},   {"w
                                                  {"av1", FilmFormat::av1},   {"gif", FilmFormat::gif},
                                                  {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},
                                                  {"y4m", FilmFormat::y4m}};
+
+// Colours by name, chosen to be told apart by everybody.
+
+// "#rrggbb" or a name of Okabe and Ito's palette (2008, jfly.uni-koeln.de/color), or black, white, grey.
+std::optional<Colour> parse_colour(std::string_view text);
+
+// The first of the palette's eight colours, from orange on, that is taken least often: not at all while one
+// is free.
+Colour default_colour(const std::vector<Colour>& taken);
+
+// "#rrggbb".
+std::string colour_text(const Colour& colour);
+
+// The background of a film's pictures, where the scene names none.
+Colour default_background(FilmLook::Style style);
 
 }  // namespace grainreel

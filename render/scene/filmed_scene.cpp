@@ -4,7 +4,7 @@
 
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/text/toml_text.hpp"
-#include "render/scene/colours.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/keys/film_keys.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "render/scene/colours.hpp"
+#include "render/scene/film.hpp"
 #include "render/scene/keys/film_keys.hpp"
 
 namespace grainreel {

@@ -13,7 +13,7 @@
 
 #include "engine/measure/measures.hpp"
 #include "render/picture/panels/side_by_side.hpp"
-#include "render/scene/colours.hpp"
+#include "render/scene/film.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -18,7 +18,7 @@
 #include "render/picture/base/palette.hpp"
 #include "render/picture/gl/objects.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/scene/colours.hpp"
+#include "render/scene/film.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

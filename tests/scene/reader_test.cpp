@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
-#include "render/scene/colours.hpp"
+#include "render/scene/film.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

@@ -14,7 +14,7 @@
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"
 #include "render/app/verbs/verb.hpp"
-#include "render/scene/colours.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 namespace {

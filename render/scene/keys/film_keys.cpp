@@ -10,7 +10,6 @@
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/colours.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/keys/word_keys.hpp"
 #include "render/scene/purposes.hpp"
