@@ -10,7 +10,6 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/exit_fade.hpp"
-#include "render/picture/container/lab_marks.hpp"
 #include "render/picture/container/mesh_shadows.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/lab_marks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/scene/drive_schedule.hpp"
-#include "render/picture/container/lab_marks.hpp"
+#include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
