@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "render/picture/camera/framing.hpp"
-#include "render/picture/container/exit_fade.hpp"
+#include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/mesh_shadows.hpp"
 #include "tests/draw/support.hpp"
 

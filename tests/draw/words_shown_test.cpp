@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/exit_fade.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/first_gutter.hpp"

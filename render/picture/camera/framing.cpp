@@ -8,8 +8,8 @@
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
+#include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/exit_fade.hpp"
 #include "render/picture/container/mesh_shadows.hpp"
 #include "render/scene/filmed_scene.hpp"
 

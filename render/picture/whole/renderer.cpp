@@ -10,7 +10,6 @@
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
-#include "render/picture/container/exit_fade.hpp"
 #include "render/picture/container/ground.hpp"
 #include "render/picture/container/side_layer.hpp"
 #include "render/picture/grains/shown_grains.hpp"
