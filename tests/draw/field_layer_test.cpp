@@ -1,5 +1,5 @@
 // The coloured layer of a quantity's mean before pale grains.
-#include "render/picture/marks/field_layer.hpp"
+#include "render/picture/marks/field_marks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The velocity field of arrows and streamlines, and the lines themselves.
-#include "render/picture/marks/flow_marks.hpp"
+#include "render/picture/marks/field_marks.hpp"
 
 #include <gtest/gtest.h>
 

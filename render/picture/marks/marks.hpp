@@ -12,8 +12,7 @@
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/grains/grain_colours.hpp"
-#include "render/picture/marks/field_layer.hpp"
-#include "render/picture/marks/flow_marks.hpp"
+#include "render/picture/marks/field_marks.hpp"
 #include "render/picture/marks/force_marks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
