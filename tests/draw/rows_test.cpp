@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "render/picture/container/shade_row.hpp"
-#include "render/picture/spheres/lay_over.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "tests/instruction_sets.hpp"
 

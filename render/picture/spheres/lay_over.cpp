@@ -1,10 +1,9 @@
-#include "render/picture/spheres/lay_over.hpp"
+#include "render/picture/spheres/layer.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/picture/spheres/lay_over.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/pixels-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

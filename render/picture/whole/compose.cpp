@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/spheres/lay_over.hpp"
+#include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 
 namespace grainreel {
