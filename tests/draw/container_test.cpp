@@ -1,7 +1,7 @@
 // The container in the picture: where it is, and that all of it is there.
 #include <gtest/gtest.h>
 
-#include "render/picture/words/writer.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

@@ -12,7 +12,7 @@
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/picture/plots/axes.hpp"
-#include "render/picture/words/writer.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "engine/scene/text/units.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/shown_values.hpp"
 

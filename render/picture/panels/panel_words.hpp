@@ -8,7 +8,7 @@
 #include "engine/frame.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/panels/panels.hpp"
-#include "render/picture/words/writer.hpp"
+#include "render/picture/words/blocks.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/picture/camera/framing.hpp"
-#include "render/picture/words/writer.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/layout.hpp"
-#include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

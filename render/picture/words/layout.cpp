@@ -8,10 +8,10 @@
 
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/camera/camera_path.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/first_gutter.hpp"
 #include "render/picture/words/numbers_plan.hpp"
-#include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -17,8 +17,8 @@
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

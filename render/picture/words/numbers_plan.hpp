@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/layout.hpp"
-#include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -12,8 +12,8 @@
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/plots/plot.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/numbers_plan.hpp"
-#include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

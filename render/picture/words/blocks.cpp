@@ -1,3 +1,4 @@
+#include "render/picture/words/blocks.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/writer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
