@@ -26,7 +26,7 @@ double PeriodStretch::turns_after(double whole, double part) const {
 
 double PeriodStretch::time_after(double wanted) const {
     if (!changes()) return wanted * period;
-    // Frequencies are positive, so that cycles only grow; halving finds the last bit.
+    // Frequencies are positive, so the count of periods only grows. Halving finds the time to the last bit.
     double low = 0, high = length;
     for (int halving = 0; halving < 64; ++halving) {
         const double middle = 0.5 * (low + high);

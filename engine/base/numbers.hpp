@@ -1,4 +1,5 @@
-// Lengths in a container that repeats.
+// Small functions of numbers: lengths in a container that repeats, a smooth step from 0 to 1, and comparisons
+// of numbers that a user wrote. Keep this header light: hot code includes it.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 namespace grainreel {
 
-// x shortened to the nearest image when the depth is periodic; period in m, 0 for none. |x| < 1.5 periods.
+// The distance x to the nearest periodic image. period: m, 0 where nothing repeats. |x| < 1.5 periods.
 inline double nearest_image(double x, double period) {
     if (period > 0) {
         if (x > 0.5 * period) return x - period;
@@ -15,7 +16,7 @@ inline double nearest_image(double x, double period) {
     return x;
 }
 
-// x wherever it is; the same number as nearest_image() has where that holds.
+// The same for any x. Where |x| < 1.5 periods, the result has the same bits as that of nearest_image().
 inline double wrapped(double x, double period) {
     if (period > 0 && std::abs(x) > 1.5 * period) return std::remainder(x, period);
     return nearest_image(x, period);
@@ -23,9 +24,8 @@ inline double wrapped(double x, double period) {
 
 }  // namespace grainreel
 
-// From 0 to 1 with neither a corner nor a jump of curvature: s(u) = 10 u^3 - 15 u^4 + 6 u^5 for u in [0, 1].
-// s' and s'' vanish at both ends.
-
+// A step from 0 to 1 without a corner or a jump of curvature: s(u) = 10 u^3 - 15 u^4 + 6 u^5 for u in [0, 1].
+// s' and s'' are 0 at both ends.
 namespace grainreel::smooth_step {
 
 inline double value(double u) {
@@ -37,7 +37,7 @@ inline double slope(double u) {
 inline double curvature(double u) {
     return 60 * u * (1 - u) * (1 - 2 * u);
 }
-// Integral of s from 0 to u; 1/2 at u = 1.
+// The integral of s from 0 to u, which is 1/2 at u = 1.
 inline double area(double u) {
     return u * u * u * u * (2.5 + u * (u - 3));
 }
@@ -45,12 +45,12 @@ inline double area(double u) {
 }  // namespace grainreel::smooth_step
 namespace grainreel {
 
-// Comparisons of numbers that a user wrote in decimals and units. "5.6 mm" is not 2.5 times "2.24 mm" to the
-// last bit, nor is every number of millimetres that of its metres; what was meant to be equal is.
+// Comparisons of numbers that a user wrote in decimals and units. "5.6 mm" is 2.5 times "2.24 mm", but not to
+// the last bit. Numbers that differ only by rounding count as equal here.
 
 constexpr double kSameDecimals = 1e-9;  // relative
 
-// How far two numbers of this size may differ and mean the same.
+// How far two numbers of this size may differ and still count as equal.
 inline double slack_of(double a, double b) {
     return kSameDecimals * std::max(std::abs(a), std::abs(b));
 }

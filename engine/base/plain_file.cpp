@@ -18,8 +18,8 @@ namespace {
 
 constexpr mode_t for_all = 0666;
 
-// Takes an open file that is an ordinary one. O_NONBLOCK kept the opening from waiting; here it means
-// nothing.
+// Returns an open file if it is an ordinary one, else closes it. O_NONBLOCK kept open() from waiting and has
+// no meaning for an ordinary file.
 int if_plain(int file) {
     struct stat about {};
     if (file < 0 || (::fstat(file, &about) == 0 && S_ISREG(about.st_mode))) return file;
@@ -79,7 +79,7 @@ int make_plain(const fs::path& path) {
 }
 
 void make_way(const fs::path& path) {
-    // Fails for a folder; who makes the file then says so.
+    // This fails for a folder; the function that makes the file then reports it.
     if (!is_device(path)) ::unlink(path.c_str());
 }
 
@@ -94,7 +94,7 @@ std::error_code make_plain_folder(const fs::path& path) {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-    // Another reason than a full disk or missing rights.
+    // Reasons other than a full disk or missing rights.
     const bool refused = error == EINVAL || error == EEXIST || error == ELOOP || error == ENXIO;
     const std::string other = refused ? other_than_file(path, false) : "";
     const std::string why = other.empty() ? std::strerror(error) : "it is " + other;

@@ -1,6 +1,5 @@
-// A vector whose memory, when it is large, comes in pages of 2 MiB where the system has them: arrays of a
-// large bed are read at many places at once, and the processor finds few small pages without looking them up
-// in memory. 5 to 10 % of a step of a million grains (docs/notes/performance.md).
+// What the step loop asks of the processor: large pages of memory, prefetching, no denormal numbers, and its
+// clock. Only speed depends on these, never a result. Keep this header light: hot code includes it.
 #pragma once
 
 #include <xmmintrin.h>
@@ -18,6 +17,9 @@
 
 namespace grainreel {
 
+// Memory for LargeArray. Where an array is large and the system has pages of 2 MiB, it lies in these: the
+// step loop reads arrays of a large bed at many places at once, and the processor remembers where only a few
+// pages are. This saves 5 to 10 % of a step of a million grains (docs/notes/performance.md).
 template <class T>
 struct LargePages {
     using value_type = T;
@@ -34,7 +36,7 @@ struct LargePages {
         void* memory = std::aligned_alloc(kPage, whole);
         if (!memory) throw std::bad_alloc();
 #if defined(MADV_HUGEPAGE)
-        madvise(memory, whole, MADV_HUGEPAGE);  // a hint: where it is refused, small pages do
+        madvise(memory, whole, MADV_HUGEPAGE);  // a hint; where the system refuses it, pages are small
 #endif
         return static_cast<T*>(memory);
     }
@@ -52,13 +54,8 @@ struct LargePages {
 template <class T>
 using LargeArray = std::vector<T, LargePages<T>>;
 
-}  // namespace grainreel
-namespace grainreel {
-
-// A line of memory asked for ahead.
-
-// To write to it: another processor that has the line gives it up. (GCC's __builtin_prefetch has an
-// instruction for this only where the processor is known not to be older than 2014, when it does nothing.)
+// Asks for a line of memory in order to write to it, so that another processor that has the line gives it up.
+// (GCC's __builtin_prefetch does this only when it compiles for processors later than 2014.)
 [[gnu::always_inline]] inline void fetch_to_write(const void* at) {
 #if defined(__x86_64__)
     asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(at)));
@@ -67,13 +64,11 @@ namespace grainreel {
 #endif
 }
 
-// What is wanted soon of arrays larger than the caches, fetched to the second level a few lines at a time
-// between other work: the processor has room for some 16 lines under way, and waits when it is asked for
-// more.
-
+// Fetches parts of large arrays into the second-level cache, a few lines at a time between other work. The
+// processor can have some 16 lines under way, and waits when it is asked for more.
 class Ahead {
   public:
-    // Nothing to fetch; what is added then comes within so many calls of fetch_some().
+    // Begins with nothing to fetch. All that is added later comes within so many calls of fetch_some().
     void start(int calls) {
         count_ = 0;
         calls_ = calls;
@@ -85,8 +80,8 @@ class Ahead {
         s.end = reinterpret_cast<std::uintptr_t>(array.data() + end);
         s.each = ((s.end - s.next) / kLine / calls_ + 1) * kLine;
     }
-    // (Inlined by force: GCC 12 takes a function that only prefetches for one without effect, and leaves out
-    // its calls.)
+    // (It must be inlined: GCC 12 believes that a function which only prefetches has no effect, and leaves
+    // out its calls.)
     [[gnu::always_inline]] inline void fetch_some() {
         for (int k = 0; k < count_; ++k) {
             Stretch& s = stretches_[k];
@@ -106,9 +101,8 @@ class Ahead {
     std::uintptr_t calls_ = 1;
 };
 
-// Numbers too small for full precision count as zero while this lives: a processor takes a hundred times as
-// long over them, and grains at rest make many, in single precision above all.
-
+// While this lives, denormal numbers (those too small for full precision) count as zero. A processor needs a
+// hundred times as long for them, and grains at rest make many, above all in single precision.
 class FlushDenormals {
   public:
     FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | results_to_zero | inputs_to_zero); }
@@ -121,8 +115,8 @@ class FlushDenormals {
     unsigned before_;
 };
 
-// The processor's own clock: cheap to read, in ticks of no known length, for shares of time only.
-
+// The processor's own clock. It is cheap to read, but the length of a tick is not known, so it only tells
+// shares of time.
 inline std::uint64_t ticks() {
 #if defined(__x86_64__)
     return __builtin_ia32_rdtsc();

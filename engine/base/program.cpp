@@ -11,7 +11,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t kAligned = 4;  // bytes, of the parts of a note
+constexpr std::size_t kAligned = 4;  // bytes; the parts of a note begin at multiples of this
 
 std::size_t padded(std::size_t size) {
     return (size + kAligned - 1) / kAligned * kAligned;
@@ -35,7 +35,7 @@ std::string identity_in(std::string_view notes) {
     return "";
 }
 
-// Looks at the first object alone, which is the program.
+// Looks at the first object only, which is the program.
 int look_at_program(dl_phdr_info* info, std::size_t, void* into) {
     auto& identity = *static_cast<std::string*>(into);
     for (int part = 0; part < info->dlpi_phnum && identity.empty(); ++part) {

@@ -1,4 +1,4 @@
-// Which build of a program this is.
+// Which build of the program runs, and the folder where it keeps what it can make again.
 #pragma once
 
 #include <cstdlib>
@@ -7,15 +7,13 @@
 
 namespace grainreel {
 
-// The build identity that the linker gave the program (the note NT_GNU_BUILD_ID of its file), in hexadecimal
-// digits: a hash of all its code and data, so that it differs where anything does. A program without one is
-// told by the size and time of its file. Empty where neither is known.
+// The build identity that the linker gave the program (the note NT_GNU_BUILD_ID of its file) in hexadecimal
+// digits. It is a hash of all code and data, so two different programs have different ones. For a program
+// without it, the size and time of its file; empty where these are not known either.
 std::string build_identity();
 
-// Where the user's programs keep what they can make again.
-
-// $XDG_CACHE_HOME/grainreel, else ~/.cache/grainreel (XDG Base Directory Specification 0.8). Empty where
-// neither names an absolute path. The folder need not be there.
+// The cache folder of this program: $XDG_CACHE_HOME/grainreel, else ~/.cache/grainreel (XDG Base Directory
+// Specification 0.8). Empty where neither names an absolute path. The folder may not exist yet.
 inline std::filesystem::path cache_folder() {
     const auto folder = [](const char* variable) -> std::filesystem::path {
         const char* value = std::getenv(variable);

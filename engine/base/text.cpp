@@ -13,7 +13,7 @@ bool follows(std::string_view text, std::size_t at) {
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
 }
 
-// Bytes of the character at `at`; 0 when there is none. RFC 3629, section 4.
+// Number of bytes of the character at `at`, or 0 where there is no valid one. RFC 3629, section 4.
 std::size_t length_of_character(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned first = byte(at);
@@ -47,8 +47,8 @@ std::size_t letters_in(std::string_view text) {
 
 namespace {
 
-// The number of the control character of so many bytes at `at`: C0, DEL, C1, and the two ends of lines that
-// Unicode has beside those. None for another character.
+// The code of the control character at `at`, which is `length` bytes long: C0, DEL, C1, or one of the two
+// ends of lines that Unicode adds. None for another character.
 std::optional<unsigned> control_at(std::string_view text, std::size_t at, std::size_t length) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
     if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7f)) return byte(0);
@@ -58,7 +58,7 @@ std::optional<unsigned> control_at(std::string_view text, std::size_t at, std::s
     return std::nullopt;
 }
 
-// The character at `at` as it may be shown, and how many bytes it has in the text.
+// The character at `at` as it may be shown, and its number of bytes in the text.
 struct Shown {
     std::string text;
     std::size_t length = 1;
@@ -71,13 +71,13 @@ Shown shown_at(std::string_view text, std::size_t at) {
     return {std::string(text.substr(at, length)), length};
 }
 
-// Where the first character ends that begins at `from` or behind it.
+// Where the character ends in which `from` lies.
 std::size_t end_of_character(std::string_view text, std::size_t from) {
     while (follows(text, from)) ++from;
     return from;
 }
 
-// Without its middle, where it has more bytes than that; more of its beginning stays than of its end.
+// The text without its middle if it has more than `most` bytes. Two thirds of what stays are its beginning.
 std::string without_middle(std::string_view text, std::size_t most) {
     if (text.size() <= most) return std::string(text);
     const std::size_t head = end_of_character(text, most * 2 / 3),
