@@ -1,4 +1,5 @@
-// Public values from the program's and back.
+// Public values made from those of the program, and the other way round.
+#include "engine/library/internal.hpp"
 
 #include <fmt/format.h>
 #include <charconv>
@@ -6,7 +7,6 @@
 #include <limits>
 
 #include "engine/files/frame_faults.hpp"
-#include "engine/library/internal.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "grainreel/contact_law.hpp"
 
@@ -179,14 +179,9 @@ grainreel::World inside(const World& from) {
     return world;
 }
 
-}  // namespace grainreel::v1
-
-// Small public types: errors, frames, meshes, virtual bases.
-
-namespace grainreel::v1 {
 namespace {
 
-// "12" at the end of `text` behind a colon: the number, and text without both; 0 where there is none.
+// Takes a number such as ":12" off the end of `text`. Returns the number, or 0 where there is none.
 int number_cut_off(std::string& text) {
     const std::size_t colon = text.rfind(':');
     if (colon == std::string::npos || colon + 1 == text.size()) return 0;

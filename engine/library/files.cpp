@@ -1,4 +1,4 @@
-// Frames on disk.
+// Frames on disk as other programs see them: files that are read and written, and readers of the caller.
 #include "engine/library/internal.hpp"
 
 #include <cmath>
@@ -22,7 +22,7 @@ ReadingOptions reading_of(const ReadOptions& options) {
     return reading;
 }
 
-// Frames of a reader of one's own, checked, as the program wants them.
+// The frames of a caller's reader, checked, as an archive of the program.
 class OwnArchive final : public FrameArchive {
   public:
     OwnArchive(std::filesystem::path path, std::unique_ptr<FrameSource> source)

@@ -1,19 +1,16 @@
 // Between the public types of the library, in grainreel::v1, and those of the program, in grainreel. Include
-// it before any public header: there grainreel does not take the names of v1 in.
+// this before any public header: the macro below keeps the names of v1 out of grainreel. The library's
+// sources need it, and nothing else does.
 #pragma once
-
-#include <exception>
-#include <memory>
-#include <mutex>
-
-#include "engine/laws/law_kernel.hpp"
-#include "grainreel/contact_law.hpp"
 
 #ifndef GRAINREEL_LIBRARY_SOURCE
 #define GRAINREEL_LIBRARY_SOURCE
 #endif
 
+#include <exception>
 #include <filesystem>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -22,8 +19,10 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "grainreel/contact_law.hpp"
 #include "grainreel/error.hpp"
 #include "grainreel/files.hpp"
 #include "grainreel/frame.hpp"
@@ -32,7 +31,7 @@
 
 namespace grainreel::v1 {
 
-// Calls a function of the program, and gives its errors as those of the library.
+// Calls a function of the program and turns its errors into those of the library.
 template <class Call>
 auto told(const Call& call) -> decltype(call()) {
     try {
@@ -52,19 +51,19 @@ Quaternion inside(const Rotation& r);
 Rotation outside(const Quaternion& q);
 
 Frame outside(const grainreel::Frame& frame);
-// Throws Error where lengths differ, ids do not rise, a number is none or a species is not one of `species`;
-// `who` begins the message.
+// Throws Error where lists differ in length, ids do not rise, a number is not finite or a species is not less
+// than `species`. who: the beginning of the message.
 grainreel::Frame inside(const Frame& frame, std::size_t species, const std::string& who);
 
 World outside(const grainreel::World& world);
 grainreel::World inside(const World& world);
 
-// What was read, how, and its plan.
+// A scene that was read, how it was read, and its plan.
 struct Scene::Impl {
     grainreel::Scene scene;
     Plan plan;
-    std::string text;            // of the file
-    std::filesystem::path file;  // its name
+    std::string text;            // the text of the scene's file
+    std::filesystem::path file;  // the file's name
     std::vector<std::string> settings;
 };
 
@@ -72,22 +71,17 @@ struct FrameFile::Impl {
     std::unique_ptr<FrameArchive> archive;
 };
 
-}  // namespace grainreel::v1
-
-// A caller's contact law as the step loop calls it.
-
-namespace grainreel::v1 {
-
-// A LawKernel that calls one law, a contact at a time. It must outlive all loops that run it.
+// A caller's contact law as the step loop calls it: a LawKernel that calls the law, a contact at a time. It
+// must outlive all loops that run it.
 class OwnLaw {
   public:
-    // Throws Error where it wants more memory than there may be.
+    // Throws Error where the law wants more numbers a contact than it may have.
     explicit OwnLaw(std::shared_ptr<const ContactLaw> law);
     OwnLaw(const OwnLaw&) = delete;
     OwnLaw& operator=(const OwnLaw&) = delete;
 
     const LawKernel& kernel() const { return kernel_; }
-    // Throws what the law has thrown on any thread since the last call.
+    // Throws what the law has thrown on any thread since the last call of this function.
     void rethrow();
 
   private:

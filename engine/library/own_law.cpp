@@ -11,11 +11,11 @@ namespace {
 
 constexpr int most_numbers = 16, most_vectors = 4;
 
-// The numbers of a kind, in LawParameters. The law's address stands there in halves, which doubles hold
-// exactly: it is all that a kernel is told of whose it is.
+// The numbers of a kind of contact in LawParameters. The law's address stands there in two halves, because a
+// double holds each of them exactly. A kernel knows its law only by this address.
 enum Parameter { address_high, address_low, stiffness, restitution, friction, parameters };
 
-// Where a contact's first number stands, as the program's own laws have it.
+// Where the first number of a contact is in the history; the program's own laws use the same layout.
 std::size_t place_in_history(int c, int stride) {
     return static_cast<std::size_t>(c / kBlock) * static_cast<std::size_t>(stride * kBlock) +
            static_cast<std::size_t>(c % kBlock);
@@ -25,15 +25,16 @@ Vec3 vector_at(const Row* rows, int c) {
     return {rows[0][c], rows[1][c], rows[2][c]};
 }
 
-// As the program's laws do (engine/laws/friction-inl.hpp): Cayley's rotation, then across the normal.
+// Turns a vector along with its contact as the program's laws do (engine/laws/friction-inl.hpp): by Cayley's
+// rotation, and then without its part along the normal.
 Vec3 carried(const Vec3& vector, const Vec3& turn, const Vec3& normal) {
     const Vec3 once = turn.cross(vector), twice = turn.cross(once);
     const Vec3 turned = vector + (once + twice) * (2 / (1 + turn.squaredNorm()));
     return turned - normal * normal.dot(turned);
 }
 
-// What a contact remembers, out of a block of the history and back. `before`: its velocity in the last step,
-// which is not the law's.
+// The memory of one contact, taken from a block of the history and put back. `before` is its velocity in the
+// last step, which belongs to the engine and not to the law.
 struct Memory {
     std::array<double, most_numbers> numbers{};
     std::array<Vector, most_vectors> vectors{};
@@ -43,7 +44,7 @@ struct Memory {
         return {std::span(numbers.data(), static_cast<std::size_t>(n)),
                 std::span(vectors.data(), static_cast<std::size_t>(v))};
     }
-    // Visits all numbers in the order of the history.
+    // Calls a function with all numbers in the order of the history.
     template <class Visit>
     void each(int n, int v, const Visit& visit) {
         for (int k = 0; k < n; ++k) visit(numbers[static_cast<std::size_t>(k)]);
@@ -157,7 +158,7 @@ void OwnLaw::step_kinds(const LawInput& in, double* history, ForceChunk& out, bo
         Memory memory;
         memory.load(kept, own.numbers_, own.vectors_);
         const Vec3 velocity = vector_at(in.touch->velocity, c), normal = inside(touch.normal);
-        // The velocity goes on as it changed over the last step; nothing is known of a new contact.
+        // The velocity is extrapolated from the last step; for a new contact nothing is known.
         const bool known = !memory.before.isZero(0);
         set_velocity(touch, known ? Vec3(velocity + (velocity - memory.before) * in.ahead) : velocity);
         touch.slip = outside(Vec3((velocity - normal * normal.dot(velocity)) * in.step));

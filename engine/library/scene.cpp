@@ -1,11 +1,11 @@
-// Scenes: read and planned.
+// Scenes as other programs see them: read, planned and run.
+#include "engine/library/internal.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "engine/library/internal.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/folder/run_scene.hpp"
@@ -92,14 +92,9 @@ ContactNumbers Scene::contact(const std::string& first, const std::string& secon
     return {pair.loading_stiffness, pair.restitution, pair.friction, pair.effective_mass, pair.contact_time};
 }
 
-}  // namespace grainreel::v1
-
-// A whole run in one call.
-
-namespace grainreel::v1 {
 namespace {
 
-// What look() throws goes round the driver, which would make a RunError of it.
+// An exception that look() throws is kept here, because the driver would turn it into a RunError.
 struct Look {
     const RunOptions& options;
     std::exception_ptr thrown{};

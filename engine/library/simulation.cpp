@@ -1,4 +1,4 @@
-// A scene in motion.
+// A scene in motion as other programs see it, step by step.
 #include "engine/library/internal.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace grainreel::v1 {
 namespace {
 
-// Puts laws of one's own into the plan, where they are chosen.
+// Puts the caller's laws into the plan, for the contacts that were chosen.
 class LawChooser {
   public:
     LawChooser(const grainreel::Scene& scene, Plan& plan) : scene_(scene), plan_(plan) {}
@@ -41,7 +41,7 @@ class LawChooser {
     static void take(PairPlan& pair, const LawKernel& law) {
         pair.model.own = &law;
         pair.model.precision = Precision::full;
-        // So that the loop has spins and arms ready, which the law is told of.
+        // This makes the loop compute spins and arms, which the law needs.
         if (pair.model.tangential == TangentialLaw::none)
             pair.model.tangential = TangentialLaw::linear_spring;
     }
@@ -81,7 +81,7 @@ struct Simulation::Impl {
     }
 
     v1::Scene scene;
-    std::deque<OwnLaw> laws;  // before the loop that runs them
+    std::deque<OwnLaw> laws;  // declared before the loop, which must end first
     grainreel::Scene inner;
     Plan plan;
     std::unique_ptr<grainreel::Simulation> running;
