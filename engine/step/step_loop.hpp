@@ -21,9 +21,9 @@
 #include "engine/state/grains.hpp"
 #include "engine/state/traffic.hpp"
 #include "engine/step/contact_view.hpp"
-#include "engine/step/evaluation.hpp"
 #include "engine/step/forces/contact_forces.hpp"
 #include "engine/step/lists/bed_lists.hpp"
+#include "engine/step/motion/scheme.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {

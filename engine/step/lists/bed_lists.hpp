@@ -15,12 +15,12 @@
 
 #include "engine/base/team.hpp"
 #include "engine/state/grains.hpp"
-#include "engine/step/evaluation.hpp"
 #include "engine/step/grid/cells.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/candidates.hpp"
 #include "engine/step/lists/list_life.hpp"
 #include "engine/step/lists/thread_contacts.hpp"
+#include "engine/step/motion/scheme.hpp"
 #include "engine/step/surroundings.hpp"
 #include "engine/step/threads/work_shares.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/state/grains.hpp"
-#include "engine/step/evaluation.hpp"
+#include "engine/step/motion/scheme.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "engine/step/evaluation.hpp"
+#include "engine/step/motion/scheme.hpp"
 
 namespace grainreel {
 
