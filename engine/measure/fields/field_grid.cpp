@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 
@@ -81,6 +83,157 @@ FieldKernel::FieldKernel(FieldOutput::Kernel kind, double width, int dimensions)
     for (int k = 0; k <= kEntries; ++k)
         values_.push_back(kernel_value(kind, std::sqrt(static_cast<double>(k) / kEntries)));
     values_.insert(values_.end(), {0.0, 0.0});
+}
+
+// How much of each cell of a grid is inside the container: exact areas of straight and round cuts.
+
+namespace {
+
+using Corner = std::array<double, 2>;  // y and z, m
+
+// What a face leaves of a polygon: the side that its normal points to.
+std::vector<Corner> cut(const std::vector<Corner>& polygon, const Face& face) {
+    const auto height = [&](const Corner& c) {
+        return face.normal.y() * (c[0] - face.point.y()) + face.normal.z() * (c[1] - face.point.z());
+    };
+    std::vector<Corner> left;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Corner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+        const double a = height(from), b = height(to);
+        if (a >= 0) left.push_back(from);
+        if ((a < 0) == (b < 0)) continue;
+        const double share = a / (a - b);
+        left.push_back({from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])});
+    }
+    return left;
+}
+
+double area(const std::vector<Corner>& polygon) {
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        twice += a[0] * b[1] - b[0] * a[1];
+    }
+    return 0.5 * twice;
+}
+
+// Faces that are seen edge-on in the y-z plane.
+std::vector<Face> upright_faces(const Scene& scene) {
+    std::vector<Face> faces = container_faces(scene.container, scene.drive);
+    std::erase_if(faces, [](const Face& f) { return f.kind != Face::Kind::plane || f.normal.x() != 0; });
+    if (scene.drive.present && scene.drive.moves == Drive::Moves::floor)
+        for (Face& face : faces)
+            if (face.name == "floor") face.point -= scene.drive.largest_amplitude() * Vec3(0, 0, 1);
+    return faces;
+}
+
+double share_between(const GridAxis& axis, std::int64_t k, double low, double high) {
+    const double begin = axis.low + static_cast<double>(k) * axis.cell;
+    return std::clamp((std::min(high, begin + axis.cell) - std::max(low, begin)) / axis.cell, 0.0, 1.0);
+}
+
+// Area that a disc about the origin shares with the rectangle from the origin to (x, y), signed as x y is.
+double quarter_area(double radius, double x, double y) {
+    const double sign = (x < 0 ? -1.0 : 1.0) * (y < 0 ? -1.0 : 1.0);
+    const double a = std::min(std::abs(x), radius), b = std::min(std::abs(y), radius);
+    const auto under_arc = [&](double to) {
+        return 0.5 * (to * std::sqrt(radius * radius - to * to) + radius * radius * std::asin(to / radius));
+    };
+    const double corner = std::sqrt(radius * radius - b * b);  // up to there the rectangle is lower
+    return sign * (a <= corner ? a * b : corner * b + under_arc(a) - under_arc(corner));
+}
+
+double disc_share(double radius, const GridAxis& x, std::int64_t i, const GridAxis& y, std::int64_t j) {
+    const double x0 = x.low + static_cast<double>(i) * x.cell, x1 = x0 + x.cell;
+    const double y0 = y.low + static_cast<double>(j) * y.cell, y1 = y0 + y.cell;
+    const double shared = quarter_area(radius, x1, y1) - quarter_area(radius, x0, y1) -
+                          quarter_area(radius, x1, y0) + quarter_area(radius, x0, y0);
+    return std::clamp(shared / (x.cell * y.cell), 0.0, 1.0);
+}
+
+}  // namespace
+
+std::vector<double> inside_shares(const FieldGrid& grid, const Scene& scene) {
+    const Container& container = scene.container;
+    const auto& [x, y, z] = grid.axes;
+    std::vector<double> shares(static_cast<std::size_t>(grid.cells()), 1.0);
+    if (container.shape == Container::Shape::none) return shares;
+    if (container.shape == Container::Shape::mesh) return shares_inside_mesh(grid, scene);
+    const bool round = container.shape == Container::Shape::cylinder;
+    const std::vector<Face> faces = upright_faces(scene);
+    for (std::int64_t k = 0; k < z.count; ++k) {
+        const double below_top = share_between(z, k, -1e300, container.height);
+        for (std::int64_t j = 0; j < y.count; ++j) {
+            const double y0 = y.low + static_cast<double>(j) * y.cell;
+            const double z0 = z.low + static_cast<double>(k) * z.cell, z1 = z0 + below_top * z.cell;
+            std::vector<Corner> polygon{{y0, z0}, {y0 + y.cell, z0}, {y0 + y.cell, z1}, {y0, z1}};
+            for (const Face& face : faces) polygon = cut(polygon, face);
+            const double upright = std::clamp(area(polygon) / (y.cell * z.cell), 0.0, 1.0);
+            for (std::int64_t i = 0; i < x.count; ++i)
+                shares[static_cast<std::size_t>(grid.index(i, j, k))] =
+                    upright * (round ? disc_share(container.half_width, x, i, y, j)
+                                     : share_between(x, i, -container.depth / 2, container.depth / 2));
+        }
+    }
+    return shares;
+}
+
+// How much of each cell of a grid is inside a vessel that is a mesh: lengths along rows of cells are exact
+// between the places where the row meets the surface; across the rows the share is a mean over 16 of them.
+
+namespace {
+
+constexpr int kRows = 4;  // a cell, along y and along z
+
+// A part of a row that is inside.
+struct Piece {
+    double from, to;  // m, x
+};
+
+// Between two crossings of the surface a row is inside or outside as a whole.
+std::vector<Piece> pieces_inside(const Container& vessel, const Surface& surface, double low, double high,
+                                 double y, double z) {
+    std::vector<Surface::Hit> hits;
+    surface.all_hits(Vec3(low, y, z), Vec3(1, 0, 0), hits);
+    std::vector<double> ends{low};
+    for (const Surface::Hit& hit : hits)
+        if (low + hit.distance < high) ends.push_back(low + hit.distance);
+    ends.push_back(high);
+    std::vector<Piece> pieces;
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+        if (ends[k + 1] > ends[k] && vessel.room->holds(Vec3(0.5 * (ends[k] + ends[k + 1]), y, z)))
+            pieces.push_back({ends[k], ends[k + 1]});
+    return pieces;
+}
+
+double overlap(const Piece& piece, double begin, double end) {
+    return std::max(0.0, std::min(piece.to, end) - std::max(piece.from, begin));
+}
+
+}  // namespace
+
+std::vector<double> shares_inside_mesh(const FieldGrid& grid, const Scene& scene) {
+    const auto& [x, y, z] = grid.axes;
+    std::vector<double> shares(static_cast<std::size_t>(grid.cells()), 0.0);
+    const std::optional<std::size_t> mesh = vessel_of(scene);
+    if (!mesh) return shares;
+    const double end = x.low + static_cast<double>(x.count) * x.cell;
+    for (std::int64_t row = 0; row < z.count * y.count * kRows * kRows; ++row) {
+        const std::int64_t k = row / (y.count * kRows * kRows), in_k = row % (y.count * kRows * kRows);
+        const std::int64_t j = in_k / (kRows * kRows);
+        const auto part = [](std::int64_t n) { return (static_cast<double>(n) + 0.5) / kRows; };
+        const double at_y = y.low + (static_cast<double>(j) + part(in_k % kRows)) * y.cell;
+        const double at_z = z.low + (static_cast<double>(k) + part(in_k / kRows % kRows)) * z.cell;
+        if (at_z > scene.container.height) continue;
+        for (const Piece& piece :
+             pieces_inside(scene.container, *scene.meshes[*mesh].surface, x.low, end, at_y, at_z))
+            for (std::int64_t i = 0; i < x.count; ++i) {
+                const double begin = x.low + static_cast<double>(i) * x.cell;
+                shares[static_cast<std::size_t>(grid.index(i, j, k))] +=
+                    overlap(piece, begin, begin + x.cell) / (x.cell * kRows * kRows);
+            }
+    }
+    return shares;
 }
 
 }  // namespace grainreel
