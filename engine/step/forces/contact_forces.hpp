@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
+#include "engine/step/contact_view.hpp"
 #include "engine/step/forces/law_input.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/lists/large_bed.hpp"
@@ -75,5 +77,14 @@ inline std::uint64_t which_touch(const ForceInput& in, const ContactGroup& group
     };
     return touching() & bits_of_first(count);
 }
+
+// Shows contacts to observers.
+
+// Shows every touching contact of a group under an own grain of the thread. Late contacts began since the
+// last refresh; the others come by rising first and second body. Which contacts are late does not depend on
+// the threads.
+void view_contacts(const ForceInput& in, std::size_t group, const ThreadContacts& contacts,
+                   const std::function<void(const ContactView&)>& in_order,
+                   const std::function<void(const ContactView&)>& late);
 
 }  // namespace grainreel
