@@ -73,18 +73,18 @@ bool grains_leave(const Scene& scene) {
     return (scene.container.outlet && !scene.container.tray) || !scene.exits.empty();
 }
 
-OutflowRecord::OutflowRecord(const Scene& scene) {
+OutflowSums::OutflowSums(const Scene& scene) {
     for (const Species& species : scene.species) densities_.push_back(species.density);
 }
 
-std::optional<OutflowRecord> OutflowRecord::read(const std::filesystem::path& file, const Scene& scene) {
+std::optional<OutflowSums> OutflowSums::read(const std::filesystem::path& file, const Scene& scene) {
     const auto [table, fault] = read_measures_file(file);
     if (!table) return std::nullopt;
     if (!fault.empty()) throw UserError(fmt::format("{}; film.outflow = false draws without it", fault));
     const std::vector<double> times = column_called(*table, "time_s", file),
                               types = column_called(*table, "type", file),
                               radii = column_called(*table, "radius", file);
-    OutflowRecord record(scene);
+    OutflowSums record(scene);
     const auto species = static_cast<double>(scene.species.size());
     for (std::size_t row = 0; row < times.size(); ++row) {
         const bool in_order = std::isfinite(times[row]) && (row == 0 || times[row] >= times[row - 1]);
@@ -98,14 +98,14 @@ std::optional<OutflowRecord> OutflowRecord::read(const std::filesystem::path& fi
     return record;
 }
 
-void OutflowRecord::add(double time, std::int32_t species, double radius) {
+void OutflowSums::add(double time, std::int32_t species, double radius) {
     const double volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
     const double before = mass_.empty() ? 0 : mass_.back();
     times_.push_back(time);
     mass_.push_back(before + volume * densities_.at(static_cast<std::size_t>(species)));
 }
 
-FlowedOut OutflowRecord::until(double time) const {
+FlowedOut OutflowSums::until(double time) const {
     const auto after = std::upper_bound(times_.begin(), times_.end(), time + rounding);
     const std::ptrdiff_t gone = after - times_.begin();
     return {gone, gone > 0 ? mass_[static_cast<std::size_t>(gone - 1)] : 0};

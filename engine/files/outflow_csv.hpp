@@ -49,13 +49,13 @@ class OutflowWriter {
 // outflow.csv.
 bool grains_leave(const Scene& scene);
 
-class OutflowRecord {
+class OutflowSums {
   public:
-    explicit OutflowRecord(const Scene& scene);
+    explicit OutflowSums(const Scene& scene);
 
     // The whole rows of a run's file; none when there is no such file. Throws UserError when the file is no
     // outflow.csv of this scene.
-    static std::optional<OutflowRecord> read(const std::filesystem::path& file, const Scene& scene);
+    static std::optional<OutflowSums> read(const std::filesystem::path& file, const Scene& scene);
 
     // A grain that left, in the order of time (s). radius: m.
     void add(double time, std::int32_t species, double radius);

@@ -33,12 +33,12 @@ Json table(const std::vector<std::pair<std::string, Value>>& rows) {
     return object;
 }
 
-Json program(const RunRecord& r) {
+Json program(const RunJson& r) {
     return {{"name", "grainreel"},    {"version", r.version},   {"commit", r.commit},
             {"compiler", r.compiler}, {"flags", r.build_flags}, {"libraries", table(r.libraries)}};
 }
 
-Json engine(const RunRecord& r) {
+Json engine(const RunJson& r) {
     return {{"seed", r.seed},
             {"grains", r.grains},
             {"step_s", r.step},
@@ -50,7 +50,7 @@ Json engine(const RunRecord& r) {
             {"state_hash", r.state_hash ? Json(fmt::format("{:016x}", *r.state_hash)) : Json(nullptr)}};
 }
 
-Json drawn(const RunRecord& r) {
+Json drawn(const RunJson& r) {
     Json runs = Json::array();
     for (const DrawnRun& run : r.drawn)
         runs.push_back(
@@ -75,12 +75,12 @@ Json part_of(const DrawnPart& part) {
             {"film_xxh64", text_or_null(part.checksum)}};
 }
 
-Json final_table(const RunRecord& r) {
+Json final_table(const RunJson& r) {
     if (!r.final_table) return nullptr;
     return {{"grains", r.final_table->grains}, {"xxh64", fmt::format("{:016x}", r.final_table->checksum)}};
 }
 
-Json accepted(const RunRecord& r) {
+Json accepted(const RunJson& r) {
     Json keys = Json::array();
     for (const AcceptedKey& one : r.accepted)
         keys.push_back({{"step", one.step},
@@ -144,7 +144,7 @@ std::string utc_now() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
-void write_run_json(const std::filesystem::path& path, const RunRecord& r) {
+void write_run_json(const std::filesystem::path& path, const RunJson& r) {
     Json document = {
         {"status", to_string(r.status)},
         {"exit_status", r.exit_status ? Json(*r.exit_status) : Json(nullptr)},
@@ -290,12 +290,12 @@ void read_part(const Json& from, DrawnPart& part) {
 
 }  // namespace
 
-std::optional<PartRecord> part_in_run_json(const std::filesystem::path& path) {
+std::optional<PartJson> part_in_run_json(const std::filesystem::path& path) {
     std::ifstream file = read_plain(path);
     const Json document = Json::parse(file, nullptr, false);
     if (!document.is_object() || !document.contains("part") || !document["part"].is_object())
         return std::nullopt;
-    PartRecord part;
+    PartJson part;
     read_part(document["part"], part);
     if (!makes_sense(part)) return std::nullopt;
     part.status = text_at(document, "status");

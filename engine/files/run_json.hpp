@@ -29,7 +29,7 @@ struct DrawnPart {
 };
 
 // A part, as its run.json has it.
-struct PartRecord : DrawnPart {
+struct PartJson : DrawnPart {
     std::string status;   // as RunStatus in words
     std::string program;  // "grainreel 0.9 (3f2a...)"
     std::string encoder, gl;
@@ -37,7 +37,7 @@ struct PartRecord : DrawnPart {
 
 // None when the file is not there, is no run.json, or is not of a part. What it says of the part is
 // consistent in itself: of counts none is negative, and the part lies in the whole.
-std::optional<PartRecord> part_in_run_json(const std::filesystem::path& path);
+std::optional<PartJson> part_in_run_json(const std::filesystem::path& path);
 
 // XXH64 of a file's bytes. Throws RunError when it cannot be read.
 std::string checksum_of_file(const std::filesystem::path& path);
@@ -57,7 +57,7 @@ struct ProgramInfo {
     std::vector<std::pair<std::string, std::string>> libraries;  // name, version
 };
 
-struct RunRecord : ProgramInfo {
+struct RunJson : ProgramInfo {
     RunStatus status = RunStatus::running;
     std::optional<int> exit_status;  // of the program; none while running
     std::string error;               // what ended a failed run
@@ -105,7 +105,7 @@ std::string to_string(RunStatus status);
 std::string utc_now();
 
 // Throws RunError when the file cannot be written; what it held before stays then.
-void write_run_json(const std::filesystem::path& path, const RunRecord& record);
+void write_run_json(const std::filesystem::path& path, const RunJson& record);
 
 // The scene file that such a file names, and its status; empty where it says none.
 std::string scene_in_run_json(const std::filesystem::path& path);

@@ -75,7 +75,7 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
         back.frames = run.frames();
         back.until = run.last()->time;
         back.whole = run.last()->step >= facts.last;
-        RunRecord record;
+        RunJson record;
         run.close(record);
     }
     for (const char* name : made_names)
@@ -202,7 +202,7 @@ bool ReturnedRun::take_next() {
     return true;
 }
 
-void ReturnedRun::close(RunRecord& record) {
+void ReturnedRun::close(RunJson& record) {
     Impl& m = *impl_;
     record.trajectory_frames = m.trajectory.frames();
     record.measures_rows = m.table.rows();

@@ -46,7 +46,7 @@ class ReturnedRun {
     // for a dump that is not the deck's, RunError for grains that were lost.
     bool take_next();
     // final.csv, of the last frame.
-    void close(RunRecord& record);
+    void close(RunJson& record);
 
     std::int64_t frames() const;
     const Frame* last() const;  // null before the first

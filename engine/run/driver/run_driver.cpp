@@ -320,7 +320,7 @@ std::string RunDriver::files_text() const {
     return text + "scene.toml, run.json";
 }
 
-void RunDriver::describe(RunRecord& record) const {
+void RunDriver::describe(RunJson& record) const {
     record.scene_file = scene_.file;
     record.vector = vector_instructions();
     record.seed = scene_.run.seed;
@@ -331,7 +331,7 @@ void RunDriver::describe(RunRecord& record) const {
     record.accepted = accepted_;
 }
 
-void RunDriver::conclude(RunRecord& record) const {
+void RunDriver::conclude(RunJson& record) const {
     record.particle_steps_per_second = speed();
     record.trajectory_frames = files_ ? files_->trajectory_frames() : 0;
     record.measures_rows = files_ ? files_->measures_rows() : 0;

@@ -100,8 +100,8 @@ class RunDriver {
     // "trajectory.nc (4 frames), measures.csv (30 rows), ..."
     std::string files_text() const;
     // What is known when the run begins, and when it has ended.
-    void describe(RunRecord& record) const;
-    void conclude(RunRecord& record) const;
+    void describe(RunJson& record) const;
+    void conclude(RunJson& record) const;
 
   private:
     bool take_kept_packing(const std::string& key);

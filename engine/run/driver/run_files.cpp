@@ -67,7 +67,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
     const double now = plan.clock.time(simulation.step());
     if (grains_leave(scene)) {
         outflow_.emplace(folder / "outflow.csv", now);
-        if (std::optional<OutflowRecord> before = OutflowRecord::read(folder / "outflow.csv", scene))
+        if (std::optional<OutflowSums> before = OutflowSums::read(folder / "outflow.csv", scene))
             departed_ = std::move(*before);
     }
     if (keep_rows) table_ = std::make_shared<MeasureTable>(measures_.columns());

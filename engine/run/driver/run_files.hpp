@@ -111,7 +111,7 @@ class RunFiles {
     std::optional<FieldsWriter> fields_;
     MeasuresWriter measures_;
     std::optional<OutflowWriter> outflow_;  // where grains may leave
-    OutflowRecord departed_;
+    OutflowSums departed_;
     std::shared_ptr<MeasureTable> table_;
     std::optional<Measures> first_, last_;
     LateMeans late_;

@@ -147,7 +147,7 @@ void FolderRun::close_record(bool stopped) {
 
 // The run counts as complete only with its page.
 void FolderRun::write_record() {
-    RunRecord now = desk_.record;
+    RunJson now = desk_.record;
     if (now.status == RunStatus::failed) now.missing.clear();
     if (!now.missing.empty() && now.status == RunStatus::complete) {
         now.status = RunStatus::running;

@@ -48,7 +48,7 @@ class SideWork {
     // The run is put back as it was; nothing else is called afterwards.
     virtual void drop() = 0;
     // What run.json says of it: before it is begun, while it is open, and when it is closed.
-    virtual void describe(RunRecord& record) const = 0;
+    virtual void describe(RunJson& record) const = 0;
 };
 
 class FolderRun {

@@ -124,7 +124,7 @@ struct RunDesk {
     LoggingListener listener;
     std::optional<RunFolder> folder;  // once it is made
     std::optional<RunLog> log;        // once the folder is made
-    RunRecord record;                 // run.json
+    RunJson record;                   // run.json
     StageTimes times;
     Stopwatch watch;  // since the run began
     FirstFailure failure;

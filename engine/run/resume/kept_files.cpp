@@ -147,7 +147,7 @@ class Ready {
         if (!grains_leave(scene_)) return;
         const fs::path file = run_ / "outflow.csv";
         const OutflowWriter::Kept kept = OutflowWriter::kept_until(file, now());
-        OutflowRecord::read(file, scene_);
+        OutflowSums::read(file, scene_);
         // With the clock of an earlier run its grains have left too, and are in its file.
         if (!scene_.start.keep_clock && kept.rows != simulation_.traffic().left)
             throw UserError(fmt::format(

@@ -62,7 +62,7 @@ class ComparedMember {
     const RevisitedRun* record_ = nullptr;  // likewise, when it lies on disk
     std::unique_ptr<FrameSource> source_;
     std::optional<FolderLock> folder_;  // of what is run, once it is made
-    RunRecord report_;                  // as above
+    RunJson report_;                    // as above
     std::atomic<double> done_ = 0, speed_ = 0;
     FirstFailure failed_;  // of this member's own work
 };

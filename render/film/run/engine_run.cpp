@@ -145,7 +145,7 @@ std::vector<std::string> EngineRun::warnings() const {
 }
 
 bool EngineRun::work() {
-    RunRecord& record = desk_.record;
+    RunJson& record = desk_.record;
     record.scene_file = scene_.file;
     record.seed = scene_.run.seed;
     record.grains = scene_.grains();

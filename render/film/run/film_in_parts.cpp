@@ -173,7 +173,7 @@ namespace fs = std::filesystem;
 
 struct Part {
     fs::path folder;
-    PartRecord record;
+    PartJson record;
     std::string name() const { return folder.string(); }
 };
 
@@ -182,7 +182,7 @@ Part read_part(const fs::path& folder) {
     if (!fs::is_directory(folder, error))
         throw UserError(
             fmt::format("{}: is no folder; give the folders that render --part has made", folder.string()));
-    const std::optional<PartRecord> record = part_in_run_json(folder / "run.json");
+    const std::optional<PartJson> record = part_in_run_json(folder / "run.json");
     if (!record)
         throw UserError(fmt::format(
             "{}: has no run.json of a part of a film; give the folders that render --part has made",
@@ -232,7 +232,7 @@ std::vector<Part> in_order(std::vector<Part> parts) {
 }
 
 void check_alike(const Part& part, const Part& first) {
-    const PartRecord &a = part.record, &b = first.record;
+    const PartJson &a = part.record, &b = first.record;
     const auto differs = [&](const std::string& how) {
         throw UserError(fmt::format("{}: {} {}; draw one of the two again", part.name(), how, first.name()));
     };

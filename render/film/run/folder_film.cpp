@@ -62,7 +62,7 @@ void FolderFilm::close() {
     desk_.times.add("encoding (beside the engine)", report_.encode_seconds);
 }
 
-void FolderFilm::describe(RunRecord& record) const {
+void FolderFilm::describe(RunJson& record) const {
     record.raster_threads = wanted() ? threads_.raster : 0;
     record.encoder_threads = wanted() ? threads_.encoder : 0;
     record.film_frames = report_.frames;

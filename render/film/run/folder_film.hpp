@@ -58,7 +58,7 @@ class FolderFilm final : public SideWork {
     const char* name() const override { return "the film"; }
     void close() override;
     void drop() override { film_.reset(); }
-    void describe(RunRecord& record) const override;
+    void describe(RunJson& record) const override;
 
   private:
     const FilmRequest request_;

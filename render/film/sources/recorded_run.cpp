@@ -135,7 +135,7 @@ void RecordedRun::check_columns() const {
 
 void RecordedRun::read_outflow_of_run() {
     const std::string name = name_of("outflow.csv");
-    outflow_ = OutflowRecord::read(name, scene_);
+    outflow_ = OutflowSums::read(name, scene_);
     if (!outflow_) archive_->note(fmt::format("{}: is missing; how much has flowed out is left out", name));
 }
 

@@ -92,9 +92,9 @@ class RecordedRun final : public FrameSource, private PartSupply {
     FilmedScene scene_;
     std::shared_ptr<RunArchive> archive_;
     std::unique_ptr<const Record> record_;
-    std::vector<double> measured_;          // s, times of the rows of measures
-    std::optional<OutflowRecord> outflow_;  // of a film that counts it
-    std::optional<WearReader> wear_;        // of a film whose walls have its colours
+    std::vector<double> measured_;        // s, times of the rows of measures
+    std::optional<OutflowSums> outflow_;  // of a film that counts it
+    std::optional<WearReader> wear_;      // of a film whose walls have its colours
     std::optional<PictureParts> parts_;
 
     Pictures pictures_;

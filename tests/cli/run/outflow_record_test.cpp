@@ -28,15 +28,15 @@ std::filesystem::path file_with(const TemporaryFolder& here, const std::string& 
     return here / "outflow.csv";
 }
 
-TEST(OutflowRecord, CountsRowsAndTheirMassUntilATime) {
+TEST(OutflowSums, CountsRowsAndTheirMassUntilATime) {
     const TemporaryFolder here;
     const FilmedScene scene = with_outlet();
-    const auto record = OutflowRecord::read(file_with(here,
-                                                      "0.1,7,1,0.002,0,0,0,0,0,0\n"
-                                                      "0.2,3,1,0.001,0,0,0,0,0,0\n"
-                                                      "0.2,5,1,0.001,0,0,0,0,0,0\n"
-                                                      "0.3,6,1,0.0"),  // cut off
-                                            scene);
+    const auto record = OutflowSums::read(file_with(here,
+                                                    "0.1,7,1,0.002,0,0,0,0,0,0\n"
+                                                    "0.2,3,1,0.001,0,0,0,0,0,0\n"
+                                                    "0.2,5,1,0.001,0,0,0,0,0,0\n"
+                                                    "0.3,6,1,0.0"),  // cut off
+                                          scene);
     ASSERT_TRUE(record);
     const double unit = 4.0 / 3 * std::numbers::pi * 1e-9 * scene.species[0].density;
     const std::pair<double, FlowedOut> expected[] = {{0.05, {0, 0}},
@@ -48,22 +48,22 @@ TEST(OutflowRecord, CountsRowsAndTheirMassUntilATime) {
         EXPECT_EQ(record->until(time).grains, out.grains) << time;
         EXPECT_NEAR(record->until(time).mass, out.mass, 1e-12 * unit) << time;
     }
-    EXPECT_FALSE(OutflowRecord::read(here / "none.csv", scene));
+    EXPECT_FALSE(OutflowSums::read(here / "none.csv", scene));
 }
 
-TEST(OutflowRecord, RefusesWhatIsOfAnotherScene) {
+TEST(OutflowSums, RefusesWhatIsOfAnotherScene) {
     const TemporaryFolder here;
     const FilmedScene scene = with_outlet();
     for (const char* rows : {"0.1,7,9,0.002,0,0,0,0,0,0\n", "0.1,7,1,-1,0,0,0,0,0,0\n",
                              "0.1,7,1,0.002,0,0,0,0,0,0\n0.05,8,1,0.002,0,0,0,0,0,0\n",
                              "nan,7,1,0.002,0,0,0,0,0,0\n", "0.1,7,1.5,0.002,0,0,0,0,0,0\n"}) {
         const auto file = file_with(here, rows);
-        EXPECT_THROW(OutflowRecord::read(file, scene), UserError) << rows;
+        EXPECT_THROW(OutflowSums::read(file, scene), UserError) << rows;
     }
 }
 
 // Bytes that are no number are damage, with file and line; none of them counts as 0.
-TEST(OutflowRecord, RefusesDamageWithItsLine) {
+TEST(OutflowSums, RefusesDamageWithItsLine) {
     const TemporaryFolder here;
     const FilmedScene scene = with_outlet();
     const std::string good = "0.1,7,1,0.002,0,0,0,0,0,0\n", zeros(1, '\0');
@@ -73,7 +73,7 @@ TEST(OutflowRecord, RefusesDamageWithItsLine) {
           std::string("0.2,8,9,0.002,0,0,0,0,0,0\n")}) {
         const auto file = file_with(here, good + row + good);
         try {
-            OutflowRecord::read(file, scene);
+            OutflowSums::read(file, scene);
             ADD_FAILURE() << row;
         } catch (const UserError& error) {
             EXPECT_THAT(error.what(), testing::StartsWith(file.string() + ":3: ")) << row;

@@ -197,7 +197,7 @@ TEST(MeasuresCsv, AFullDiskIsARunErrorThatNamesFileAndReason) {
 
 TEST(RunJson, HoldsTheRecord) {
     const TemporaryFolder here;
-    RunRecord record;
+    RunJson record;
     record.command = "grainreel movie 'my scene.toml'";
     record.libraries = {{"NetCDF", "4.9.0"}};
     record.state_hash = 0x0123456789abcdefull;
@@ -226,7 +226,7 @@ TEST(RunJson, HoldsTheRecord) {
 // A folder in the way stands for the full disk: no new file can be had.
 TEST(RunJson, IsWrittenInPlaceWhereNoNewFileCanBeHad) {
     const TemporaryFolder here;
-    RunRecord record;
+    RunJson record;
     record.command = "grainreel movie long.toml";
     write_run_json(here / "run.json", record);
     std::filesystem::create_directories(here / ".run.json.part/in the way");
