@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
-#include "render/page/embed/zlib_pack.hpp"
+#include "render/page/embed.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -7,8 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/page/embed/base64.hpp"
-#include "render/page/embed/html.hpp"
+#include "render/page/embed.hpp"
 #include "render/page/facts/methods.hpp"
 #include "render/scene/filmed_scene.hpp"
 

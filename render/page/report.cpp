@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/plain_file.hpp"
-#include "render/page/embed/html.hpp"
+#include "render/page/embed.hpp"
 #include "render/page/facts/differences.hpp"
 #include "render/page/facts/run_names.hpp"
 #include "render/page/page_files.hpp"

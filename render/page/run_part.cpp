@@ -9,10 +9,7 @@
 #include "engine/files/run_names.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/page/bed/all_moments.hpp"
-#include "render/page/embed/base64.hpp"
-#include "render/page/embed/html.hpp"
-#include "render/page/embed/read_bytes.hpp"
-#include "render/page/embed/zlib_pack.hpp"
+#include "render/page/embed.hpp"
 #include "render/page/page_files.hpp"
 #include "render/page/page_parts.hpp"
 

@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "render/page/embed/base64.hpp"
-#include "render/page/embed/html.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 namespace {

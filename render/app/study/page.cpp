@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "render/app/study/results/points.hpp"
-#include "render/page/embed/html.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 namespace {

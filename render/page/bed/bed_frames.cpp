@@ -7,7 +7,7 @@
 #include <iterator>
 #include <map>
 
-#include "render/page/embed/zlib_pack.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "render/page/bed/thin_mesh.hpp"
-#include "render/page/embed/zlib_pack.hpp"
+#include "render/page/embed.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 
 namespace grainreel {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/page/bed/bed_frames.hpp"
-#include "render/page/embed/zlib_pack.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 namespace {

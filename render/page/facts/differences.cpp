@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "render/page/embed/html.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 namespace {

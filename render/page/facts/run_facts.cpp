@@ -5,7 +5,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
-#include "render/page/embed/read_bytes.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 namespace {

@@ -11,7 +11,7 @@
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
-#include "render/page/embed/read_bytes.hpp"
+#include "render/page/embed.hpp"
 #include "render/page/film/small_jpeg.hpp"
 #include "render/scene/filmed_scene.hpp"
 

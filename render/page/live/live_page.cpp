@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "render/page/embed/html.hpp"
+#include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/page_files.hpp"
 #include "render/page/page_parts.hpp"

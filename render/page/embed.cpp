@@ -1,10 +1,13 @@
-#include "render/page/embed/html.hpp"
-
-#include <algorithm>
+#include "render/page/embed.hpp"
 
 #include <fmt/format.h>
+#include <libdeflate.h>
+#include <algorithm>
+#include <fstream>
+#include <memory>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -71,6 +74,44 @@ std::string filled(std::string_view page,
         result += found->second;
         page.remove_prefix(close + 2);
     }
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+    constexpr char signs[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t there = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < there ? bytes[i + k] : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= there ? signs[three >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
+    constexpr std::uintmax_t most = 64'000'000;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) throw RunError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
+    if (size > most)
+        throw RunError(fmt::format("{}: has {} bytes, too many for a page", path.string(), size));
+    std::vector<std::uint8_t> bytes(size);
+    std::ifstream file = read_plain(path);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (!file) throw RunError(fmt::format("{}: cannot be read", path.string()));
+    return bytes;
+}
+
+std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes) {
+    constexpr int level = 6;  // higher ones gain less than 1 % on places
+    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+        libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+    if (!compressor) throw RunError("report: no memory to pack the page's bytes");
+    std::vector<std::uint8_t> packed(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+    packed.resize(
+        libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
+    return packed;
 }
 
 }  // namespace grainreel

@@ -1,6 +1,9 @@
 // Text and data inside HTML.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,5 +24,20 @@ std::string file_link(std::string_view name);
 // The template with each {{name}} replaced by its text. What is put in is not looked at again. A check fails
 // for a name that has no text.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& texts);
+
+// Bytes as text that a page can hold.
+
+// Base64 of RFC 4648 with padding, in one line. None of its signs means anything in HTML.
+std::string base64(std::span<const std::uint8_t> bytes);
+
+// A file of known, moderate size in memory.
+
+// Throws RunError when it cannot be read, or has more bytes than a page may have.
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
+
+// Bytes packed as browsers unpack them.
+
+// In zlib's format (RFC 1950), which DecompressionStream calls "deflate".
+std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes);
 
 }  // namespace grainreel
