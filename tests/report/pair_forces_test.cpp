@@ -1,5 +1,5 @@
 // Force chains as the page carries them, read back by the form that pair_forces.hpp describes.
-#include "render/page/bed/pair_forces.hpp"
+#include "render/page/bed/bed_frames.hpp"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>
