@@ -9,7 +9,6 @@
 #include <set>
 
 #include "render/page/bed/page_meshes.hpp"
-#include "render/page/bed/thin_mesh.hpp"
 #include "tests/report/made_meshes.hpp"
 
 namespace grainreel {
