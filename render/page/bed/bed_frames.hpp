@@ -18,7 +18,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
-#include "render/page/bed/film_colours.hpp"
+#include "render/page/bed/all_moments.hpp"
 #include "render/page/page_progress.hpp"
 
 namespace grainreel {
