@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "render/page/facts/differences.hpp"
+#include "render/page/facts/run_names.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {
