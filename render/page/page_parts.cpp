@@ -8,7 +8,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/page/embed.hpp"
-#include "render/page/facts/methods.hpp"
+#include "render/page/facts/run_facts.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

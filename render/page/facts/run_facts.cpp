@@ -1,13 +1,21 @@
 #include "render/page/facts/run_facts.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
 
 #include "engine/base/error.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
 #include "render/page/embed.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 using Json = nlohmann::json;
@@ -96,6 +104,187 @@ RunFacts run_facts(const std::filesystem::path& folder) {
         for (const Json& warning : *warnings)
             if (warning.is_string()) facts.warnings.push_back(warning.get<std::string>());
     return facts;
+}
+
+namespace {
+
+// As docs/reference/theory.md names them.
+struct Source {
+    const char* key;
+    const char* entry;
+};
+constexpr Source sources[] = {
+    {"Cundall1979",
+     "@article{Cundall1979,\n  author = {Cundall, P. A. and Strack, O. D. L.},\n"
+     "  title = {A discrete numerical model for granular assemblies},\n  journal = {G{\\'e}otechnique},\n"
+     "  volume = {29},\n  pages = {47--65},\n  year = {1979}\n}\n"},
+    {"Walton1986",
+     "@article{Walton1986,\n  author = {Walton, O. R. and Braun, R. L.},\n"
+     "  title = {Viscosity, granular-temperature, and stress calculations for shearing assemblies of "
+     "inelastic, "
+     "frictional disks},\n  journal = {Journal of Rheology},\n  volume = {30},\n  pages = {949--980},\n"
+     "  year = {1986}\n}\n"},
+    {"Walton1993",
+     "@incollection{Walton1993,\n  author = {Walton, O. R.},\n"
+     "  title = {Numerical simulation of inelastic, frictional particle-particle interactions},\n"
+     "  booktitle = {Particulate Two-Phase Flow},\n  editor = {Roco, M. C.},\n  chapter = {25},\n"
+     "  publisher = {Butterworth-Heinemann},\n  year = {1993}\n}\n"},
+    {"Schwager2007",
+     "@article{Schwager2007,\n  author = {Schwager, T. and P{\\\"o}schel, T.},\n"
+     "  title = {Coefficient of restitution and linear-dashpot model revisited},\n"
+     "  journal = {Granular Matter},\n  volume = {9},\n  pages = {465--469},\n  year = {2007}\n}\n"},
+    {"Tsuji1992",
+     "@article{Tsuji1992,\n  author = {Tsuji, Y. and Tanaka, T. and Ishida, T.},\n"
+     "  title = {Lagrangian numerical simulation of plug flow of cohesionless particles in a horizontal "
+     "pipe},\n"
+     "  journal = {Powder Technology},\n  volume = {71},\n  pages = {239--250},\n  year = {1992}\n}\n"},
+    {"Thornton2013",
+     "@article{Thornton2013,\n  author = {Thornton, C. and Cummins, S. J. and Cleary, P. W.},\n"
+     "  title = {An investigation of the comparative behaviour of alternative contact force models during "
+     "inelastic collisions},\n  journal = {Powder Technology},\n  volume = {233},\n  pages = {30--46},\n"
+     "  year = {2013}\n}\n"},
+    {"Iwashita1998",
+     "@article{Iwashita1998,\n  author = {Iwashita, K. and Oda, M.},\n"
+     "  title = {Rolling resistance at contacts in simulation of shear band development by {DEM}},\n"
+     "  journal = {Journal of Engineering Mechanics},\n  volume = {124},\n  pages = {285--292},\n"
+     "  year = {1998}\n}\n"},
+};
+
+// A sentence for each law that a contact of the plan has, and the keys of its sources.
+class LawWords {
+  public:
+    explicit LawWords(const Plan& plan) {
+        for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.mesh})
+            for (const PairPlan& pair : *pairs) take(pair);
+        if (plan.rolls()) {
+            words_.insert("rolling meets a spring with a cap [Iwashita1998]");
+            keys.insert("Iwashita1998");
+        }
+    }
+    std::string text() const { return fmt::format("{}", fmt::join(words_, "; ")); }
+    std::set<std::string> keys{"Cundall1979"};
+
+  private:
+    void note(const char* words, const char* key) {
+        words_.insert(fmt::format("{} [{}]", words, key));
+        keys.insert(key);
+    }
+    void take(const PairPlan& pair) {
+        switch (pair.model.normal) {
+            case NormalForce::spring_dashpot:
+                note("the normal force is a linear spring and dashpot", "Schwager2007");
+                break;
+            case NormalForce::hertz:
+                note("the normal force is that of Hertz with a dashpot", "Tsuji1992");
+                break;
+            default:
+                note("the normal force is Walton and Braun's latching spring", "Walton1986");
+        }
+        switch (pair.model.tangential) {
+            case TangentialLaw::incremental_slip:
+                note("friction is Walton's incremental slip", "Walton1993");
+                break;
+            case TangentialLaw::linear_spring:
+                note("friction is a linear spring with Coulomb's cap", "Cundall1979");
+                break;
+            case TangentialLaw::mindlin:
+                note("friction is Mindlin's spring with Coulomb's cap", "Thornton2013");
+                break;
+            case TangentialLaw::none:
+                break;
+        }
+    }
+    std::set<std::string> words_;
+};
+
+const char* name_of(Integrator integrator) {
+    switch (integrator) {
+        case Integrator::velocity_verlet:
+            return "the velocity Verlet scheme";
+        case Integrator::leapfrog:
+            return "the leapfrog scheme";
+        case Integrator::position_verlet:
+            return "the position Verlet scheme";
+        case Integrator::forest_ruth:
+            return "the scheme of Forest and Ruth";
+        case Integrator::gear:
+            break;
+    }
+    return "Gear's predictor-corrector scheme";
+}
+
+// The texts of that name, and of the lines without a name that go on after it.
+std::string words_of(const std::vector<std::pair<std::string, std::string>>& lines, const std::string& name) {
+    std::vector<std::string> texts;
+    bool inside = false;
+    for (const auto& [line, text] : lines) {
+        inside = line == name || (inside && line.empty());
+        if (inside) texts.push_back(text);
+    }
+    return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+// "0.3" or "0.3 to 0.8".
+template <class Value>
+std::string range_text(const Plan& plan, const Value& value) {
+    std::vector<double> values;
+    for (const std::vector<PairPlan>* pairs : {&plan.grain, &plan.wall, &plan.mesh})
+        for (const PairPlan& pair : *pairs) values.push_back(value(pair));
+    if (values.empty()) return "-";
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return *low == *high ? fmt::format("{:.3g}", *low) : fmt::format("{:.3g} to {:.3g}", *low, *high);
+}
+
+// "drum (drum.stl, 720 triangles, XXH64 0123456789abcdef)"
+std::string meshes_text(const FilmedScene& scene) {
+    std::vector<std::string> texts;
+    for (const SceneMesh& mesh : scene.meshes)
+        texts.push_back(fmt::format("{} ({}, {} triangles{})", mesh.name,
+                                    std::filesystem::path(mesh.file).filename().string(),
+                                    mesh.surface->size(), mesh.hash.empty() ? "" : ", XXH64 " + mesh.hash));
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string program_entry(const RunFacts& facts) {
+    return fmt::format(
+        "@software{{grainreel,\n  author = {{{{The grainreel authors}}}},\n  title = {{grainreel}},\n"
+        "  version = {{{}{}}},\n  year = {{{}}}\n}}\n",
+        facts.version, facts.commit.empty() ? "" : ", commit " + facts.commit, facts.finished.substr(0, 4));
+}
+
+}  // namespace
+
+Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& facts,
+                const std::vector<std::pair<std::string, std::string>>& lines) {
+    const LawWords laws(plan);
+    Methods result;
+    result.paragraph = fmt::format(
+        "The bed was computed by the discrete element method [Cundall1979] with grainreel {} [grainreel]. "
+        "Grains: {}. "
+        "Container: {}. Gravity: {}. Drive: {}. In contacts {}. The restitution is {}, the coefficient of "
+        "friction "
+        "{}. Equations of motion were integrated by {} with a step of {:.4g} s, {} steps. Random numbers "
+        "have the seed "
+        "{}.",
+        facts.version, words_of(lines, "grains"), words_of(lines, "container"), words_of(lines, "gravity"),
+        words_of(lines, "drive"), laws.text(),
+        range_text(plan, [](const PairPlan& pair) { return pair.restitution; }),
+        range_text(plan, [](const PairPlan& pair) { return pair.friction; }), name_of(plan.integrator),
+        plan.clock.step, plan.steps, scene.run.seed);
+    if (!scene.meshes.empty())
+        result.paragraph += fmt::format(
+            " Walls from triangle meshes: {}. A grain has one contact with each connected patch of a surface "
+            "that it "
+            "touches, at the nearest point of its faces, edges and corners; triangles that turn by less than "
+            "{:.3g} "
+            "degrees from their neighbours are one patch.",
+            meshes_text(scene), kSmoothAngle * 180 / std::numbers::pi);
+    if (!facts.state_hash.empty())
+        result.paragraph += fmt::format(" The hash of the end state is {}.", facts.state_hash);
+    result.bibtex = program_entry(facts);
+    for (const Source& source : sources)
+        if (laws.keys.count(source.key) > 0) result.bibtex += source.entry;
+    return result;
 }
 
 }  // namespace grainreel

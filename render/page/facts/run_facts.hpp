@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/plan/plan.hpp"
+#include "render/scene/filmed_scene.hpp"
+
 namespace grainreel {
 
 struct RunFacts {
@@ -27,5 +30,17 @@ struct RunFacts {
 
 // Whatever the file lacks or has in another form is left out: nothing of it is trusted.
 RunFacts run_facts(const std::filesystem::path& folder);
+
+// What an author pastes into a paper: the methods in a paragraph, and the sources as BibTeX.
+
+struct Methods {
+    std::string paragraph;  // keys of the sources in brackets: "[Walton1986]"
+    std::string bibtex;
+};
+
+// lines: the plan in words, by name, as `grainreel check` has them; grains, container and drive are told in
+// the same words.
+Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& facts,
+                const std::vector<std::pair<std::string, std::string>>& lines);
 
 }  // namespace grainreel
