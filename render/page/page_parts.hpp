@@ -8,7 +8,7 @@
 #include "render/page/bed/bed_frames.hpp"
 #include "render/page/bed/page_meshes.hpp"
 #include "render/page/facts/run_facts.hpp"
-#include "render/page/film/page_film.hpp"
+#include "render/page/page_film.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
 

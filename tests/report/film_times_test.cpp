@@ -4,7 +4,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "render/film/run/folder_film.hpp"
-#include "render/page/film/film_times.hpp"
+#include "render/page/page_film.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/film_file.hpp"
 #include "render/film/codec/png.hpp"
-#include "render/page/film/page_film.hpp"
+#include "render/page/page_film.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -5,7 +5,7 @@
 #include "engine/base/error.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
-#include "render/page/film/small_jpeg.hpp"
+#include "render/page/page_film.hpp"
 
 namespace grainreel {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/page/page_progress.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -31,5 +32,27 @@ PageFilm page_film(const FilmedScene& scene, const std::filesystem::path& folder
 
 // poster.png as a JPEG, 960 pixels wide at most. Empty without one, or where it cannot be read.
 std::vector<std::uint8_t> page_poster(const std::filesystem::path& folder);
+
+// Which moment of the run each frame of its film shows.
+
+struct FilmTimes {
+    std::vector<double> times;  // s, one a frame; empty where they are not known
+    std::string why_not;        // then: a sentence for the page
+};
+
+// As the run's own table has them (film_times.csv), where it agrees with the number of frames and its times
+// rise.
+std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, std::int64_t frames);
+
+// Without it: made from the scene as the run made it. frames: of the film, as run.json has them. first: s,
+// where the run began. Known only where the number of frames agrees: a film may leave out locked frames of a
+// bed that repeats itself every other period, as the run finds out. whole: the run was complete.
+FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole);
+
+// A picture small enough for a page to bring it with it.
+
+// A JPEG, 960 pixels wide at most, of a frame that this decoder gave. Empty where none can be made. Throws
+// RunError.
+std::vector<std::uint8_t> small_jpeg(const AVCodecContext& decoder, AVFrame& frame);
 
 }  // namespace grainreel

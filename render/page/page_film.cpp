@@ -1,21 +1,27 @@
-#include "render/page/film/page_film.hpp"
-
-#include <stdlib.h>
+#include "render/page/page_film.hpp"
 
 #include <fmt/format.h>
+#include <stdlib.h>
+#include <algorithm>
+#include <cmath>
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
+#include "render/film/run/folder_film.hpp"
+#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/page/embed.hpp"
-#include "render/page/film/small_jpeg.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,6 +179,102 @@ std::vector<std::uint8_t> page_poster(const fs::path& folder) {
     } catch (const RunError&) {
         return {};
     }
+}
+
+namespace {
+
+// The frames of the film as planned, with those that hold a caption.
+std::vector<double> planned_times(const FilmedScene& scene, double first) {
+    const Plan plan = plan_with_film(scene);
+    std::vector<double> times;
+    CaptionHolds holds(scene.film);
+    for (const Instant& instant : instants_of(scene, plan.clock, plan.steps)) {
+        if (instant.time < first - 0.5 * plan.clock.step) continue;
+        times.insert(times.end(), 1 + static_cast<std::size_t>(holds.begin_at(instant.time)), instant.time);
+    }
+    return times;
+}
+
+// Whether the run may have left out frames on its way.
+bool may_lack_frames(const FilmedScene& scene) {
+    return scene.drive.present && scene.film.periods == 0 &&
+           std::any_of(scene.film.segments.begin(), scene.film.segments.end(),
+                       [](const FilmSegment& segment) { return segment.kind == FilmSegment::Kind::locked; });
+}
+
+}  // namespace
+
+std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, std::int64_t frames) {
+    const auto table = read_measures(folder / kFilmTimes);
+    if (!table || frames <= 0 || static_cast<std::int64_t>(table->rows()) != frames) return std::nullopt;
+    const auto& names = table->columns();
+    const auto column =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), "time_s") - names.begin());
+    if (column == names.size()) return std::nullopt;
+    FilmTimes result;
+    result.times = table->values(column, 0, table->rows());
+    const bool finite = std::all_of(result.times.begin(), result.times.end(),
+                                    [](double time) { return std::isfinite(time); });
+    if (!finite || !std::is_sorted(result.times.begin(), result.times.end())) return std::nullopt;
+    return result;
+}
+
+FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole) {
+    FilmTimes result;
+    try {
+        result.times = planned_times(scene, first);
+    } catch (const UserError&) {
+        result.why_not =
+            "This version of the program would not run the scene, so it cannot tell which moments the "
+            "film shows.";
+        return result;
+    }
+    const auto planned = static_cast<std::int64_t>(result.times.size());
+    if (frames == planned) return result;
+    if (!whole && !may_lack_frames(scene) && frames < planned) {
+        result.times.resize(static_cast<std::size_t>(std::max<std::int64_t>(0, frames)));
+        return result;
+    }
+    result.times.clear();
+    result.why_not =
+        "The film leaves out moments, and the run does not say which, so the film goes by itself. With "
+        "film.periods in the scene it would be tied to charts and bed.";
+    return result;
+}
+
+namespace {
+
+constexpr const char* filter =
+    "scale=min(960\\,iw):-2:in_color_matrix=bt709:out_color_matrix=bt601:"
+    "out_range=full,format=yuvj420p";
+
+std::vector<std::uint8_t> as_jpeg(AVFrame& picture) {
+    const AVCodec* encoder = avcodec_find_encoder(AV_CODEC_ID_MJPEG);
+    const CodecPtr codec(encoder ? avcodec_alloc_context3(encoder) : nullptr);
+    const PacketPtr packet(av_packet_alloc());
+    if (!codec || !packet) return {};
+    codec->width = picture.width;
+    codec->height = picture.height;
+    codec->pix_fmt = AV_PIX_FMT_YUVJ420P;
+    codec->time_base = {1, 1};
+    codec->flags |= AV_CODEC_FLAG_QSCALE;
+    constexpr int quality = 4;  // of 1 to 31, the best first; small digits read
+    codec->global_quality = quality * FF_QP2LAMBDA;
+    picture.quality = codec->global_quality;
+    if (avcodec_open2(codec.get(), encoder, nullptr) < 0) return {};
+    if (avcodec_send_frame(codec.get(), &picture) < 0) return {};
+    if (avcodec_receive_packet(codec.get(), packet.get()) < 0) return {};
+    return {packet->data, packet->data + packet->size};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> small_jpeg(const AVCodecContext& decoder, AVFrame& frame) {
+    FilterGraph graph(decoder, filter);
+    graph.push(frame);
+    graph.end();
+    const AvFramePtr small = graph.pull();
+    return small ? as_jpeg(*small) : std::vector<std::uint8_t>();
 }
 
 }  // namespace grainreel
