@@ -1,10 +1,10 @@
 #include "render/page/live/live_run.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cstring>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
@@ -12,14 +12,20 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/measure/columns.hpp"
+#include "render/film/codec/ffmpeg.hpp"
+#include "render/film/codec/film_file.hpp"
 #include "render/film/sources/recorded_run.hpp"
+#include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
-#include "render/page/live/last_picture.hpp"
-#include "render/page/live/live_page.hpp"
+#include "render/page/page_files.hpp"
+#include "render/page/page_film.hpp"
 #include "render/page/page_measures.hpp"
+#include "render/page/page_parts.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "render/scene/read_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,6 +231,105 @@ void LiveRun::make_state() {
     auto text = shared(state.dump());
     const std::scoped_lock lock(mutex_);
     now_.state = std::move(text);
+}
+
+std::string live_page(const FilmedScene& scene, const std::filesystem::path& folder,
+                      const std::optional<PlannedScene>& planned) {
+    const RunFacts record = run_facts(folder);
+    const PageFiles& files = page_files();
+    const std::string picture =
+        "<img id=\"live-picture\" class=\"poster\" alt=\"The film's newest picture: grains in their "
+        "container, with "
+        "time and scale beside them\" hidden>\n";
+    const std::string bed = filled(
+        files.bed, {{"about",
+                     "The newest moment that the run has written. Places are rounded to 16 bits over the box "
+                     "that the grains reach."},
+                    {"n", ""}});
+    const std::string body = filled(
+        files.body,
+        {{"film", picture}, {"bed", bed}, {"fields", ""}, {"charts", filled(files.charts, {{"about", ""}})}});
+    return filled(files.page, {{"title", html_text(scene.title.empty() ? scene.name : scene.title)},
+                               {"body_class", ""},
+                               {"style", std::string(files.style)},
+                               {"lead", lead_html(scene)},
+                               {"live", std::string(files.live)},
+                               {"body", body},
+                               {"words", chapters_html(scene, record, planned, folder, "report.html")},
+                               {"facts", json_in_html(live_facts_json(scene))},
+                               {"script", files.script(!scene.meshes.empty())},
+                               {"blobs", ""}});
+}
+
+std::string waiting_page(const std::string& title) {
+    const std::string text = html_text(title);
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"refresh\" "
+        "content=\"1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{0}"
+        "</title>\n</head>\n<body>\n<h1>{0}</h1>\n<p>The run begins.</p>\n</body>\n</html>\n",
+        text);
+}
+
+namespace {
+
+// The packets from the last key frame on: reading the others without decoding them costs next to nothing.
+std::vector<PacketPtr> last_packets(AVFormatContext& film, int stream) {
+    std::vector<PacketPtr> packets;
+    while (true) {
+        PacketPtr packet(av_packet_alloc());
+        // What is not whole yet ends the film.
+        if (!packet || av_read_frame(&film, packet.get()) < 0) return packets;
+        if (packet->stream_index != stream) continue;
+        if ((packet->flags & AV_PKT_FLAG_KEY) != 0) packets.clear();
+        packets.push_back(std::move(packet));
+    }
+}
+
+CodecPtr decoder_of(const AVStream& stream) {
+    const AVCodec* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
+    CodecPtr codec(decoder != nullptr ? avcodec_alloc_context3(decoder) : nullptr);
+    if (!codec || avcodec_parameters_to_context(codec.get(), stream.codecpar) < 0) return nullptr;
+    codec->thread_count = 1;
+    return avcodec_open2(codec.get(), decoder, nullptr) < 0 ? nullptr : std::move(codec);
+}
+
+AvFramePtr last_frame(AVCodecContext& codec, const std::vector<PacketPtr>& packets) {
+    AvFramePtr last, next(av_frame_alloc());
+    const auto take = [&] {
+        while (avcodec_receive_frame(&codec, next.get()) >= 0) {
+            last = std::move(next);
+            next.reset(av_frame_alloc());
+        }
+    };
+    for (const PacketPtr& packet : packets) {
+        avcodec_send_packet(&codec, packet.get());
+        take();
+    }
+    avcodec_send_packet(&codec, nullptr);
+    take();
+    return last;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> last_picture(const std::filesystem::path& film) {
+    quiet_ffmpeg();
+    InputPtr file;
+    if (open_film(film, file) < 0) return {};
+    AVFormatContext* const context = file.get();
+    if (avformat_find_stream_info(context, nullptr) < 0) return {};
+    const int stream = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+    if (stream < 0) return {};
+    const CodecPtr codec = decoder_of(*context->streams[stream]);
+    if (!codec) return {};
+    const AvFramePtr frame = last_frame(*codec, last_packets(*context, stream));
+    if (!frame) return {};
+    try {
+        return small_jpeg(*codec, *frame);
+    } catch (const RunError&) {
+        return {};
+    }
 }
 
 }  // namespace grainreel

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/page/bed/page_meshes.hpp"
 #include "render/page/report.hpp"
@@ -82,5 +84,18 @@ class LiveRun {
     mutable std::mutex mutex_;
     LiveSnapshot now_;
 };
+
+// The live page's HTML.
+
+// Its scripts ask for the rest: live.js.
+std::string live_page(const FilmedScene& scene, const std::filesystem::path& folder,
+                      const std::optional<PlannedScene>& planned);
+// Until the run has told its scene: asks again by itself.
+std::string waiting_page(const std::string& title);
+
+// The newest picture of a film that still grows.
+
+// As a JPEG, 960 pixels wide at most. Empty where there is none yet, or the file is damaged.
+std::vector<std::uint8_t> last_picture(const std::filesystem::path& film);
 
 }  // namespace grainreel
