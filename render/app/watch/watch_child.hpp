@@ -8,7 +8,7 @@
 #include <string>
 
 #include "render/app/report/reporter.hpp"
-#include "render/page/live/listening.hpp"
+#include "render/page/live/server.hpp"
 
 namespace grainreel {
 

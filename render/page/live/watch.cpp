@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "render/page/live/run_file.hpp"
 #include "render/page/live/server.hpp"
 #include "render/page/live/visitors.hpp"
 

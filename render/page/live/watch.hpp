@@ -6,8 +6,8 @@
 #include <string>
 
 #include "engine/run/folder/listener.hpp"
-#include "render/page/live/listening.hpp"
 #include "render/page/live/live_run.hpp"
+#include "render/page/live/server.hpp"
 
 namespace grainreel {
 

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "render/page/live/listening.hpp"
+#include "render/page/live/server.hpp"
 #include "render/page/live/visitors.hpp"
 #include "tests/cli/page/http.hpp"
 #include "tests/cli/program.hpp"
