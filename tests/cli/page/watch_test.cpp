@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/page/live/server.hpp"
-#include "render/page/live/visitors.hpp"
+#include "render/page/live/watch.hpp"
 #include "tests/cli/page/http.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
