@@ -1,14 +1,21 @@
 #include "render/page/page_measures.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string_view>
 
+#include "engine/base/error.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr std::size_t most_charts = 4;
@@ -69,6 +76,211 @@ PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table) 
     }
     page.rows = spread_rows(table.rows(), kMostRowsAtOnce);
     return page;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using Values = std::vector<double>;
+
+constexpr std::size_t most_cells = 4'000'000;         // of the file, in a record
+constexpr std::size_t most_plain_bytes = 20'000'000;  // of the page's, before they are packed
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double steps = 254;
+
+// As FieldsWriter names a species' variable.
+std::string in_variable(const std::string& name) {
+    std::string text = name;
+    for (char& c : text)
+        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '_';
+    return text;
+}
+
+class FieldsFile {
+  public:
+    explicit FieldsFile(const fs::path& path) : file_(NetcdfFile::open(path)) {
+        records_ = file_.records_on_disk(file_.length("time"));
+        nx_ = file_.has_variable("x") ? file_.length("x") : 1;
+        ny_ = file_.length("y");
+        nz_ = file_.length("z");
+        if (nx_ == 0 || ny_ == 0 || nz_ == 0 || nx_ > most_cells || ny_ > most_cells || nz_ > most_cells ||
+            nx_ * ny_ > most_cells || nx_ * ny_ * nz_ > most_cells)
+            throw UserError("its grid is too large for a page");
+    }
+
+    bool has(const std::string& name) const { return file_.has_variable(name); }
+    std::size_t records() const { return records_; }
+    std::size_t cells() const { return ny_ * nz_; }
+
+    PageFields::Axis axis(const char* name) const {
+        Values middles(file_.length(name));
+        file_.get(file_.find_variable(name), {0}, {middles.size()}, middles.data());
+        const double cell = middles.size() > 1 ? middles[1] - middles[0] : 1;
+        if (!std::isfinite(middles.front()) || !(cell > 0) || !std::isfinite(cell))
+            throw UserError("its grid is damaged");
+        return {middles.front() - cell / 2, cell, middles.size()};
+    }
+
+    PageFields::Record bounds(std::size_t record) const {
+        double ends[2];
+        file_.get(file_.find_variable("time_bounds"), {record, 0}, {1, 2}, ends);
+        return {ends[0], ends[1]};
+    }
+
+    // The values in the plane: in three dimensions the mean over the depth, or the sum.
+    Values plane(const std::string& name, std::size_t record, bool sum = false) const {
+        const int variable = file_.find_variable(name);
+        if (nx_ == 1) return read(variable, record);
+        const Values all = read(variable, record), room = read(file_.find_variable("free_volume"), record);
+        Values plane(cells());
+        for (std::size_t cell = 0; cell < cells(); ++cell) {
+            double total = 0, weight = 0;
+            for (std::size_t x = 0; x < nx_; ++x) {
+                const double value = all[cell * nx_ + x], part = sum ? 1 : room[cell * nx_ + x];
+                if (!std::isfinite(value)) continue;
+                total += value * part;
+                weight += part;
+            }
+            plane[cell] = sum ? total : weight > 0 ? total / weight : none;
+        }
+        return plane;
+    }
+
+  private:
+    Values read(int variable, std::size_t record) const {
+        Values values(nx_ * cells());
+        if (file_.has_variable("x"))
+            file_.get(variable, {record, 0, 0, 0}, {1, nz_, ny_, nx_}, values.data());
+        else
+            file_.get(variable, {record, 0, 0}, {1, nz_, ny_}, values.data());
+        return values;
+    }
+
+    NetcdfFile file_;
+    std::size_t records_ = 0, nx_ = 1, ny_ = 0, nz_ = 0;
+};
+
+// A quantity and how its plane comes from a record.
+struct Made {
+    FieldQuantity about;
+    std::function<Values(const FieldsFile&, std::size_t)> of;
+};
+
+Values combined(const Values& a, const Values& b, double (*of)(double, double)) {
+    Values result(a.size());
+    std::transform(a.begin(), a.end(), b.begin(), result.begin(), of);
+    return result;
+}
+
+// A third of the trace of both stresses.
+Values pressure(const FieldsFile& file, std::size_t record) {
+    Values sum(file.cells(), 0.0);
+    for (const char* part : {"kinetic_stress_xx", "kinetic_stress_yy", "kinetic_stress_zz",
+                             "contact_stress_xx", "contact_stress_yy", "contact_stress_zz"})
+        sum = combined(sum, file.plane(part, record), [](double a, double b) { return a + b / 3; });
+    return sum;
+}
+
+std::vector<Made> quantities_of(const FilmedScene& scene, const FieldsFile& file) {
+    std::vector<Made> all;
+    const auto add = [&](const char* name, const std::string& label, const char* unit, auto of) {
+        all.push_back({{name, label, unit, 0, 0}, of});
+    };
+    for (const Species& species : scene.species) {
+        const std::string variable = "solid_fraction_" + in_variable(species.name);
+        if (file.has(variable))
+            add(variable.c_str(), "solid fraction of " + species.name, "",
+                [variable](const FieldsFile& f, std::size_t r) { return f.plane(variable, r); });
+    }
+    if (file.has("density"))
+        add("density", "density", "kg/m³",
+            [](const FieldsFile& f, std::size_t r) { return f.plane("density", r); });
+    if (file.has("velocity_y") && file.has("velocity_z")) {
+        add("speed", "speed of the flow in the plane", "m/s", [](const FieldsFile& f, std::size_t r) {
+            return combined(f.plane("velocity_y", r), f.plane("velocity_z", r),
+                            [](double a, double b) { return std::hypot(a, b); });
+        });
+        add("velocity_y", "velocity across", "m/s",
+            [](const FieldsFile& f, std::size_t r) { return f.plane("velocity_y", r); });
+        add("velocity_z", "velocity upwards", "m/s",
+            [](const FieldsFile& f, std::size_t r) { return f.plane("velocity_z", r); });
+    }
+    if (file.has("granular_temperature"))
+        add("granular_temperature", "granular temperature", "m²/s²",
+            [](const FieldsFile& f, std::size_t r) { return f.plane("granular_temperature", r); });
+    if (file.has("kinetic_stress_xx") && file.has("contact_stress_zz"))
+        add("pressure", "pressure", "Pa", pressure);
+    return all;
+}
+
+void find_ends(FieldQuantity& quantity, const Values& values, bool first) {
+    if (first) quantity.low = quantity.high = none;
+    for (const double value : values) {
+        if (!std::isfinite(value)) continue;
+        quantity.low = std::isfinite(quantity.low) ? std::min(quantity.low, value) : value;
+        quantity.high = std::isfinite(quantity.high) ? std::max(quantity.high, value) : value;
+    }
+}
+
+void append(std::vector<std::uint8_t>& bytes, const FieldQuantity& quantity, const Values& values) {
+    const double span = quantity.high - quantity.low;
+    for (const double value : values) {
+        const double share = span > 0 ? (value - quantity.low) / span : 0;
+        bytes.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(steps * share)) : 255);
+    }
+}
+
+// The first record's: the container stands still on the grid.
+void append_room(std::vector<std::uint8_t>& bytes, const FieldsFile& file) {
+    const bool sum = true;
+    const Values room = file.plane("free_volume", 0, sum);
+    const double most = *std::max_element(room.begin(), room.end());
+    for (const double volume : room) {
+        const double share = most > 0 && std::isfinite(volume) ? volume / most : 0;
+        bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))));
+    }
+}
+
+PageFields read_fields(const FilmedScene& scene, const FieldsFile& file) {
+    PageFields fields;
+    fields.y = file.axis("y");
+    fields.z = file.axis("z");
+    fields.all_records = file.records();
+    const std::vector<Made> made = quantities_of(scene, file);
+    if (fields.all_records == 0 || made.empty()) return fields;
+    for (const Made& one : made) fields.quantities.push_back(one.about);
+    std::size_t wanted =
+        std::clamp<std::size_t>(most_plain_bytes / (made.size() * file.cells()), 1, file.records());
+    while (true) {
+        const std::vector<std::size_t> chosen = spread_rows(file.records(), wanted);
+        fields.records.clear();
+        for (const std::size_t record : chosen) fields.records.push_back(file.bounds(record));
+        std::vector<std::uint8_t> bytes;
+        append_room(bytes, file);
+        for (std::size_t q = 0; q < made.size(); ++q)
+            for (const std::size_t record : chosen)
+                find_ends(fields.quantities[q], made[q].of(file, record), record == chosen.front());
+        for (const std::size_t record : chosen)
+            for (std::size_t q = 0; q < made.size(); ++q)
+                append(bytes, fields.quantities[q], made[q].of(file, record));
+        fields.packed = zlib_packed(bytes);
+        if (fields.packed.size() <= kMostFieldBytes || wanted == 1) return fields;
+        wanted = std::max<std::size_t>(1, 9 * wanted * kMostFieldBytes / fields.packed.size() / 10);
+    }
+}
+
+}  // namespace
+
+PageFields page_fields(const FilmedScene& scene, const fs::path& folder) {
+    std::error_code ignored;
+    if (!scene.output.fields.wanted() || !fs::exists(folder / "fields.nc", ignored)) return {};
+    try {
+        return read_fields(scene, FieldsFile(folder / "fields.nc"));
+    } catch (const UserError& problem) {
+        PageFields fields;
+        fields.why_not = fmt::format("The run's fields are not on this page: {}.", problem.what());
+        return fields;
+    }
 }
 
 }  // namespace grainreel

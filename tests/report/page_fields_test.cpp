@@ -1,5 +1,5 @@
 // Fields as the page carries them, read back by the form that page_fields.hpp describes.
-#include "render/page/page_fields.hpp"
+#include "render/page/page_measures.hpp"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>

@@ -8,7 +8,6 @@
 #include "render/film/sources/frame_source.hpp"
 #include "render/page/bed/bed_frames.hpp"
 #include "render/page/bed/page_meshes.hpp"
-#include "render/page/page_fields.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/scene/filmed_scene.hpp"
