@@ -1,5 +1,8 @@
-// Pictures of frames.
-#include "render/library/picture.hpp"
+// The public pictures (grainreel/picture.hpp): scenes, frames and settings become those of the renderer. The
+// public header has types of its own; engine/library/internal.hpp goes between these and ours.
+#include "engine/library/internal.hpp"
+
+#include "grainreel/picture.hpp"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -11,15 +14,87 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
-#include "engine/library/internal.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "grainreel/picture.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/read_scene.hpp"
+
+namespace grainreel {
+namespace {
+
+// rgba: 4 bytes a pixel, rows from the top. The file is written as `path`.part and renamed when it is whole.
+// Throws RunError that names the file and the reason. Films have a faster way (render/film/codec/png.hpp),
+// which needs more libraries.
+void write_png_file(const std::filesystem::path& path, int width, int height,
+                    const std::vector<std::uint8_t>& rgba) {
+    std::filesystem::path part = path;
+    part += ".part";
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(width);
+    png.height = static_cast<png_uint_32>(height);
+    png.format = PNG_FORMAT_RGBA;
+    std::error_code error;
+    errno = 0;
+    if (png_image_write_to_file(&png, part.c_str(), 0, rgba.data(), 0, nullptr) == 0) {
+        const std::string why = errno != 0 ? std::strerror(errno) : png.message;
+        std::filesystem::remove(part, error);
+        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
+    }
+    std::filesystem::rename(part, path, error);
+    if (!error) return;
+    const std::string why = error.message();
+    std::filesystem::remove(part, error);
+    throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
+}
+
+void name_species(const Frame& frame, std::vector<Species>& species) {
+    std::vector<bool> counted;
+    for (const Species& one : species) counted.push_back(one.all() > 0);
+    const auto unknown = [&](std::size_t kind) { return kind >= counted.size() || !counted[kind]; };
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto kind = static_cast<std::size_t>(frame.species[i]);
+        while (species.size() <= kind) {
+            species.emplace_back();
+            species.back().name = "type " + std::to_string(species.size());
+        }
+        if (unknown(kind)) ++species[kind].count;
+        double& largest = species[kind].diameter.largest;
+        largest = std::max(largest, 2 * frame.radius[i]);
+    }
+}
+
+void list_grains(const Frame& frame, Scene& scene) {
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        ListedGrain grain;
+        grain.species = static_cast<std::size_t>(frame.species[i]);
+        grain.position = frame.position[i];
+        scene.start.grains.push_back(grain);
+    }
+    const Vec3 size = extent_of(scene).size();
+    scene.container.depth = size.x();
+    scene.container.half_width = 0.5 * size.y();
+    scene.container.height = size.z();
+}
+
+// A film for frames that come without one: it has all defaults, and the species have the palette's colours.
+// What the scene itself says of its film and colours is ignored. Where the scene has neither a container nor
+// listed grains, the frame tells which species there are and how much room the grains take.
+FilmedScene with_plain_film(const Scene& scene, const Frame& frame) {
+    FilmedScene filmed{scene, {}, {}};
+    name_species(frame, filmed.species);
+    if (filmed.container.shape == Container::Shape::none && filmed.start.grains.empty())
+        list_grains(frame, filmed);
+    while (filmed.colours.size() < filmed.species.size())
+        filmed.colours.push_back(default_colour(filmed.colours));
+    return filmed;
+}
+
+}  // namespace
+}  // namespace grainreel
 
 namespace grainreel::v1 {
 namespace {
@@ -145,75 +220,3 @@ Picture Painter::draw(const Frame& frame, const std::string& words) {
 }
 
 }  // namespace grainreel::v1
-namespace grainreel {
-
-void write_png_file(const std::filesystem::path& path, int width, int height,
-                    const std::vector<std::uint8_t>& rgba) {
-    std::filesystem::path part = path;
-    part += ".part";
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(width);
-    png.height = static_cast<png_uint_32>(height);
-    png.format = PNG_FORMAT_RGBA;
-    std::error_code error;
-    errno = 0;
-    if (png_image_write_to_file(&png, part.c_str(), 0, rgba.data(), 0, nullptr) == 0) {
-        const std::string why = errno != 0 ? std::strerror(errno) : png.message;
-        std::filesystem::remove(part, error);
-        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
-    }
-    std::filesystem::rename(part, path, error);
-    if (!error) return;
-    const std::string why = error.message();
-    std::filesystem::remove(part, error);
-    throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
-}
-
-}  // namespace grainreel
-namespace grainreel {
-
-namespace {
-
-void name_species(const Frame& frame, std::vector<Species>& species) {
-    std::vector<bool> counted;
-    for (const Species& one : species) counted.push_back(one.all() > 0);
-    const auto unknown = [&](std::size_t kind) { return kind >= counted.size() || !counted[kind]; };
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        const auto kind = static_cast<std::size_t>(frame.species[i]);
-        while (species.size() <= kind) {
-            species.emplace_back();
-            species.back().name = "type " + std::to_string(species.size());
-        }
-        if (unknown(kind)) ++species[kind].count;
-        double& largest = species[kind].diameter.largest;
-        largest = std::max(largest, 2 * frame.radius[i]);
-    }
-}
-
-void list_grains(const Frame& frame, Scene& scene) {
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        ListedGrain grain;
-        grain.species = static_cast<std::size_t>(frame.species[i]);
-        grain.position = frame.position[i];
-        scene.start.grains.push_back(grain);
-    }
-    const Vec3 size = extent_of(scene).size();
-    scene.container.depth = size.x();
-    scene.container.half_width = 0.5 * size.y();
-    scene.container.height = size.z();
-}
-
-}  // namespace
-
-FilmedScene with_plain_film(const Scene& scene, const Frame& frame) {
-    FilmedScene filmed{scene, {}, {}};
-    name_species(frame, filmed.species);
-    if (filmed.container.shape == Container::Shape::none && filmed.start.grains.empty())
-        list_grains(frame, filmed);
-    while (filmed.colours.size() < filmed.species.size())
-        filmed.colours.push_back(default_colour(filmed.colours));
-    return filmed;
-}
-
-}  // namespace grainreel

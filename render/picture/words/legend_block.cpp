@@ -1,5 +1,6 @@
-// Which grains are which.
-#include "render/picture/words/legend_block.hpp"
+// Blocks of the overlay that say what colours mean: the legend, which grains are which, and the colour bars
+// of grains and walls. Both are declared in blocks.hpp.
+#include "render/picture/words/blocks.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -17,13 +18,59 @@
 #include "render/picture/grains/grain_colours.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
-#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 namespace {
+
+// The same formula as light_as() in light-inl.hpp, seen straight on and with nothing around.
+Colour lit(const Vec3& normal, const Colour& albedo) {
+    const Lamp lamp;
+    const Vec3 key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]), eye(0, 0, -1);
+    const double falls = std::max(0.0, normal.dot(key));
+    const double ambient = lamp.ground + (lamp.sky - lamp.ground) * (0.5 + 0.5 * normal.y());
+    const double t = std::clamp(normal.dot(eye) / lamp.rim_width, 0.0, 1.0);
+    const double rim = lamp.rim + (1 - lamp.rim) * t * t * (3 - 2 * t);
+    const double gloss = std::max(0.0, normal.dot((key + eye).normalized()));
+    const double shine = lamp.shine * std::pow(gloss, 32) * std::min(4 * falls, 1.0);
+    const auto channel = [&](double srgb) {
+        return to_srgb(std::clamp(to_linear(srgb) * (ambient + lamp.key * falls) * rim + shine, 0.0, 1.0));
+    };
+    return {channel(albedo.red), channel(albedo.green), channel(albedo.blue)};
+}
+
+// A small sphere of the legend, lit as the grains are, as a picture of the lit hemisphere that is cut out by
+// a smooth circle. (x, y): centre; pixels.
+void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour& colour) {
+    const int side = 2 * static_cast<int>(std::ceil(radius)) + 2;
+    const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, side);
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(stride) * side);
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            double u = (column + 0.5 - 0.5 * side) / radius, v = (0.5 * side - row - 0.5) / radius;
+            const double length = std::hypot(u, v);
+            if (length > 1) {
+                u /= length;
+                v /= length;
+            }
+            const Vec3 normal(u, v, -std::sqrt(std::max(0.0, 1 - u * u - v * v)));
+            const Colour shade = lit(normal, colour);
+            const std::array<double, 3> channels = {shade.blue, shade.green, shade.red};
+            for (std::size_t c = 0; c < 3; ++c)
+                pixels[static_cast<std::size_t>(row) * stride + 4 * static_cast<std::size_t>(column) + c] =
+                    static_cast<std::uint8_t>(std::lround(255 * channels[c]));
+        }
+    cairo_surface_t* ball =
+        cairo_image_surface_create_for_data(pixels.data(), CAIRO_FORMAT_RGB24, side, side, stride);
+    cairo_set_source_surface(on, ball, x - 0.5 * side, y - 0.5 * side);
+    cairo_new_path(on);
+    cairo_arc(on, x, y, radius, 0, 2 * M_PI);
+    cairo_fill(on);
+    cairo_set_source_rgb(on, 0, 0, 0);  // lets go of the surface
+    cairo_surface_destroy(ball);
+}
 
 constexpr std::size_t most_species = 12;  // more are summed up in a last line
 
@@ -125,58 +172,6 @@ TextSize legend_block(const Writer& writer, const FilmedScene& scene, double x, 
 
 namespace {
 
-// The same formula as light_as() in light-inl.hpp, seen straight on and with nothing around.
-Colour lit(const Vec3& normal, const Colour& albedo) {
-    const Lamp lamp;
-    const Vec3 key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]), eye(0, 0, -1);
-    const double falls = std::max(0.0, normal.dot(key));
-    const double ambient = lamp.ground + (lamp.sky - lamp.ground) * (0.5 + 0.5 * normal.y());
-    const double t = std::clamp(normal.dot(eye) / lamp.rim_width, 0.0, 1.0);
-    const double rim = lamp.rim + (1 - lamp.rim) * t * t * (3 - 2 * t);
-    const double gloss = std::max(0.0, normal.dot((key + eye).normalized()));
-    const double shine = lamp.shine * std::pow(gloss, 32) * std::min(4 * falls, 1.0);
-    const auto channel = [&](double srgb) {
-        return to_srgb(std::clamp(to_linear(srgb) * (ambient + lamp.key * falls) * rim + shine, 0.0, 1.0));
-    };
-    return {channel(albedo.red), channel(albedo.green), channel(albedo.blue)};
-}
-
-}  // namespace
-
-void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour& colour) {
-    // Drawn as a small picture of the lit hemisphere, cut out by a smooth circle.
-    const int side = 2 * static_cast<int>(std::ceil(radius)) + 2;
-    const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, side);
-    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(stride) * side);
-    for (int row = 0; row < side; ++row)
-        for (int column = 0; column < side; ++column) {
-            double u = (column + 0.5 - 0.5 * side) / radius, v = (0.5 * side - row - 0.5) / radius;
-            const double length = std::hypot(u, v);
-            if (length > 1) {
-                u /= length;
-                v /= length;
-            }
-            const Vec3 normal(u, v, -std::sqrt(std::max(0.0, 1 - u * u - v * v)));
-            const Colour shade = lit(normal, colour);
-            const std::array<double, 3> channels = {shade.blue, shade.green, shade.red};
-            for (std::size_t c = 0; c < 3; ++c)
-                pixels[static_cast<std::size_t>(row) * stride + 4 * static_cast<std::size_t>(column) + c] =
-                    static_cast<std::uint8_t>(std::lround(255 * channels[c]));
-        }
-    cairo_surface_t* ball =
-        cairo_image_surface_create_for_data(pixels.data(), CAIRO_FORMAT_RGB24, side, side, stride);
-    cairo_set_source_surface(on, ball, x - 0.5 * side, y - 0.5 * side);
-    cairo_new_path(on);
-    cairo_arc(on, x, y, radius, 0, 2 * M_PI);
-    cairo_fill(on);
-    cairo_set_source_rgb(on, 0, 0, 0);  // lets go of the surface
-    cairo_surface_destroy(ball);
-}
-
-// The colour bars: what the colours of the grains and of the walls mean.
-
-namespace {
-
 // Its ends have the colours of the range's ends, so that it can be read off a picture.
 void paint_bar(cairo_t* on, const ColourScale& scale, int x, int y, int width, int height) {
     cairo_save(on);
@@ -214,23 +209,6 @@ void paint_tips(const Writer& writer, const ColourScale& scale, const ColourBarP
         paint_tip(writer.on, scale.at_share(1), edge, bar.x + bar.width, bar.x + bar.width + bar.tip_above,
                   bar.y, bar.height);
 }
-
-}  // namespace
-
-ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type, double x, double y,
-                                double width) {
-    ColourBarPlace place;
-    place.height = std::max(4, static_cast<int>(std::lround(0.7 * type.main)));
-    const int tip = std::min(place.height, static_cast<int>(0.2 * width));
-    place.tip_below = scale.open_below() ? tip : 0;
-    place.tip_above = scale.open_above() ? tip : 0;
-    place.x = static_cast<int>(std::ceil(x)) + place.tip_below;
-    place.y = static_cast<int>(std::ceil(y));
-    place.width = std::max(2, static_cast<int>(std::floor(width)) - place.tip_below - place.tip_above);
-    return place;
-}
-
-namespace {
 
 struct BarTick {
     double share;  // of the bar, from its low end
@@ -291,6 +269,19 @@ TextSize bar_block(const Writer& writer, const ColourScale& scale, double x, dou
 }
 
 }  // namespace
+
+ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type, double x, double y,
+                                double width) {
+    ColourBarPlace place;
+    place.height = std::max(4, static_cast<int>(std::lround(0.7 * type.main)));
+    const int tip = std::min(place.height, static_cast<int>(0.2 * width));
+    place.tip_below = scale.open_below() ? tip : 0;
+    place.tip_above = scale.open_above() ? tip : 0;
+    place.x = static_cast<int>(std::ceil(x)) + place.tip_below;
+    place.y = static_cast<int>(std::ceil(y));
+    place.width = std::max(2, static_cast<int>(std::floor(width)) - place.tip_below - place.tip_above);
+    return place;
+}
 
 std::vector<ColourScale> colour_scales(const Film& film) {
     std::vector<ColourScale> scales;

@@ -1,5 +1,5 @@
-// The keys of [film] itself: the picture and the file. What only shows more has chapters of its own
-// (film_keys.hpp).
+// The keys of [film] itself: those of the picture and of the file, and what goes with each format of the
+// file. Keys that only show more have files of their own (film_keys.hpp).
 #include "render/scene/keys/film_keys.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,6 @@
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/scene/film.hpp"
-#include "render/scene/keys/word_keys.hpp"
 #include "render/scene/purposes.hpp"
 
 namespace grainreel {
@@ -24,7 +23,7 @@ constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
 constexpr std::int64_t most_tiles = 12;  // of a contact sheet, each way
 constexpr int capped_quality = 18;  // a film under a cap is as good as the cap lets it be, up to this crf
 
-// "1920x1080" or [1920, 1080]; zeros for what is neither.
+// Reads "1920x1080" or [1920, 1080]; gives zeros for anything else.
 std::array<std::int64_t, 2> two_counts(Document& document, const std::string& path) {
     std::array<std::int64_t, 2> size{0, 0};
     if (document.is_array(path)) {
@@ -80,7 +79,7 @@ void read_purpose(Document& document, const Scene&, const std::string& path, Fil
     film.sheet = purpose->sheet;
 }
 
-// After the format, which may have no use for the purpose's cap.
+// Is read after the format, which may have no use for the purpose's cap.
 void read_max_size(Document& document, const Scene&, const std::string& path, Film& film) {
     if (!can_be_capped(film.format)) film.max_size.reset();
     const auto text = document.text(path);
@@ -226,7 +225,8 @@ void list_film(Keys& all) {
     list_shows(all);
 }
 
-// The purpose sets defaults of the picture and comes first of all; the style one of the background.
+// The style sets the default of the background, and the purpose the defaults of the picture, so both are read
+// first.
 void read_film(Document& document, FilmedScene& scene) {
     Film& film = scene.film;
     read_look(document, scene);
@@ -266,8 +266,6 @@ Colour read_colour(Document& document, const std::string& path, const char* exam
                                         document.written_value(path), example));
     return *colour;
 }
-
-// What of the film's file does not go with its format, and what must give way to it.
 
 namespace {
 
@@ -311,7 +309,7 @@ void check_transparent(const Document& document, const Film& film) {
                         word_of(film.format, film_format_words)));
 }
 
-// A scene that names a size of its own keeps it; whoever asked for the purpose is to know.
+// A scene that names a size of its own keeps it. The note says so to a user who asked for the purpose.
 void tell_what_stays(const Document& document, FilmedScene& scene) {
     const Purpose* purpose = find_purpose(scene.film.purpose);
     if (purpose == nullptr) return;

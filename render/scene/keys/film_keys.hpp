@@ -1,5 +1,6 @@
-// The film's chapters of the scene: each lists its keys for the table of all, reads them, and writes them
-// back.
+// The keys of [film] and its tables. Each table has three functions: one lists its keys for the table of all
+// keys, one reads them, and one writes them back. A key itself is an entry in one of the .cpp files of this
+// folder.
 #pragma once
 
 #include <string>
@@ -10,6 +11,11 @@
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
+namespace keys {
+template <class T>
+struct BoundKey;
+}
 
 void list_camera(keys::Keys& all);
 void read_camera(Document& document, FilmedScene& scene);
@@ -27,7 +33,8 @@ void list_film_walls(keys::Keys& all);
 void read_film_walls(Document& document, FilmedScene& scene);
 void write_film_walls(SceneText& out, const FilmedScene& scene);
 
-// What is hidden, ringed and written beside the grains; and with what has tables of its own.
+// list_marks and write_marks are for the keys that hide and ring grains, write_text for `text`. The functions
+// of "shows" also call those of colours, plots, arrows and trails.
 void list_marks(keys::Keys& all);
 void list_shows(keys::Keys& all);
 void read_shows(Document& document, FilmedScene& scene);
@@ -58,6 +65,9 @@ void write_labels(SceneText& out, const FilmedScene& scene);
 void list_captions(keys::Keys& all);
 void read_captions(Document& document, FilmedScene& scene);  // after the run
 void write_captions(SceneText& out, const FilmedScene& scene);
+
+// The key `show` of [film]: which words and signs stand beside the grains.
+keys::BoundKey<Film> word_kinds_key();
 
 // A colour by name or number. example: for the message.
 Colour read_colour(Document& document, const std::string& path, const char* example);

@@ -1,4 +1,4 @@
-// The keys of style, light and cut: part of [film], and [film.cut].
+// The keys of style and light, which are part of [film], and those of [film.cut] and [film.walls].
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,8 +24,8 @@ BoundKey<FilmLook> style_key() {
     return style.read_at(-1);
 }
 
-// Light that comes with a style unless the scene says otherwise. Written only where it does, so that a
-// written scene can be given another style.
+// A kind of light that comes with a style unless the scene says otherwise. It is written only where the scene
+// does, so that a written scene can be given another style.
 BoundKey<FilmLook> light(const char* name, bool FilmLook::*member, const char* about) {
     return flag(name, member, note("true; false with flat"), about)
         .usually([member](FilmLook& look, const Scene&) { look.*member = FilmLook::of(look.style).*member; })
@@ -90,11 +90,7 @@ void write_cut(SceneText& out, const FilmedScene& scene) {
     cut_table().write(out, scene, scene.film.look.cut);
 }
 
-// The keys of [film.walls]: how meshes are drawn.
-
 namespace {
-
-using namespace keys;
 
 // Throws UserError for a name that no mesh has.
 std::vector<std::string> mesh_names(Document& document, const Scene& scene, const std::string& path) {
@@ -124,7 +120,7 @@ BoundKey<FilmWalls> names_key(const char* name, std::vector<std::string> FilmWal
         });
 }
 
-// Comes after the colour. Keys behind it are not read where walls are plain.
+// Is read after the colour, and only where walls are not plain.
 void read_range(Document& document, const Scene& scene, const std::string& path, FilmWalls& walls) {
     const std::string key = "film.walls.colour";
     if (scene.meshes.empty()) document.fail(key, "colours meshes, and the scene has none; leave it out");
@@ -143,8 +139,8 @@ std::string range_text(const FilmWalls& walls, const Scene&) {
     return walls.fixed ? toml_list({as_toml(walls.range[0]), as_toml(walls.range[1])}) : "";
 }
 
-// Colours change from record to record: where the scene says nothing of these, and keeps no fields that would
-// go by them too, each is as short as a film needs it.
+// Colours change with every record of fields.nc. Where the scene neither keeps fields nor says how long
+// records are, they become as short as a film needs them.
 void shorten_records(const Document& document, double duration, FieldOutput& fields) {
     constexpr double records = 100;
     if (fields.wanted()) return;

@@ -1,4 +1,5 @@
-// The keys of [film.colour]: what the colour of a grain stands for.
+// The keys of [film.colour], which say what the colour of a grain stands for, and those keys of [film] that
+// hide and ring grains, draw forces and write words beside the grains.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -60,7 +61,7 @@ void read_scale(Document& document, const Scene&, const std::string& path, C& co
     colour.logarithmic = word == "logarithmic";
 }
 
-// The usual range begins at 0, which no logarithm reaches: then it goes over three powers of ten.
+// The usual range begins at 0, which has no logarithm. It then spans three powers of ten below its upper end.
 void make_logarithmic(const Document& document, C& colour) {
     constexpr double powers = 1e-3;
     if (is_signed(colour.by))
@@ -81,7 +82,8 @@ void read_range(Document& document, const Scene& scene, const std::string& path,
     check_range(document, path, colour);
 }
 
-// Else as the quantity has it, also when a finished run is drawn again in other colours.
+// Only a range of the user's is written. Otherwise the quantity decides, also when a finished run is drawn
+// again in other colours.
 std::string range_text(const C& colour, const Scene&) {
     return colour.fixed ? toml_list({as_toml(colour.range[0]), as_toml(colour.range[1])}) : "";
 }
@@ -147,13 +149,9 @@ void write_colour(SceneText& out, const FilmedScene& scene) {
     colour_table().write(out, scene, scene.film.shows.colour);
 }
 
-// The keys of what the film hides, rings and writes beside the grains: part of [film].
-
 namespace {
 
-using namespace keys;
-
-// "speed > 20 cm/s": a quantity that can colour grains, < or >, a value of it.
+// Reads "speed > 20 cm/s": a quantity that can colour grains, < or >, and a value of it.
 void read_condition(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
     GrainCondition& condition = shows.highlight_if;
     const auto text = document.text(path);
@@ -198,7 +196,8 @@ void read_words(Document& document, const Scene& scene, const std::string& path,
     }
 }
 
-// The weight of all grains, or what the floor presses them up with at the drive's strongest, if that is more.
+// N: the weight of all grains, or, if that is more, the force with which the floor lifts them when the drive
+// is strongest.
 double usual_wall_force(const Scene& scene) {
     const double gravity = scene.gravity.norm(), weight = total_mass(scene) * gravity;
     return scene.drive.present ? weight * std::max(1.0, scene.drive.strongest_g_level(gravity)) : weight;

@@ -1,6 +1,5 @@
-// The keys of [[film.caption]]: words that the film shows for a while, and how long it stands still for them.
-#include "render/scene/keys/word_keys.hpp"
-
+// The keys of words: [[film.caption]], words that the film shows for a while; [[film.label]], words beside
+// single grains; and the key `show` of [film].
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
@@ -84,11 +83,7 @@ void write_captions(SceneText& out, const FilmedScene& scene) {
     caption_table().write_elements(out, scene, "film.caption", scene.film.captions);
 }
 
-// The keys of [[film.label]]: words beside single grains.
-
 namespace {
-
-using namespace keys;
 
 const KeyTable<FilmLabel>& label_table() {
     using L = FilmLabel;
@@ -165,7 +160,6 @@ std::string word_kinds_text(const Film& film, const Scene&) {
 }  // namespace
 
 keys::BoundKey<Film> word_kinds_key() {
-    using namespace keys;
     return bound_by<Film>(
                of_choices(entry("show", KeyKind::name_list, note("all of them"),
                                 "Words and signs that the film has; [] for none. `words` says where."),
