@@ -1,6 +1,6 @@
-// The checksum of a sequence of numbers, by which a reader tells damage from data. XXH64, chained: what is
-// added is hashed with the sum so far as its seed. Two 32-bit words, high one first, since classic NetCDF has
-// no integer of 64 bits. Source: Y. Collet, xxHash fast digest algorithm, version 0.1.1.
+// The checksum of a sequence of numbers, by which a reader notices damage. It is XXH64, chained: each piece
+// is hashed with the sum so far as its seed. It is kept as two words of 32 bits, the high one first, since
+// classic NetCDF has no integer of 64 bits. Source: Y. Collet, xxHash fast digest algorithm, version 0.1.1.
 #pragma once
 
 #include <xxhash.h>
@@ -14,7 +14,7 @@ namespace grainreel {
 
 class Checksum {
   public:
-    // Their bytes as this machine has them, the lowest first.
+    // Adds the bytes of the numbers, the lowest byte of each first.
     template <class Value>
     void add(const Value* values, std::size_t count) {
         static_assert(std::is_arithmetic_v<Value>);

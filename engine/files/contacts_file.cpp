@@ -16,22 +16,22 @@ namespace grainreel {
 
 namespace {
 
-// As the file has it.
+// A row of the file.
 struct Row {
     std::int32_t frame, first, second;
     float normal;
     std::array<float, 3> tangential, point;
-    std::int32_t triangle = -1;  // the last one: only where the file has it
+    std::int32_t triangle = -1;  // comes last, and only in files of scenes with meshes
 };
-static_assert(sizeof(Row) == 11 * sizeof(float));  // no gaps, whose bytes the checksum would count
+static_assert(sizeof(Row) == 11 * sizeof(float));  // a row has no gaps; the checksum would count their bytes
 
 int checksum_of(const Row& row, bool meshes) {
     return static_cast<int>(XXH32(&row, meshes ? sizeof row : sizeof row - sizeof row.triangle, 0));
 }
 
-constexpr std::int32_t most_faces = 1000;  // of a container and its scene's walls and meshes
+constexpr std::int32_t most_faces = 1000;  // of a container, with the walls and meshes of its scene
 
-// What no run writes, be the checksum right or missing.
+// What is wrong with a row that no run can have written, whatever its checksum; empty for a good row.
 bool possible(const Row& row) {
     return row.frame >= 0 && row.first >= 0 && row.second >= -most_faces && std::isfinite(row.normal) &&
            row.normal >= 0 && row.triangle >= -1;
@@ -46,7 +46,7 @@ std::array<float, 3> floats(const Vec3& v) {
 struct ContactsWriter::Impl {
     explicit Impl(NetcdfFile to) : file(std::move(to)) {}
 
-    // of(row): the numbers of one, Width of them.
+    // Writes a column. of(row) gives the Width numbers of a row.
     template <class Value, std::size_t Width, class Of>
     void put_column(int variable, const std::vector<Row>& of_rows, const Of& of) {
         std::vector<Value> column;
@@ -175,7 +175,7 @@ struct ContactsReader::Impl {
                         source, row, what));
     }
 
-    // Width numbers of each of `count` rows, put into place by set(row, numbers).
+    // Reads a column of `count` rows. set(row, numbers) gets the Width numbers of each.
     template <class Value, std::size_t Width, class Set>
     void get_column(const char* name, std::size_t begin, std::vector<Row>& rows, const Set& set) const {
         std::vector<std::size_t> start{begin}, count{rows.size()};
@@ -205,13 +205,13 @@ struct ContactsReader::Impl {
         return rows;
     }
 
-    // Those of a frame of the trajectory, in the order of the file.
+    // The contacts of a frame of the trajectory, in the order of the file.
     std::vector<Row> rows_of(std::size_t frame) const;
 
     std::string source;  // for messages
     NetcdfFile file;
     bool checksums = false, meshes = false;
-    std::vector<int> frame_of;  // of each row, rising
+    std::vector<int> frame_of;  // number of the frame of each row, rising
     bool cut_off = false;
     std::size_t uncounted = 0;
 };
@@ -245,7 +245,8 @@ bool ContactsReader::has_checksums() const {
 std::vector<Row> ContactsReader::Impl::rows_of(std::size_t frame) const {
     const std::vector<int>& frames = frame_of;
     const auto [low, high] = std::equal_range(frames.begin(), frames.end(), static_cast<int>(frame));
-    // With one row more on each side: damage to a number of a frame may have moved a row to its neighbour.
+    // One more row is read on each side, because a damaged frame number may have moved a row to its
+    // neighbour.
     const auto from = low - (low == frames.begin() ? 0 : 1), to = high + (high == frames.end() ? 0 : 1);
     if (from == to) return {};
     std::vector<Row> rows =

@@ -1,12 +1,12 @@
-// contacts.nc: who pushes whom, and how hard, at the moments of the trajectory. The number of contacts
-// changes from frame to frame and classic NetCDF has one unlimited dimension, so the file is one long table:
-// dimension `row`, columns frame (counts the trajectory's frames from 0), first, second (ids; a wall is -1 -
-// its face), normal (N), tangential (N, on `second`), point (m) and checksum (XXH32 of the row's other
-// numbers as they stand in memory, in this order). Forces and points are floats.
+// contacts.nc: the contacts of all frames of the trajectory, with their forces. The number of contacts
+// changes from frame to frame and classic NetCDF has only one unlimited dimension, so the file is one long
+// table.
 //
-// In a scene with meshes `triangle` follows the point. It is the number of the mesh's triangle that is
-// touched, counted from 0 as in trajectory.nc, or -1. A grain that touches several parts of a mesh has a row
-// for each.
+// Its dimension is `row`. Its columns are frame (number of the trajectory's frame, from 0), first and second
+// (ids; a wall is -1 - its face), normal (N), tangential (N, on `second`), point (m) and checksum (XXH32 of
+// the row's other numbers as they stand in memory, in this order). Forces and points are floats. In a scene
+// with meshes `triangle` follows the point: the number of the triangle that is touched, counted from 0 as in
+// trajectory.nc, or -1. A grain that touches several parts of a mesh has a row for each.
 #pragma once
 
 #include <filesystem>
@@ -25,16 +25,17 @@ class ContactsWriter {
     // Throws RunError when the file cannot be written.
     ContactsWriter(const std::filesystem::path& path, const std::string& title,
                    const std::string& program_version, const FileFacts& facts = {}, bool meshes = false);
-    // Goes on with a file that is there, behind the contacts of the trajectory's first `frames`; what comes
-    // after them is cut off. Throws UserError where the file is damaged.
+    // Continues a file after the contacts of the trajectory's first `frames`; later rows are cut off. Throws
+    // UserError where the file is damaged.
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);
     ~ContactsWriter();
 
-    // How much stays of the file then. Throws UserError as above, and where it lacks some of these.
+    // How much of the file stays if it is continued. Throws UserError as above, and where some of these rows
+    // are missing.
     static KeptRecords kept_of(const std::filesystem::path& path, std::size_t frames);
 
-    // The rows are in the file when this returns. Throws RunError when they could not be written; those of
-    // the frames before stay readable.
+    // The rows are in the file when this returns. Throws RunError when they could not be written; the rows of
+    // earlier frames stay readable.
     void write(std::int64_t frame, const std::vector<ContactRecord>& contacts);
 
   private:
@@ -42,28 +43,29 @@ class ContactsWriter {
     std::unique_ptr<Impl> impl_;
 };
 
-// Forces between grains, frame by frame.
+// Reads the contacts frame by frame.
 class ContactsReader {
   public:
-    // Throws UserError when the file is missing, damaged or no contacts.nc. What a killed run left is read.
+    // Throws UserError when the file is missing, damaged or not a contacts.nc. A file of a run that was
+    // killed can be read.
     explicit ContactsReader(const std::filesystem::path& path);
     ~ContactsReader();
 
-    // Those of a frame of the trajectory, as they were written; none where has_all() is false. Throws
-    // UserError, with the row, when one of them is damaged.
+    // The contacts of a frame of the trajectory, as they were written; none where has_all() is false. Throws
+    // UserError that names the row when one is damaged.
     std::vector<Touch> touches(std::size_t frame) const;
-    // The same with their points and tangential forces.
+    // The same with points and tangential forces.
     std::vector<ContactRecord> contacts(std::size_t frame) const;
-    // False for the frames of a file that was cut off from the last one on that has rows: rows of it may be
-    // missing.
+    // Whether all contacts of the frame are in the file. In a file that was cut off, they may not be for the
+    // last frame with rows and all later ones.
     bool has_all(std::size_t frame) const;
-    // How many rows the trajectory's first `frames` have.
+    // Number of rows of the trajectory's first `frames`.
     std::size_t rows_of_first(std::size_t frames) const;
-    // Whether the end of the file is missing, so that the last frames lack contacts.
+    // Whether the end of the file is missing, so that contacts of the last frames are missing too.
     bool cut_off() const;
-    // Rows that lie in the file beyond those that its header counts.
+    // Number of rows in the file beyond those that its header counts.
     std::size_t uncounted() const;
-    // False in a file of an earlier version: there damage may look like data.
+    // False for a file of an earlier version, in which damage may look like data.
     bool has_checksums() const;
 
   private:

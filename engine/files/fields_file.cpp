@@ -16,7 +16,7 @@ namespace grainreel {
 
 namespace {
 
-// A grid of so many cells still fits into one variable of CDF-2.
+// The largest number of cells that still fits into one variable of CDF-2.
 constexpr std::size_t most_cells_of_cdf2 = ((std::size_t{1} << 32) - 4) / sizeof(double);
 
 std::size_t cells_of(const FieldSet& set, const FieldInfo& field) {
@@ -36,7 +36,7 @@ NetcdfFormat format_for(const std::vector<const FieldSet*>& sets) {
 
 struct Variable {
     int id;
-    std::vector<std::size_t> shape;  // without the record
+    std::vector<std::size_t> shape;  // without the dimension of records
 };
 
 }  // namespace
@@ -56,7 +56,7 @@ struct FieldsWriter::Impl {
     };
     NetcdfFile file;
     std::map<std::string, Axis> axes;          // by their names in the file
-    std::map<std::string, std::string> named;  // the axes of the set at hand: their names in the file
+    std::map<std::string, std::string> named;  // names in the file of the axes of the current set
     std::set<std::string> names;               // of fields in the file
     int record = -1, time = -1, bounds = -1;
     std::array<int, 2> checksum{-1, -1};
@@ -76,7 +76,8 @@ void FieldsWriter::Impl::define_times() {
     file.attribute(bounds, "long_name", "where the record begins and ends");
 }
 
-// Two variables of one number a record: VTK's reader would take one of two numbers for the grid to show.
+// The bounds of time are two variables of one number, because VTK's reader would show a variable of two
+// numbers as a grid.
 void FieldsWriter::Impl::define_checksum() {
     for (const std::size_t word : {0, 1}) {
         checksum[word] = file.variable(word == 0 ? "checksum_high" : "checksum_low", NC_INT, {record}, "1");
@@ -99,7 +100,7 @@ void FieldsWriter::Impl::define_axes(const FieldSet& set) {
         const int dimension = file.dimension(name, axis.at.size());
         const int variable = file.variable(name, NC_DOUBLE, {dimension}, axis.unit);
         file.attribute(variable, "long_name", axis.about);
-        // No axis attribute for x and y: ParaView would take them for longitude and latitude.
+        // x and y get no axis attribute, because ParaView would take them for longitude and latitude.
         if (axis.name == "z") {
             file.attribute(variable, "axis", "Z");
             file.attribute(variable, "positive", "up");
@@ -126,7 +127,7 @@ void FieldsWriter::Impl::define_fields(const FieldSet& set) {
     }
 }
 
-// Finds the variables of a file that is there already.
+// Finds the variables in an existing file.
 void FieldsWriter::Impl::find_fields(const FieldSet& set) {
     fields.emplace_back();
     for (const FieldInfo& field : set.fields) {
@@ -223,7 +224,7 @@ void FieldsWriter::write(double begin, double end, const std::vector<FieldValues
     }
     for (const std::size_t word : {0, 1}) to.file.put(to.checksum[word], {at}, {1}, &sum.words()[word]);
     to.file.sync(at + 1);
-    ++to.records;  // only now: one that failed does not count
+    ++to.records;  // only now, because a record that failed does not count
 }
 
 std::int64_t FieldsWriter::records() const {
@@ -236,8 +237,8 @@ const std::array<std::string, 3> axis_names{"x", "y", "z"};
 
 struct FieldVariable {
     int id;
-    std::vector<std::size_t> shape;  // without the record
-    bool in_space;                   // all its axes are places
+    std::vector<std::size_t> shape;  // without the dimension of records
+    bool in_space;                   // whether all its axes are places
 };
 
 }  // namespace
@@ -266,7 +267,7 @@ struct FieldsReader::Impl {
                 damaged(fmt::format("the cells along {} are not evenly spaced", name));
     }
 
-    // A field of the places alone, with all of the grid's axes in the file's order, or one that only the
+    // Takes a variable: a field whose axes are all places, in the order of the grid, or one that only the
     // checksum needs.
     void find(const std::string& name) {
         const int id = file.find_variable(name);
@@ -299,7 +300,7 @@ struct FieldsReader::Impl {
     Middles middles;
     std::vector<std::string> names;
     std::vector<FieldVariable>
-        variables;  // those with records, in the file's order: time and its bounds first
+        variables;  // those with records, in the order of the file; time and its bounds come first
     std::size_t records = 0;
 };
 
@@ -316,7 +317,7 @@ std::array<double, 3> FieldsReader::cell() const {
         const std::vector<double>& at = impl_->middles[axis];
         if (at.size() > 1) cell[axis] = at[1] - at[0];
     }
-    // A grid of one cell along an axis: as wide as along another.
+    // Where a grid has one cell along an axis, that cell is as wide as along another axis.
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (impl_->middles[axis].size() == 1) cell[axis] = *std::max_element(cell.begin(), cell.end());
     return cell;

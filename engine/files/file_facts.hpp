@@ -1,7 +1,7 @@
-// What every NetCDF file of a run says of the run itself, so that it can be read without the scene beside it.
+// What every NetCDF file of a run says about the run, so that it can be read without the scene.
 //
-// It depends neither on the run's length nor on how often it was resumed: files of a run that goes on keep
-// their heads.
+// It must not depend on the run's length or on how often it was resumed: a file that is continued keeps its
+// header.
 #pragma once
 
 #include <string>
@@ -13,13 +13,12 @@
 namespace grainreel {
 
 struct FileFacts {
-    std::vector<std::pair<std::string, std::string>> attributes;  // of the file: names, texts
+    std::vector<std::pair<std::string, std::string>> attributes;  // names and texts of the file's attributes
     std::vector<double> densities;                                // kg/m3, by species
-    std::string walls;  // what a negative number stands for in contacts: "-1 floor, -2 left_wall"
+    std::string walls;  // what negative numbers mean in contacts: "-1 floor, -2 left_wall"
 };
 
-// seen_from_container: places and velocities are against the container, as fields are; else those of the
-// room.
+// seen_from_container: places and velocities are relative to the container, as in fields; else to the room.
 FileFacts file_facts(const Scene& scene, bool seen_from_container = false);
 
 }  // namespace grainreel

@@ -32,7 +32,7 @@ std::string host_name() {
     return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-// Whether the file of that name is the open one.
+// Whether the file with that name is the open file.
 bool is_same_file(int file, const fs::path& path) {
     struct stat open {
     }, named{};
@@ -40,7 +40,7 @@ bool is_same_file(int file, const fs::path& path) {
            open.st_ino == named.st_ino;
 }
 
-// An absolute path, relative to where we are when the one that was given is.
+// The absolute path `found`, made relative to the working folder if the path that was given is relative.
 fs::path as_given(const fs::path& path, const fs::path& given) {
     std::error_code error;
     return given.is_absolute() ? path : fs::proximate(path, error);
@@ -49,12 +49,12 @@ fs::path as_given(const fs::path& path, const fs::path& given) {
 bool lock(int file, int kind) {
     while (::flock(file, kind | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) return false;
-        if (errno != EINTR) return true;  // a file system without locks
+        if (errno != EINTR) return true;  // the file system has no locks
     }
     return true;
 }
 
-// Others look at the lock for a moment, and hold it meanwhile.
+// Tries several times, because a process that only looks at the lock holds it for a moment.
 bool lock_patiently(int file) {
     constexpr int attempts = 5;
     for (int i = 1; i < attempts; ++i) {
@@ -92,7 +92,7 @@ std::optional<FolderLock> FolderLock::take(const fs::path& folder, const std::st
             throw UserError(fmt::format("{}: is {}, not the lock of a run; remove it", path.string(), other));
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file < 0) {
-            if (holder(folder)) return std::nullopt;  // of another user
+            if (holder(folder)) return std::nullopt;  // another user has it
             return FolderLock(folder, -1);
         }
         if (!lock_patiently(file)) {
@@ -103,7 +103,7 @@ std::optional<FolderLock> FolderLock::take(const fs::path& folder, const std::st
             write_holder(file, command);
             return FolderLock(folder, file);
         }
-        ::close(file);  // whoever had it before has removed it in between
+        ::close(file);  // the process that had it before has removed the file meanwhile
     }
 }
 
@@ -121,7 +121,8 @@ std::optional<std::string> FolderLock::holder(const fs::path& folder) {
 FolderLock::~FolderLock() {
     if (file_ < 0) return;
     std::error_code ignored;
-    // Removed first: who opens it in between sees that it is gone.
+    // The file is removed before it is closed, so that a process which opens it in between sees that it is
+    // gone.
     if (is_same_file(file_, folder_ / lock_name)) fs::remove(folder_ / lock_name, ignored);
     ::close(file_);
 }
@@ -137,7 +138,7 @@ bool FolderLock::is_there() const {
 std::optional<fs::path> FolderLock::place() const {
     if (file_ < 0) return std::nullopt;
     std::error_code error;
-    // Where the system knows the open file now; of a removed one it gives a name that does not exist.
+    // The path under which the system knows the open file now. For a removed file it does not exist.
     const fs::path file = fs::read_symlink(fmt::format("/proc/self/fd/{}", file_), error);
     if (error || file.filename() != lock_name || !is_same_file(file_, file)) return std::nullopt;
     return file.parent_path();

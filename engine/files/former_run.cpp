@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// In the folder: all names that there were; new files, until they are in their places; and ends of files.
+// Names in the hidden folder: the list of all names in the run, new files until they are in their places, and
+// the ends of files.
 constexpr const char *kNames = "names", *kNew = "new", *kEnd = ".end";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
@@ -35,7 +36,7 @@ void check(const std::error_code& error, const fs::path& path) {
     if (error) fail(path, error.message());
 }
 
-// An open file, closed in the end.
+// An open file that closes itself.
 class OpenFile {
   public:
     OpenFile(int file, fs::path path) : file_(file), path_(std::move(path)) {
@@ -77,8 +78,8 @@ void copy_bytes(const OpenFile& from, std::uintmax_t begin, std::uintmax_t end, 
     }
 }
 
-// What stands before the end of a file: how much stays of the file, and its first bytes. The head of a NetCDF
-// file counts its records.
+// What is kept before the end of a file: how many of its bytes stay, and its first bytes, because the header
+// of a NetCDF file counts its records.
 struct EndHead {
     std::uint64_t bytes = 0;
     std::array<char, 16> first{};
@@ -104,7 +105,7 @@ void put_end_back(const fs::path& end, const fs::path& file) {
     to.write(head.first.data(), std::min<std::uintmax_t>(head.first.size(), whole), 0);
 }
 
-// run.json may be written over when the disk is full; it is small.
+// run.json is small and may be written over when the disk is full, so it is copied.
 void give_second_name(const fs::path& file, const fs::path& name) {
     std::error_code error;
     if (file.filename() != "run.json") {
@@ -119,7 +120,7 @@ bool is_folder(const fs::path& path) {
     return other_than_file(path, false) == "a folder";
 }
 
-// also/ is written when a run ends, by then past its former end.
+// also/ is left out. It is written when a run ends, and by then the run has passed its former end.
 bool is_kept_folder(const fs::path& name) {
     return is_folder_of_runs(name) && name != kFormerRun && name != kFormerRunPart && name != kAlsoFolder;
 }
@@ -133,7 +134,7 @@ std::vector<fs::path> names_in(const fs::path& folder) {
     return names;
 }
 
-// The run's own files and those in its folders. Each path is relative to the run.
+// The run's files and those in its folders, as paths relative to the run.
 std::vector<fs::path> files_of(const fs::path& run) {
     std::vector<fs::path> files;
     for (const fs::path& name : names_in(run)) {
@@ -208,7 +209,7 @@ void FormerRun::keep_growing(const Cut& cut) {
     if (records) NetcdfFile::count_records(beginning, *records);
 }
 
-// Returns the names of all that there is, one a line.
+// Returns the names of all files and folders, one a line.
 std::string FormerRun::keep_whole() const {
     std::string names;
     std::error_code error;
@@ -222,7 +223,7 @@ std::string FormerRun::keep_whole() const {
     return names;
 }
 
-// First under a name that means nothing: a removal that is cut short must not look like something kept.
+// The folder is renamed before it is removed. A removal that is cut short must not look like a kept run.
 void FormerRun::let_go(const fs::path& run) {
     std::error_code ignored;
     fs::remove_all(run / kFormerRunPart, ignored);

@@ -7,15 +7,15 @@ namespace grainreel {
 
 namespace {
 
-// No bed of grains gets there, and whoever draws can still compute with them.
+// No bed of grains reaches these limits, and code that draws can still compute with such numbers.
 constexpr double longest_time = 1e9;    // s
 constexpr double most_cycles = 1e15;    // periods of the drive
 constexpr double farthest = 1e6;        // m
 constexpr double largest_radius = 1e3;  // m
 constexpr double fastest = 1e6;         // m/s
 constexpr double fastest_spin = 1e12;   // rad/s
-constexpr double float_room = 1e-4;     // of a unit quaternion stored as floats
-constexpr double double_room = 1e-9;    // of one stored as doubles
+constexpr double float_room = 1e-4;     // error in the length of a unit quaternion stored as floats
+constexpr double double_room = 1e-9;    // the same stored as doubles
 
 bool within(double value, double limit) {
     return std::abs(value) <= limit;  // false for NaN

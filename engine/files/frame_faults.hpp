@@ -1,4 +1,4 @@
-// Whether the numbers of a frame that was read from a file can be those of a run.
+// Checks whether the numbers of a frame that was read from a file can be those of a run.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,14 @@
 
 namespace grainreel {
 
-// The first thing wrong: "its time is nan s", "grain 12 has a radius of -1 m"; none when all is possible.
-// What is wrong with time, phase and pose, and with the grains of so many species; empty for nothing.
+// The first fault of a frame as text: "its time is nan s", "grain 12 has a radius of -1 m"; none when all
+// numbers are possible. moment_fault() looks at time, phase and poses, grains_fault() at the grains. species:
+// how many there are.
 std::optional<std::string> moment_fault(const Frame& frame);
 std::optional<std::string> grains_fault(const Frame& frame, std::size_t species);
 
-// One frame of a record is damaged.
-
-// A frame whose checksum is not that of its numbers, or that holds what no run can have: NaN, a radius of 0,
-// a species that is none. The other frames may well be whole.
+// One frame of a file is damaged: its checksum does not fit its numbers, or it has numbers that no run can
+// have (NaN, a radius of 0, an unknown species). The other frames may be whole.
 class DamagedFrame : public UserError {
   public:
     using UserError::UserError;

@@ -1,5 +1,5 @@
-// log.txt: every message of a run with its time. Each line is on disk when the call returns; a full disk
-// costs the log its lines, never the run.
+// log.txt: every message of a run with its time. Each line is on disk when the call returns. A full disk
+// costs lines of the log but never ends the run.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,7 @@ namespace grainreel {
 
 class RunLog {
   public:
-    // Throws RunError when the file cannot be made.
-    // goes_on: behind what is there already.
+    // goes_on: new lines follow those of an existing file. Throws RunError when the file cannot be made.
     explicit RunLog(const std::filesystem::path& path, bool goes_on = false);
     ~RunLog();
 

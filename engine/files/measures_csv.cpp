@@ -26,18 +26,18 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-// A whole number cell: nothing before the number or behind it.
+// The number in a cell that holds nothing else.
 std::optional<double> number_of(const std::string& cell) {
     double value = 0;
     const char* const end = cell.data() + cell.size();
     const auto read = std::from_chars(cell.data(), end, value);
     if (read.ptr != end || cell.empty()) return std::nullopt;
-    // What is too small for a double is read as 0, as elsewhere.
+    // A number that is too small for a double is read as 0, as elsewhere.
     if (read.ec == std::errc::result_out_of_range) return std::strtod(cell.c_str(), nullptr);
     return read.ec == std::errc() ? std::optional(value) : std::nullopt;
 }
 
-// What is wrong with a row, or nothing; else its numbers.
+// Reads the numbers of a row. Returns what is wrong with it, or nothing.
 std::string fault_of(const std::vector<std::string>& cells, const std::vector<std::string>& columns,
                      std::vector<double>& row) {
     row.clear();
@@ -52,7 +52,7 @@ std::string fault_of(const std::vector<std::string>& cells, const std::vector<st
     return "";
 }
 
-// A file that went through Windows.
+// Removes the carriage return of a file from Windows.
 void drop_return(std::string& line) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
 }
@@ -99,7 +99,7 @@ MeasuresWriter::MeasuresWriter(const std::filesystem::path& path, std::vector<st
                                const Cut& cut)
     : file_(path, cut.bytes), columns_(std::move(columns)), rows_(cut.rows) {}
 
-// How much of the file stays: its header, and whole rows up to the first that is not before that step.
+// How much of the file stays: its header and all whole rows before that step.
 MeasuresWriter::Cut MeasuresWriter::cut_before(const std::filesystem::path& path,
                                                const std::vector<std::string>& columns, std::int64_t step) {
     std::ifstream file = read_plain(path);
@@ -123,7 +123,7 @@ void MeasuresWriter::write(const Measures& measures) {
     GRAINREEL_CHECK(measures.names() == columns_);
     std::vector<double> values = measures.values();
     for (double& value : values)
-        if (std::isnan(value)) value = kNoValue;  // its sign would show as -nan
+        if (std::isnan(value)) value = kNoValue;  // a NaN with a sign would be written as -nan
     file_.write(fmt::format("{}\n", fmt::join(values, ",")));
     ++rows_;
 }

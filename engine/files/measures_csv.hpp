@@ -1,4 +1,5 @@
-// measures.csv: one row a moment, every number a column, with the unit in the column's name.
+// measures.csv: a row for each moment and a column for each number, with the unit in the column's name. It is
+// written row by row and read as a MeasureTable.
 #pragma once
 
 #include <filesystem>
@@ -11,26 +12,26 @@
 
 namespace grainreel {
 
-// A last row without its end was cut off, and is left out.
+// What a file holds. A last row without its end was cut off and is left out.
 struct MeasuresFile {
-    std::shared_ptr<const MeasureTable> table;  // its rows; null when there is no file, or it is empty
-    // "FILE:LINE: its time_s is no number but \"x\"": of the first row that is damaged. The table ends before
-    // it.
+    std::shared_ptr<const MeasureTable> table;  // the rows; null when there is no file or it is empty
+    // What is wrong with the first damaged row, "FILE:LINE: its time_s is no number but \"x\"". The table
+    // ends before that row.
     std::string fault;
 };
 MeasuresFile read_measures_file(const std::filesystem::path& path);
-// The table alone.
+// Only the table of it.
 std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path);
 
 class MeasuresWriter {
   public:
     MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns);
 
-    // Goes on with a file that is there, behind the rows of steps before `step`; what comes after them is cut
-    // off. Throws UserError where it has other columns.
+    // Continues a file after the rows of steps before `step`; later rows are cut off. Throws UserError where
+    // the file has other columns.
     MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns, std::int64_t step);
 
-    // How many bytes stay of the file then. Throws UserError as above.
+    // How many bytes of the file stay if it is continued. Throws UserError as above.
     static std::uintmax_t bytes_before(const std::filesystem::path& path,
                                        const std::vector<std::string>& columns, std::int64_t step) {
         return cut_before(path, columns, step).bytes;

@@ -57,7 +57,7 @@ void OutflowWriter::write(const std::vector<Departure>& gone, const Clock& clock
 
 namespace {
 
-constexpr double rounding = 1e-9;  // s, between times that were written and read
+constexpr double rounding = 1e-9;  // s, by which a time may differ after it was written and read
 
 std::vector<double> column_called(const MeasureTable& table, const char* name,
                                   const std::filesystem::path& file) {

@@ -31,7 +31,7 @@ namespace {
                                 error.message()));
 }
 
-// Something of that name is there, be it a link to nowhere.
+// Whether something has that name, even a link to nowhere.
 bool taken(const fs::path& path) {
     std::error_code ignored;
     return fs::exists(fs::symlink_status(path, ignored));
@@ -56,7 +56,7 @@ bool is_ours_in_checkpoints(const fs::directory_entry& entry) {
     return !is_real_folder(entry) && is_checkpoint_of_ring(entry.path().filename());
 }
 
-// The first by name of a folder's entries that no run has written; the folder when it cannot be read.
+// Of the entries that no run has written, the first by name; the folder itself when it cannot be read.
 std::optional<fs::path> first_foreign(const fs::path& folder, const IsOurs& ours) {
     std::error_code error;
     std::optional<fs::path> first;
@@ -65,7 +65,7 @@ std::optional<fs::path> first_foreign(const fs::path& folder, const IsOurs& ours
     return error ? folder : first;
 }
 
-// A folder of a format holds nothing but that format's files.
+// In also/, the folder of a format must hold only files of that format.
 bool is_ours_in_also(const fs::directory_entry& entry) {
     if (!is_real_folder(entry)) return is_in_also(entry.path().filename());
     return !first_foreign(entry.path(), [](const fs::directory_entry& inside) {
@@ -73,7 +73,7 @@ bool is_ours_in_also(const fs::directory_entry& entry) {
     });
 }
 
-// What the scene beside it names, or has left there unfinished.
+// Whether the scene in the folder names the file, or whether it is an unfinished copy of such a file.
 IsOurs is_ours_in_meshes(const fs::path& run) {
     std::ifstream file = read_plain(run / "scene.toml");
     std::string scene{std::istreambuf_iterator<char>(file), {}};
@@ -85,7 +85,7 @@ IsOurs is_ours_in_meshes(const fs::path& run) {
     };
 }
 
-// What in the folder of a run is not a run's. A comparison has runs in its own folders.
+// The first thing in a run's folder that no run has written. A comparison has runs in folders of its own.
 std::optional<fs::path> foreign_file(const fs::path& run) {
     const std::vector<std::string> panels = panels_in_run_json(run / "run.json");
     const auto is_panel = [&](const fs::path& name) {
@@ -131,7 +131,7 @@ void check_holds_run(const fs::path& path) {
     }
 }
 
-// What --force is to replace must be a run and nothing else, and no run may go on in there.
+// --force may replace only a run and nothing else, and no run may be going on there.
 void check_replaceable(const fs::path& path) {
     for (const std::string& panel : panels_in_run_json(path / "run.json"))
         if (panel.find('/') == std::string::npos) check_not_in_use(path / panel);
@@ -143,7 +143,7 @@ void check_replaceable(const fs::path& path) {
     }
 }
 
-// "a/b/" and "a/b/." mean "a/b".
+// The path "a/b" for "a/b/" and "a/b/."
 fs::path without_trailing_slash(const fs::path& path) {
     fs::path plain = fs::absolute(path).lexically_normal();
     if (!plain.has_filename()) plain = plain.parent_path();
@@ -188,7 +188,7 @@ void RunFolder::take(const fs::path& out, bool force) {
 }
 
 void RunFolder::adopt(const fs::path& path) {
-    // The log that must not be there yet: of two runs that start together, one gets the folder.
+    // The log must not exist yet. So of two runs that start together only one gets the folder.
     const int log = ::open((path / "log.txt").c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (log < 0) {
         throw UserError(fmt::format("--out {}: the folder cannot be used: {}; choose another name",
@@ -209,7 +209,7 @@ bool RunFolder::make(const fs::path& path) {
     std::error_code error;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
     if (!error) {
-        // The test and the taking in one: of two runs that start together, one gets the name.
+        // Test and creation are one call. So of two runs that start together only one gets the name.
         const bool made = fs::create_directory(path, error);
         if (!made && (!error || error == std::errc::file_exists)) return false;
     }
@@ -247,8 +247,9 @@ void RunFolder::put_back(const fs::path& path) {
 }
 
 void RunFolder::remove_previous() {
-    if (previous_.empty() || foreign_file(previous_)) return;  // somebody has put a file there meanwhile
-    std::error_code ignored;  // what cannot be removed stays, hidden, and harms nobody
+    if (previous_.empty() || foreign_file(previous_))
+        return;               // somebody has put another file there meanwhile
+    std::error_code ignored;  // what cannot be removed stays hidden and does no harm
     fs::remove_all(previous_, ignored);
     previous_.clear();
 }
@@ -282,7 +283,7 @@ bool holds(const fs::path& file, const std::string& hash) {
     }
 }
 
-// Where a file is that lay in a folder which has been moved aside.
+// The present place of a file in a folder that was moved aside.
 fs::path place_now(const fs::path& file, const fs::path& folder, const fs::path& previous) {
     const fs::path inside = file.lexically_relative(fs::absolute(folder).lexically_normal());
     std::error_code ignored;

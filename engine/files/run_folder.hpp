@@ -1,4 +1,5 @@
-// The folder of one run: its name, and what happens to a run that is already there.
+// The folder of one run: its name, what happens to an earlier run with that name, and the copies of mesh
+// files in it. Only this class makes, empties or removes folders of runs.
 #pragma once
 
 #include <filesystem>
@@ -16,61 +17,63 @@ struct RunFolderRequest {
     std::filesystem::path base = "output";  // where folders without an explicit name go
     std::optional<std::filesystem::path>
         out;                // the wanted folder, new or empty; without it base/name, base/name-2, ...
-    bool force = false;     // an `out` that holds a run is replaced
-    std::string command{};  // told to others who want the folder
-    std::shared_ptr<FolderLock> goes_on{};  // of a run's folder, whose run goes on
+    bool force = false;     // a run that is in `out` is replaced
+    std::string command{};  // shown to other processes that want the folder
+    std::shared_ptr<FolderLock> goes_on{};  // the lock of a folder whose run is continued
 };
 
-// Made when scene and plan are accepted, not before. An earlier run that is to be replaced waits beside the
-// new one under a hidden name until the new one is complete. Both are locked as long as this lives.
+// It is made after scene and plan were accepted. An earlier run that will be replaced waits beside the new
+// one under a hidden name until the new one is complete. Both folders are locked as long as this lives.
 class RunFolder {
   public:
-    // Throws UserError when `out` is an empty name, when it exists, is not empty and `force` is not set, when
-    // `force` is set and it holds no run of ours or files that are not ours, when another process fills it or
-    // a panel's folder in it, and when the folder cannot be made or written.
+    // Throws UserError when
+    //  - `out` is an empty name,
+    //  - it is not empty and `force` is not set,
+    //  - `force` is set and it holds something other than a run of ours,
+    //  - another process fills it or a panel's folder in it,
+    //  - the folder cannot be made or written.
     explicit RunFolder(const RunFolderRequest& request);
 
     const std::filesystem::path& path() const { return lock_->folder(); }
     const FolderLock& lock() const { return *lock_; }
-    // Takes the name that the folder has now; false when it is gone.
+    // Takes the folder's new name if it was renamed; false when it is gone.
     bool follow() { return lock_->follow(); }
 
-    // Where the run that is being replaced waits; empty when there is none.
+    // The folder in which the run that will be replaced waits; empty when there is none.
     const std::filesystem::path& previous() const { return previous_; }
 
-    // The new run is complete: the previous one is removed, unless it has got files that are not ours.
+    // Called when the new run is complete. Removes the previous one, unless somebody has put other files
+    // there.
     void remove_previous();
 
-    // The new run never began: its folder is removed, or emptied when it was there before, and the previous
-    // run is put back. A folder of that name that somebody else has put there is left alone, and so is that
-    // of a run that was to go on.
+    // Called when the new run never began. Removes its folder, or empties it when it existed before, and puts
+    // the previous run back. It leaves alone a folder of that name that somebody else has made, and the
+    // folder of a run that should have been continued.
     void discard();
 
   private:
     void take(const std::filesystem::path& out, bool force);
-    void adopt(const std::filesystem::path& path);  // an empty folder
-    bool make(const std::filesystem::path& path);   // false when something of that name exists
+    void adopt(const std::filesystem::path& path);  // takes an empty folder
+    bool make(const std::filesystem::path& path);   // false when something has that name
     void move_aside(const std::filesystem::path& path);
-    void put_back(const std::filesystem::path& path);  // the previous run
+    void put_back(const std::filesystem::path& path);  // puts the previous run back
     using Lock = std::shared_ptr<FolderLock>;
-    Lock locked(const std::filesystem::path& path) const;  // UserError when another process has it
+    Lock locked(const std::filesystem::path& path) const;  // throws UserError when another process has it
 
     std::string command_;
     std::filesystem::path previous_;
     Lock lock_, previous_lock_;
-    bool adopted_ = false;  // the folder was there before, empty
-    bool goes_on_ = false;  // it was there before, with a run
+    bool adopted_ = false;  // whether the folder existed before, empty
+    bool goes_on_ = false;  // whether it existed before, with a run
 };
 
-// Copies of the files of meshes and paths in the folder of a run.
-
-// Puts each of kept_files() into the run's folder, unless it is there. previous: where the folder that had
-// this name before is now, for files that lie in there; empty: there was none. Throws UserError where a file
-// is no longer what was read of it, and RunError where it cannot be written.
+// Copies each of kept_files() (files of meshes and paths) into the run's folder, unless it is there.
+// previous: the present place of the folder that had this name before, for files in it; empty where there was
+// none. Throws UserError where a file has changed since it was read, and RunError where it cannot be written.
 void keep_mesh_files(const Scene& scene, const std::filesystem::path& folder,
                      const std::filesystem::path& previous = {});
 
-// One file to a place of that name, whose folder is made. Throws as above.
+// Copies one file and makes the folder for it. Throws as above.
 void keep_file(const std::filesystem::path& from, const std::string& hash, const std::filesystem::path& to);
 
 }  // namespace grainreel

@@ -90,19 +90,20 @@ Json accepted(const RunJson& r) {
     return keys;
 }
 
-// Names and messages come from the user's files: what is not UTF-8 is shown, not a reason to fail.
+// Names and messages come from the user's files. Text that is not UTF-8 is shown and must not make this fail.
 std::string text_of(const Json& document) {
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// Room on disk that run.json has beyond its end while the run goes on: when the disk is full and no new file
-// can be had, its last word is written there, over the first.
+// While the run goes on, run.json has this much room on disk beyond its end. When the disk is full and no new
+// file can be made, the last text is written there, over the first.
 constexpr off_t reserve = 32768;  // bytes
 
 void reserve_room(const std::filesystem::path& path) {
     const int file = open_plain(path);
     if (file < 0) return;
-    ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, reserve);  // not every file system can; then there is none
+    ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0,
+                reserve);  // not every file system can do this; then there is no room
     ::close(file);
 }
 
@@ -111,7 +112,7 @@ bool write_all(int file, const std::string& text) {
            ::ftruncate(file, static_cast<off_t>(text.size())) == 0;
 }
 
-// False when there is no room; then the file stays as it was.
+// Writes over the file in its place. False when there is no room; the file is unchanged then.
 bool overwrite(const std::filesystem::path& path, const std::string& text) {
     std::ifstream old = read_plain(path);
     const std::string before{std::istreambuf_iterator<char>(old), std::istreambuf_iterator<char>()};
@@ -252,7 +253,7 @@ std::string text_at(const Json& object, const char* key) {
     return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string();
 }
 
-// -1 for what is no whole number, or is less than 0.
+// The count under a key, or -1 where there is none or it is negative.
 std::int64_t count_at(const Json& object, const char* key) {
     return object.contains(key) && object[key].is_number_unsigned() ? object[key].get<std::int64_t>() : -1;
 }

@@ -1,6 +1,6 @@
-// run.json: what was run, with what, and how it went. Written when the run begins (status "running") and
-// again, in one stroke, when it ends; a run that was killed still says "running". On a full disk its last
-// word takes the place of its first, for which there is room.
+// run.json: what was run, with which program, and how it ended. It is written when the run begins (status
+// "running") and replaced when it ends, so that of a killed run it still says "running". On a full disk the
+// new text is written over the old one, for which there is room.
 #pragma once
 
 #include <cstdint>
@@ -15,108 +15,110 @@
 
 namespace grainreel {
 
-// What run.json says of a film that is one of several parts, so that they can be joined.
-
+// A film that is one of several parts. The numbers tell how parts are joined.
 struct DrawnPart {
-    int number = 1, of = 1;
+    int number = 1, of = 1;  // this part and the number of parts
     std::int64_t first_picture = 0, pictures = 0, all_pictures = 0;
-    std::int64_t first_frame = 0, frames = 0, all_frames = 0;  // with those that stand still for a caption
-    double rate = 0;                                           // frames a second
-    std::string file, format;                                  // its film: a file's name; empty without one
-    // Checksums, 16 hexadecimal digits each: of the run and of what decides its pictures, by which parts of
-    // one film know each other; and of the film's file, empty until that is complete.
+    std::int64_t first_frame = 0, frames = 0, all_frames = 0;  // including still ones for a caption
+    double rate = 0;                                           // frames per second
+    std::string file, format;                                  // of the film's file; empty without one
+    // Checksums of 16 hexadecimal digits: of the run and of the settings that decide its pictures, which are
+    // the same in all parts of a film; and of the film's file, which is empty until the file is complete.
     std::string run, settings, checksum;
 };
 
-// A part, as its run.json has it.
+// A part of a film as its run.json describes it.
 struct PartJson : DrawnPart {
-    std::string status;   // as RunStatus in words
+    std::string status;   // a RunStatus as text
     std::string program;  // "grainreel 0.9 (3f2a...)"
     std::string encoder, gl;
 };
 
-// None when the file is not there, is no run.json, or is not of a part. What it says of the part is
-// consistent in itself: of counts none is negative, and the part lies in the whole.
+// Reads the part in a run.json; none when there is no such file or no part in it. The numbers make sense: no
+// count is negative, and the part lies within the whole film.
 std::optional<PartJson> part_in_run_json(const std::filesystem::path& path);
 
-// XXH64 of a file's bytes. Throws RunError when it cannot be read.
+// XXH64 of a file's bytes, as 16 hexadecimal digits. Throws RunError when it cannot be read.
 std::string checksum_of_file(const std::filesystem::path& path);
 
 enum class RunStatus { running, complete, interrupted, failed };
 
-// A finished run whose frames were drawn.
+// A finished run, frames of which were drawn.
 struct DrawnRun {
     std::string folder;
-    std::int64_t frames = 0;     // drawn of it
-    double first = 0, last = 0;  // s, their times
+    std::int64_t frames = 0;     // number of frames drawn
+    double first = 0, last = 0;  // s, time of the first and the last of them
 };
 
-// The program that wrote it.
+// The program that wrote the file.
 struct ProgramInfo {
     std::string version, commit, compiler, build_flags;
-    std::vector<std::pair<std::string, std::string>> libraries;  // name, version
+    std::vector<std::pair<std::string, std::string>> libraries;  // names and versions
 };
 
+// All that run.json says.
 struct RunJson : ProgramInfo {
     RunStatus status = RunStatus::running;
     std::optional<int> exit_status;  // of the program; none while running
-    std::string error;               // what ended a failed run
+    std::string error;               // why a run failed
 
-    // What was drawn without being run; then nothing is said of the engine.
+    // Runs that were drawn and not run. If there are any, the file says nothing of the engine.
     std::vector<DrawnRun> drawn;
-    // Which part of a film this one is; none for a whole film.
+    // The part, if the film is one of several parts.
     std::optional<DrawnPart> part;
-    // Where the files of each panel of a film are: a folder beside run.json, or another run's.
+    // Folders with the files of each panel of a film: in this folder, or of another run.
     std::vector<std::string> panels;
 
-    std::string command;  // as typed, words quoted where the shell needs it
+    std::string command;  // as typed, with words quoted where the shell needs it
     std::string scene_file;
-    std::string gl;       // of the context that drew the film; empty without one
-    std::string encoder;  // of the film: what, and how it was set up; empty without one
-    std::string vector;   // vector instructions the engine used
+    std::string gl;       // the OpenGL context that drew the film; empty without one
+    std::string encoder;  // the film's encoder and its settings; empty without one
+    std::string vector;   // the vector instructions that the engine used
 
     std::uint64_t seed = 0;
     int engine_threads = 0, raster_threads = 0, encoder_threads = 0;
     std::string started, finished;  // UTC, ISO 8601
 
     std::int64_t grains = 0;
-    std::int64_t steps = 0, steps_planned = 0;  // of vibration
+    std::int64_t steps = 0, steps_planned = 0;  // since the drive started
     double step = 0;                            // s
-    double simulated = 0;                       // s, since the drive started
+    double simulated = 0;                       // s since the drive started
     std::optional<std::uint64_t> state_hash;    // of the end state
 
-    std::vector<std::pair<std::string, double>> wall_seconds;  // by stage
-    double particle_steps_per_second = 0;                      // of vibration, time in the engine alone
-    std::optional<std::int64_t> film_frames = 0;               // none while the film is being closed
+    std::vector<std::pair<std::string, double>> wall_seconds;  // by the names of stages
+    double particle_steps_per_second = 0;                      // since the drive started, in the engine only
+    std::optional<std::int64_t> film_frames = 0;               // none until the film is closed
     std::int64_t trajectory_frames = 0, measures_rows = 0;
     std::optional<TableMark> final_table;  // of final.csv, once it is written
     std::vector<AcceptedKey> accepted;     // in the order of time
     std::string page;                      // file name of the run's page; empty without one
     std::int64_t peak_memory = 0;          // bytes
     std::vector<std::string> warnings;
-    std::vector<std::string> missing;  // what has yet to be made of a run that has come to its end
+    std::vector<std::string> missing;  // files that are still to be made after the run's end
 };
 
 inline constexpr const char* kPageIsMissing = "page";
 
 std::string to_string(RunStatus status);
 
-// Now, in UTC: "2031-05-04T12:30:00Z".
+// The present time in UTC: "2031-05-04T12:30:00Z".
 std::string utc_now();
 
-// Throws RunError when the file cannot be written; what it held before stays then.
+// Throws RunError when the file cannot be written; the old file stays then.
 void write_run_json(const std::filesystem::path& path, const RunJson& record);
 
-// The scene file that such a file names, and its status; empty where it says none.
+// The scene file that a run.json names, and the status of the run; empty where it does not say.
 std::string scene_in_run_json(const std::filesystem::path& path);
 std::string status_in_run_json(const std::filesystem::path& path);
-// Whether such a file says that the run has come to its end, and that its page alone is missing.
+// Whether the run has come to its end and only its page is missing.
 bool lacks_only_page(const std::filesystem::path& path);
-// The run in such a file is complete; page: the name of its page's file, empty without one. Throws RunError.
+// Changes the file to say that the run is complete. page: name of the file of its page, empty without one.
+// Throws RunError.
 void complete_run_json(const std::filesystem::path& path, const std::string& page);
-// `panels` of such a file; empty when it has none or is no such file.
+// The panels that the file names; empty when there are none or there is no such file.
 std::vector<std::string> panels_in_run_json(const std::filesystem::path& path);
-// What was accepted on the run's way; empty when nothing was, or there is no such file.
+// The changes that were accepted when the run was continued; empty when there were none or there is no such
+// file.
 std::vector<AcceptedKey> accepted_in_run_json(const std::filesystem::path& path);
 
 }  // namespace grainreel

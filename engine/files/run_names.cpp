@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The .part are of files cut off while being written.
+// Names with .part belong to files that were not finished.
 constexpr std::array<std::string_view, 35> files_of_runs{".lock",
                                                          "run.json",
                                                          ".run.json.part",
@@ -55,8 +55,8 @@ constexpr std::array<std::string_view, 35> files_of_runs{".lock",
                                                          "report.html",
                                                          ".report.html.part"};
 
-// movie.work has what a film needs while it is made.
-// handover has the deck of a run by another engine, and what that engine wrote.
+// movie.work holds what a film needs while it is made.
+// handover holds the deck for another engine, and the files that this engine wrote.
 constexpr std::array<std::string_view, 8> folders_of_runs{
     "frames", "movie.work", "checkpoints", "handover", kMeshFolder, kFormerRun, kFormerRunPart, kAlsoFolder};
 
@@ -69,7 +69,7 @@ bool has(const std::array<std::string_view, Count>& names, const fs::path& name)
     return std::find(names.begin(), names.end(), name.string()) != names.end();
 }
 
-// "still-0.500s.png", which `compare --at` leaves.
+// "still-0.500s.png", which `compare --at` writes.
 bool is_still(const fs::path& name) {
     constexpr std::string_view begin = "still-", end = "s.png";
     const std::string text = name.string();

@@ -12,14 +12,14 @@ namespace grainreel {
 
 namespace {
 
-constexpr double farthest = 1e6;  // m, as frame_faults.cpp has it
+constexpr double farthest = 1e6;  // m, the same as in frame_faults.cpp
 constexpr const char *mesh_dimension = "mesh", *vertex_dimension = "vertex", *triangle_dimension = "triangle";
 
-// As they lie in the file: one mesh after the other.
+// The meshes as they lie in the file, one after the other.
 struct Flat {
     std::vector<int> body, vertex_count, triangle_count;
     std::vector<double> vertices;  // x, y, z, x, y, z ...
-    std::vector<int> triangles;    // likewise three of each
+    std::vector<int> triangles;    // three vertices of each
 
     std::array<int, 2> sum() const {
         Checksum sum;
@@ -51,7 +51,7 @@ Flat flat(const std::vector<TrajectoryMesh>& meshes) {
                                 path.string(), what));
 }
 
-// A length that the file cannot hold is damage.
+// A length that is too large for the file is damage.
 std::size_t length_of(const NetcdfFile& file, const std::filesystem::path& path, const char* dimension) {
     const std::size_t length = file.length(dimension);
     std::error_code error;
@@ -82,7 +82,7 @@ Flat read_flat(const NetcdfFile& file, const std::filesystem::path& path) {
     return all;
 }
 
-// What no program wrote, be the checksum right.
+// Checks for what no program can have written, even where the checksum is right.
 void check(const Flat& all, const std::filesystem::path& path, std::size_t bodies) {
     std::size_t vertices = 0, triangle = 0;
     for (std::size_t m = 0; m < all.body.size(); ++m) {

@@ -1,4 +1,6 @@
-// The variables of trajectory.nc, named once for the one who writes and the one who reads.
+// The variables of trajectory.nc, named once for writer and reader, and the variables with the shapes of
+// meshes. A variable that is renamed or moved in these lists changes checksums and makes old files
+// unreadable.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,13 +21,13 @@ namespace grainreel {
 struct TrajectoryVariable {
     const char* name;
     int type;               // of <netcdf.h>
-    const char* dimension;  // the last one, of a vector; null of a single number
-    const char* units;      // of UDUNITS; the convention's spelling where it has the variable
+    const char* dimension;  // the last one of a vector; null for a single number
+    const char* units;      // as in UDUNITS, or in the convention's spelling
     const char* about;      // long_name
     const char* comment = "";
 };
 
-// Variables with one value a frame, in the order in which `frame_checksum` takes them.
+// Variables with one value for each frame, in the order of `frame_checksum`.
 inline constexpr std::array frame_variables{
     TrajectoryVariable{"time", NC_DOUBLE, nullptr, "second", "time since the drive started"},
     TrajectoryVariable{"cycles", NC_DOUBLE, nullptr, "1", "periods of the drive since it started",
@@ -49,7 +51,7 @@ inline constexpr std::array frame_variables{
                        "0 where nothing is periodic"},
     TrajectoryVariable{"cell_angles", NC_DOUBLE, "cell_angular", "degree", "angles of the periodic cell"}};
 
-// Variables with one value a grain and frame, in the order in which `grain_checksum` takes them.
+// Variables with one value for each grain and frame, in the order of `grain_checksum`.
 inline constexpr std::array grain_variables{
     TrajectoryVariable{
         "id", NC_INT, nullptr, "1", "number of the grain",
@@ -64,8 +66,7 @@ inline constexpr std::array grain_variables{
     TrajectoryVariable{"velocities", NC_FLOAT, "spatial", "m s-1", "velocity of the grain", "in the room"},
     TrajectoryVariable{"spin", NC_FLOAT, "spatial", "rad s-1", "angular velocity of the grain"}};
 
-// Turns of container and floor. Only files of containers that turn have them; `frame_checksum` takes them
-// last.
+// Turns of container and floor, only in files of containers that turn. They come last in `frame_checksum`.
 inline constexpr std::array turn_variables{
     TrajectoryVariable{"wall_rotation", NC_DOUBLE, "quaternion", "1", "how far the walls have turned",
                        "x, y, z, w of a unit quaternion; about the scene's origin, before `wall_offset`"},
@@ -75,7 +76,7 @@ inline constexpr std::array turn_variables{
                        "likewise, before `floor_offset`"},
     TrajectoryVariable{"floor_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of the floor"}};
 
-// Poses of all bodies but container and floor. `frame_checksum` takes them behind those above.
+// Poses of all bodies except container and floor. They follow those above in `frame_checksum`.
 inline constexpr std::array body_variables{
     TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "m",
                        "displacement of a plane of the scene from its place at rest"},
@@ -84,7 +85,7 @@ inline constexpr std::array body_variables{
     TrajectoryVariable{"body_velocity", NC_DOUBLE, "spatial", "m s-1", "velocity of a plane"},
     TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of a plane"}};
 
-// The same in files that have meshes.
+// The same variables in files that have meshes.
 inline constexpr std::array body_variables_with_meshes{
     TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "m",
                        "displacement of a plane or mesh of the scene from its place at rest",
@@ -97,7 +98,7 @@ inline constexpr std::array body_variables_with_meshes{
     TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of a plane or mesh"}};
 static_assert(body_variables_with_meshes.size() == body_variables.size());
 
-// The shapes of the meshes, once a file, in the order in which `mesh_checksum` takes them.
+// The shapes of the meshes, once in each file, in the order of `mesh_checksum`.
 inline constexpr TrajectoryVariable mesh_body_variable{
     "mesh_body",
     NC_INT,
@@ -121,7 +122,8 @@ inline constexpr TrajectoryVariable triangle_variable{
 inline constexpr const char *mesh_checksum = "mesh_checksum",
                             *mesh_checksum_about = "XXH64 of the shapes of the meshes";
 
-// In files of runs that grains enter or leave: 1 where a place has a grain now; last in `grain_checksum`.
+// Only in files of runs that grains enter or leave: 1 where a place has a grain now. It is last in
+// `grain_checksum`.
 inline constexpr TrajectoryVariable present_variable{
     "present",
     NC_INT,
@@ -130,7 +132,7 @@ inline constexpr TrajectoryVariable present_variable{
     "whether the place has a grain now",
     "1: it has; 0: its grain has left, or, where `id` is -1, not come yet"};
 
-// Only when asked for.
+// Only in files for which orientations were asked for.
 inline constexpr TrajectoryVariable orientation_variable{"orientation",
                                                          NC_FLOAT,
                                                          "quaternion",
@@ -138,12 +140,12 @@ inline constexpr TrajectoryVariable orientation_variable{"orientation",
                                                          "how far the grain has turned",
                                                          "x, y, z, w of a unit quaternion"};
 
-// Files of earlier versions have none.
+// Files of earlier versions do not have it.
 inline constexpr TrajectoryVariable contact_number_variable{
     "contact_number",       NC_INT, nullptr, "1", "contacts of the grain that carry force",
     "with grains and walls"};
 
-// Names of axes, as the convention asks for them.
+// The names of axes that the convention asks for.
 struct TrajectoryLabel {
     const char* name;
     const char* about;
@@ -159,7 +161,7 @@ inline constexpr const char *frame_checksum_about = "XXH64 of the frame's own nu
                             *grain_checksum_about = "XXH64 of the numbers of the frame's grains",
                             *checksum_comment = "two words of 32 bits, the high one first; for grainreel";
 
-// What both sums of a frame begin with: which frame it is, of which file.
+// The beginning of both checksums of a frame: which frame it is, and in which file.
 inline Checksum begin_checksum(std::size_t frame, std::size_t places, const std::vector<std::string>& species,
                                bool orientation) {
     Checksum sum;
@@ -170,19 +172,17 @@ inline Checksum begin_checksum(std::size_t frame, std::size_t places, const std:
     return sum;
 }
 
-// The shapes of meshes in a trajectory's file: once, at rest. The names of variables and dimensions are in
-// trajectory_layout.hpp.
-
-// In define mode, of meshes that have triangles. spatial, checksum: the numbers of the file's dimensions.
+// Defines the variables for meshes, all of which have triangles; the file is in define mode. spatial,
+// checksum: numbers of the file's dimensions.
 void define_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes, int spatial, int checksum);
 void write_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes);
 
-// None of a file without meshes. path: the file's; bodies: how many it has, container and floor counted.
-// Throws UserError when they are damaged.
+// The meshes of a file; none where it has none. path: of the file. bodies: number of bodies, including
+// container and floor. Throws UserError when they are damaged.
 std::vector<TrajectoryMesh> read_meshes(const NetcdfFile& file, const std::filesystem::path& path,
                                         std::size_t bodies);
 
-// Whether shapes and bodies are the same, bit by bit.
+// Whether shapes and bodies are the same bit by bit.
 bool same_meshes(const std::vector<TrajectoryMesh>& a, const std::vector<TrajectoryMesh>& b);
 
 }  // namespace grainreel

@@ -20,9 +20,9 @@ namespace grainreel {
 namespace {
 
 constexpr std::size_t most_bodies = 1000;
-constexpr double most_steps = 9007199254740992;  // 2^53: beyond, doubles leave out whole numbers
+constexpr double most_steps = 9007199254740992;  // 2^53; doubles cannot hold all larger whole numbers
 
-// Another program's file may follow the same convention; what counts is that nothing is missing.
+// A file of another program with the same convention is accepted if nothing is missing.
 void check_complete(const NetcdfFile& file, const std::string& name) {
     std::vector<std::string> missing;
     const auto check = [&](const TrajectoryVariable& variable) {
@@ -44,8 +44,9 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
                     fmt::join(missing, ", ")));
 }
 
-// The library would read zeros beyond the end. One frame that is not whole is what a killed run leaves:
-// within the first block of the file the library writes a frame and its count in one go, the count first.
+// The number of whole frames; the library would read zeros beyond the end of the file. A killed run may leave
+// one frame that is not whole: within the first block of the file the library writes a frame and the count of
+// frames together, and the count first.
 void check_whole(std::size_t counted, std::size_t whole, const std::string& name) {
     if (whole + 1 < counted)
         throw UserError(fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name,
@@ -80,14 +81,14 @@ struct TrajectoryReader::Impl {
         file.get(file.find_variable("cell_lengths"), {0, 0}, {1, 3}, info.periodic_length.data());
     }
 
-    // "2500 7800 kg m-3", by species; none in files of earlier versions.
+    // "2500 7800 kg m-3" by species; missing in files of earlier versions.
     void read_densities() {
         std::istringstream text(file.text_attribute(file.find_variable("type"), "density"));
         for (double density = 0; info.facts.densities.size() < info.species.size() && text >> density;)
             info.facts.densities.push_back(density);
     }
 
-    // How many they are says the dimension; names are for people.
+    // The dimension says how many there are; the names are for people.
     void read_bodies() {
         const std::size_t bodies = file.length("body");
         if (bodies > most_bodies)
@@ -115,7 +116,7 @@ struct TrajectoryReader::Impl {
         if (words != sum.words()) damaged(frame, "its checksum is not that of its numbers");
     }
 
-    // As stored, and added to the sum. `places`: 0 for a variable of the frame.
+    // Reads the numbers as stored and adds them to the sum. places: 0 for a variable of the frame.
     template <class Value>
     std::vector<Value> read(const TrajectoryVariable& variable, std::size_t frame, std::size_t places,
                             std::size_t width, Checksum& sum) const {
@@ -182,7 +183,7 @@ void TrajectoryReader::Impl::read_turn(std::size_t index, Frame& frame, Checksum
     }
 }
 
-// Files of earlier versions have none.
+// Contact numbers; files of earlier versions do not have them.
 void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checksum& sum) const {
     const std::size_t bodies = info.bodies.size();
     if (bodies == 0) return;
@@ -196,7 +197,7 @@ void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checks
 
 using Places = std::vector<std::size_t>;
 
-// Those at these places of what is x, y, z, x, y, z ...
+// The vectors at these places, from numbers x, y, z, x, y, z ...
 template <class Value>
 std::vector<Vec3> vectors(const std::vector<Value>& flat, const Places& places) {
     std::vector<Vec3> values;
@@ -211,7 +212,7 @@ std::vector<Value> those_at(const std::vector<Value>& values, const Places& plac
     return those;
 }
 
-// Places of the n grains that are there. Without traffic they have the first ones.
+// The places of the n grains that are there. Without traffic these are the first n places.
 Places TrajectoryReader::Impl::places_of(std::size_t index, std::size_t n) const {
     Places places(n);
     std::iota(places.begin(), places.end(), std::size_t{0});

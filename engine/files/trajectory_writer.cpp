@@ -15,7 +15,7 @@ namespace grainreel {
 
 namespace {
 
-// CDF-2 allows 4 GiB minus 4 bytes a variable and record; coordinates are the largest.
+// CDF-2 allows 4 GiB minus 4 bytes for a variable in a record; coordinates are the largest variable.
 NetcdfFormat format_for(std::size_t capacity) {
     return capacity * 3 * sizeof(double) < (std::size_t{1} << 32) - 4 ? NetcdfFormat::cdf2
                                                                       : NetcdfFormat::cdf5;
@@ -48,11 +48,11 @@ struct TrajectoryWriter::Impl {
 
     std::string name;
     TrajectoryInfo info;
-    std::size_t places;  // for grains
+    std::size_t places;  // number of places for grains
     NetcdfFile file;
     std::size_t frames = 0;
-    Frame kept;                // with traffic: all grains that there were so far
-    std::vector<int> present;  // of these: whether they are there now
+    Frame kept;                                                     // with traffic: all grains so far
+    std::vector<int> present;                                       // for each of them: 1 if it is there now
     std::map<std::string, int, std::less<>> dimensions, variables;  // by name
 };
 
@@ -117,7 +117,7 @@ void TrajectoryWriter::Impl::define_bodies() {
     file.attribute(variables["body_place"], "names", fmt::format("{}", fmt::join(info.bodies, "\n")));
 }
 
-// Finds the variables of a file that is there already.
+// Finds the variables in an existing file.
 void TrajectoryWriter::Impl::find_variables() {
     const auto find = [&](const char* variable) { variables[variable] = file.find_variable(variable); };
     for (const TrajectoryVariable& variable : frame_variables) find(variable.name);
@@ -133,13 +133,13 @@ void TrajectoryWriter::Impl::find_variables() {
     find(grain_checksum);
 }
 
-// Which grains there have been: the frames of the file tell it.
+// Finds out from the frames of the file which grains there have been.
 void TrajectoryWriter::Impl::read_kept(const std::filesystem::path& path) {
     const TrajectoryReader before(path);
     for (std::size_t k = 0; k < frames; ++k) keep(before.read(k));
 }
 
-// of: "atom" or "body"; null for one of the frame itself.
+// of: "atom" or "body"; null for a variable of the frame itself.
 void TrajectoryWriter::Impl::define_variable(const TrajectoryVariable& variable, const char* of) {
     std::vector<int> shape{dimensions["frame"]};
     if (of != nullptr) shape.push_back(dimensions[of]);
@@ -217,7 +217,7 @@ void TrajectoryWriter::Impl::write_bodies(const Frame& frame, Checksum& sum) {
         3, [](const BodyPose& pose) -> const auto& { return pose.spin; });
 }
 
-// of(grain, component) gives the values of those for which there(grain) holds; the others have those of
+// of(grain, component) gives the values of grains for which there(grain) is true; the others get those of
 // `absent`.
 template <class Value, class There, class Of>
 std::vector<Value> rows_of(std::size_t places, const std::vector<Value>& absent, std::size_t grains,
@@ -266,7 +266,7 @@ void TrajectoryWriter::Impl::write_grains(const Frame& f) {
     write_sum(grain_checksum, sum);
 }
 
-// Who is new stands behind all that there were, for ids only rise.
+// A new grain stands after all earlier ones, because ids only rise.
 void TrajectoryWriter::Impl::keep(const Frame& frame) {
     present.assign(kept.size(), 0);
     std::size_t at = 0;
@@ -357,7 +357,7 @@ void TrajectoryWriter::write(const Frame& frame) {
     impl_->write_pose(frame);
     impl_->write_grains(impl_->info.traffic ? impl_->kept : frame);
     impl_->file.sync(impl_->frames + 1);
-    ++impl_->frames;  // only now: one that failed does not count
+    ++impl_->frames;  // only now, because a frame that failed does not count
 }
 
 std::int64_t TrajectoryWriter::frames() const {

@@ -59,8 +59,8 @@ struct WearReader::Impl {
     std::string name;
     NetcdfFile file;
     std::vector<Mesh> meshes;
-    std::vector<double> bounds;                         // s, begin and end of each record
-    std::shared_ptr<const std::vector<MeshWear>> last;  // as it was asked for last
+    std::vector<double> bounds;                         // s, the begin and end of each record
+    std::shared_ptr<const std::vector<MeshWear>> last;  // the last answer
     std::size_t last_ended = 0;
 };
 

@@ -1,4 +1,4 @@
-// Pressure and wear on the meshes of a run, triangle by triangle, out of its fields.nc.
+// Reads pressure and wear of each triangle of a run's meshes from its fields.nc.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@ namespace grainreel {
 
 class WearReader {
   public:
-    // Throws UserError where the file cannot be read, is damaged, or is of other meshes; and where it has no
-    // wear: then it says which instrument the scene lacks.
+    // Throws UserError where the file cannot be read, is damaged or has other meshes. Where it has no wear,
+    // the message says which instrument the scene needs.
     WearReader(const std::filesystem::path& path, const Scene& scene);
     ~WearReader();
 
-    // At a time (s) since the drive started, of each mesh of the scene: as the last record has it that has
-    // ended by then. Before the first one the pressure is not known, and nothing is worn.
+    // Pressure and wear of each mesh at a time (s since the drive started), from the last record that has
+    // ended by then. Before the first record the pressure is not known and nothing is worn.
     std::shared_ptr<const std::vector<MeshWear>> until(double time) const;
     std::size_t records() const;
 

@@ -19,11 +19,12 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t buffer_size = 1 << 20;  // bytes; the library's default of 8 KiB means many small writes
+constexpr std::size_t buffer_size =
+    1 << 20;  // bytes; with the library's default of 8 KiB there are many small writes
 
-// The classic format keeps the number of records in the bytes after the magic "CDF" and its version byte:
-// four of them, big-endian, or eight in CDF-5 (NetCDF classic format specification). After a write that
-// failed half-way the library's count includes the broken record; this puts the true one.
+// Writes the true number of records into the header. It stands after the magic "CDF" and the version byte:
+// four bytes, big-endian, or eight in CDF-5 (NetCDF classic format specification). After a write that failed
+// half-way the library's count includes the broken record.
 void set_record_count(const std::filesystem::path& path, std::size_t records) {
     const int file = open_plain(path, O_RDWR);
     if (file < 0) return;
@@ -79,8 +80,8 @@ NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t rec
     if (const std::string other = other_than_file(path, false); !other.empty())
         throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
     std::error_code error;
-    // In this order: a program that is killed in between leaves records that are not counted, which a reader
-    // tells from a file that was cut off.
+    // The order matters. A program that is killed in between leaves records that are not counted, and a
+    // reader can tell these from a file that was cut off.
     set_record_count(path, records);
     std::filesystem::resize_file(path, end, error);
     if (error) throw RunError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
@@ -248,7 +249,8 @@ void NetcdfFile::get_by(Function read, int variable, const Index& start, const I
                         Value* values) const {
     int rank = 0;
     int status = nc_inq_varndims(id_, variable, &rank);
-    // The library takes a number for each dimension that the file says the variable has.
+    // The library reads as many numbers as the variable has dimensions in the file, so they are checked
+    // first.
     if (status == NC_NOERR && static_cast<std::size_t>(rank) != count.size()) status = NC_EINVALCOORDS;
     if (status == NC_NOERR) status = read(id_, variable, start.data(), count.data(), values);
     if (status != NC_NOERR)

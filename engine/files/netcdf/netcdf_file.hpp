@@ -1,5 +1,6 @@
-// A classic NetCDF file whose records are written one after the other, and that stays readable whatever
-// happens.
+// A classic NetCDF file whose records are written one after the other. It stays readable when the program is
+// killed or the disk is full, and it is checked before the library reads it. All NetCDF files of runs go
+// through this class.
 #pragma once
 
 #include <cstddef>
@@ -12,56 +13,54 @@
 
 namespace grainreel {
 
-// How much of a NetCDF file stays when the run that wrote it goes on.
-
+// How much of a file stays when the run that wrote it is continued.
 struct KeptRecords {
     std::size_t records = 0;
-    std::uintmax_t bytes = 0;  // of the file up to there
+    std::uintmax_t bytes = 0;  // up to the end of these records
 };
 
-// CDF-2 holds records of up to 4 GiB a variable; CDF-5 any.
+// In CDF-2 a variable may have up to 4 GiB in a record; in CDF-5 any size.
 enum class NetcdfFormat { cdf2, cdf5 };
 
 class NetcdfFile {
   public:
-    // Makes the file, in define mode, without fill values: every variable of a record must be written. What
-    // had its name goes; a link is not followed.
+    // Makes a file in define mode, in place of what had its name; a link is not followed. There are no fill
+    // values: every variable of a record must be written.
     static NetcdfFile create(const std::filesystem::path& path, NetcdfFormat format);
-    // Opens one that create() made, to write on behind its first `records`; whatever comes behind them is cut
-    // off. Throws UserError when there are fewer, or as open() does, and RunError when it cannot be written.
+    // Opens a file that create() made and continues it after its first `records`; later ones are cut off.
+    // Throws UserError when there are fewer or where open() does, and RunError when it cannot be written.
     static NetcdfFile append(const std::filesystem::path& path, std::size_t records);
-    // How much of such a file that is. Throws UserError as above.
+    // How much of the file these records are. Throws UserError as above.
     static KeptRecords kept_of(const std::filesystem::path& path, std::size_t records);
-    // Puts the count of records into a file that was cut off. Does nothing where it cannot.
+    // Writes the count of records into the header of a file that was cut off. Does nothing where it cannot.
     static void count_records(const std::filesystem::path& path, std::size_t records);
-    // Opens it for reading. Throws UserError when it is missing, no classic NetCDF file, or its header is
-    // damaged.
+    // Opens a file for reading. Throws UserError when it is missing, is no classic NetCDF file or has a
+    // damaged header.
     static NetcdfFile open(const std::filesystem::path& path);
 
     ~NetcdfFile();
     NetcdfFile(NetcdfFile&& other) noexcept;
     NetcdfFile& operator=(NetcdfFile&&) = delete;
 
-    int dimension(const std::string& name, std::size_t length);  // length NC_UNLIMITED: the records
+    int dimension(const std::string& name, std::size_t length);  // length NC_UNLIMITED: that of records
     // units: empty for none. Types are those of <netcdf.h>: NC_INT, NC_FLOAT, NC_DOUBLE, NC_CHAR.
     int variable(const std::string& name, int type, const std::vector<int>& dimensions,
                  const std::string& units = {});
     void attribute(int variable, const std::string& name,
-                   const std::string& text);  // variable NC_GLOBAL: the file's
+                   const std::string& text);  // variable NC_GLOBAL: of the file
     void end_definitions();
 
-    int find_variable(const std::string& name) const;  // UserError when there is none
+    int find_variable(const std::string& name) const;  // throws UserError when there is none
     bool has_variable(const std::string& name) const;
-    std::vector<std::string> variables() const;                  // their names, in the file's order
-    std::vector<std::string> dimensions_of(int variable) const;  // names; the last one runs fastest
-    std::size_t length(const std::string& dimension) const;      // UserError when there is none
+    std::vector<std::string> variables() const;                  // names in the order of the file
+    std::vector<std::string> dimensions_of(int variable) const;  // names; the last runs fastest
+    std::size_t length(const std::string& dimension) const;      // throws UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
-    bool has_records() const {
-        return header_.record > 0;
-    }  // whether a dimension of the file read is unlimited
-    // How many whole records lie in the file that is read, whatever its header counts: fewer when it was cut
-    // off, more when the count is damaged. Waits a little where fewer than `counted` lie there and the file
-    // was written a moment ago: the library counts a record shortly before it writes it.
+    // Whether a file that is read has an unlimited dimension.
+    bool has_records() const { return header_.record > 0; }
+    // Number of whole records in a file that is read, whatever its header counts. There are fewer when the
+    // file was cut off and more when the count is damaged. The library counts a record shortly before it
+    // writes it; so this waits a little where there are fewer than `counted` and the file was just written.
     std::size_t records_on_disk(std::size_t counted) const;
 
     void put(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
@@ -79,8 +78,8 @@ class NetcdfFile {
     void get(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
              double* values) const;
 
-    // All written so far belongs to whole records: from here a killed program leaves `records` of them.
-    // Throws RunError when that fails, or when somebody has removed the file.
+    // Called when all that was written belongs to whole records. A program that is killed later leaves these
+    // `records`. Throws RunError when this fails or somebody has removed the file.
     void sync(std::size_t records);
 
   private:
@@ -98,8 +97,8 @@ class NetcdfFile {
     int id_ = -1;
     bool writing_ = false;
     bool failed_ = false;
-    std::size_t records_ = 0;  // whole ones
-    NetcdfHeader header_;      // of a file that is read
+    std::size_t records_ = 0;  // number of whole ones
+    NetcdfHeader header_;      // only of a file that is read
 };
 
 std::string netcdf_version();  // of the library, "4.9.0"

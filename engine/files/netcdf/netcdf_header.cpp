@@ -25,7 +25,7 @@ Bytes padded(Bytes bytes) {
     return (bytes + 3) / 4 * 4;
 }
 
-// Bytes of a value, by the number of its type; 0 for none of the format's.
+// Number of bytes of a value by the number of its type, or 0 for an unknown type.
 Bytes size_of_type(Bytes type, int version) {
     constexpr std::array<Bytes, 12> sizes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
     const Bytes types = version == 5 ? sizes.size() : NC_DOUBLE + 1;
@@ -36,7 +36,7 @@ class Parser {
   public:
     explicit Parser(const std::filesystem::path& path) : path_(path) {
         std::error_code error;
-        if (std::filesystem::is_regular_file(path, error)) {  // a pipe would be waited for
+        if (std::filesystem::is_regular_file(path, error)) {  // opening a pipe might never end
             size_ = std::filesystem::file_size(path, error);
             in_.open(path, std::ios::binary);
         }
@@ -46,7 +46,7 @@ class Parser {
 
     NetcdfHeader parse() {
         read_magic();
-        number(count_width_);  // of records: who opens the file holds it against the size
+        number(count_width_);  // count of records, which is checked later against the size of the file
         read_dimensions();
         read_attributes();
         read_variables();
@@ -55,7 +55,7 @@ class Parser {
 
   private:
     struct Variable {
-        Bytes bytes = 0;  // of a record, or of all
+        Bytes bytes = 0;  // of a record, or of the whole variable
         Bytes begin = 0;
         bool records = false;
     };
@@ -80,7 +80,7 @@ class Parser {
 
     Bytes left() const { return size_ - std::min(at_, size_); }
 
-    // Big-endian.
+    // Reads a big-endian number.
     Bytes number(Bytes width) {
         std::array<unsigned char, 8> digits{};
         if (left() < width || !in_.read(reinterpret_cast<char*>(digits.data()), std::streamsize(width)))
@@ -103,7 +103,7 @@ class Parser {
         skip(padded(length));
     }
 
-    // How many entries a list has; each takes `smallest` bytes at least.
+    // The number of entries in a list. Each takes at least `smallest` bytes.
     Bytes read_list(Bytes tag, Bytes smallest) {
         const Bytes found = number(4), entries = number(count_width_);
         if (found != tag && (found != 0 || entries != 0)) damaged("a list begins with another mark");
@@ -146,7 +146,7 @@ class Parser {
             if (size == 0) damaged("the type of a variable");
             if (values > most_bytes / size) damaged("the size of a variable");
             variable.bytes = values * size;
-            number(count_width_);  // the size once more, of which the specification says not to trust it
+            number(count_width_);  // the size once more; the specification says not to trust it
             variable.begin = number(offset_width_);
             variables_.push_back(variable);
         }
@@ -184,7 +184,7 @@ class Parser {
                 damaged("a variable lies beyond the end of the file");
             }
         }
-        if (with_records == 1) header.record = unpadded;  // the specification's one exception
+        if (with_records == 1) header.record = unpadded;  // the one exception in the specification
         return header;
     }
 
@@ -194,7 +194,8 @@ class Parser {
     int version_ = 0;
     Bytes count_width_ = 4, offset_width_ = 4;
     std::vector<Bytes> dimensions_;
-    Bytes unlimited_ = std::numeric_limits<Bytes>::max();  // no dimension
+    Bytes unlimited_ =
+        std::numeric_limits<Bytes>::max();  // the number of the unlimited dimension; this is none
     std::vector<Variable> variables_;
 };
 

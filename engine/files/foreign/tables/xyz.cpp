@@ -1,5 +1,6 @@
-// XYZ, plain and extended: a count, a line of words, a row a grain. Plain rows have an element and a place,
-// and perhaps columns without a name; in extended XYZ the second line names all (libAtoms' extxyz).
+// Reads XYZ, plain and extended. A frame is a count, a line of words, and a row for each grain. In plain XYZ
+// a row has an element, a place and perhaps columns without names; in extended XYZ the second line names all
+// columns (libAtoms' extxyz).
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -20,17 +21,16 @@ namespace grainreel {
 
 namespace {
 
-// The second line of a frame has words of any kind, or in extended XYZ keys with values.
-
 // One entry of Properties, "velo:R:3": `count` columns of a kind.
 struct XyzField {
     std::string name;
-    char kind = 'R';  // S word, R real, I whole, L logical, as extended XYZ has them
+    char kind = 'R';  // as in extended XYZ: S word, R real, I whole number, L logical
     std::size_t count = 1;
 };
 
+// The second line of a frame: words of any kind, or in extended XYZ keys with values.
 struct XyzHeader {
-    std::vector<XyzField> fields;  // empty for plain XYZ, whose first row tells them
+    std::vector<XyzField> fields;  // empty for plain XYZ, where the first row tells them
     std::optional<WorldCell> box;
     std::optional<double> time;
     std::optional<std::int64_t> step;
@@ -53,7 +53,7 @@ char closing_of(char open) {
     return open == '{' ? '}' : open == '[' ? ']' : open;
 }
 
-// How far the value in brackets or quotes at the front goes, its closing mark included.
+// Length of the value in brackets or quotes at the front, with its closing mark.
 std::size_t length_of_enclosed(std::string_view text) {
     const char open = text.front(), close = closing_of(open);
     int depth = 0;
@@ -85,7 +85,7 @@ std::string take_value(std::string_view& text, std::string_view ends) {
     return value;
 }
 
-// Numbers with blanks, commas or brackets between them.
+// Numbers that blanks, commas or brackets separate.
 std::vector<double> list_of(const std::string& value, const char* key) {
     std::string text = value;
     for (char& c : text)
@@ -203,7 +203,7 @@ XyzHeader xyz_header_of(std::string_view line) {
         return header;
     }
     WorldCell box;
-    box.periodic = {true, true, true};  // as programs of extended XYZ understand a Lattice without pbc
+    box.periodic = {true, true, true};  // what other programs understand by a Lattice without pbc
     bool has_lattice = false;
     for (const auto& [key, value] : xyz_entries(line)) {
         if (!value) continue;
@@ -225,13 +225,11 @@ XyzHeader xyz_header_of(std::string_view line) {
     return header;
 }
 
-// The frames.
-
 using Words = std::vector<std::string_view>;
 
 constexpr std::size_t most_words = std::size_t{1} << 16;  // of a row
 
-// A count that stands alone in its line; none where it does not.
+// The count in a line that has nothing else; none for other lines.
 std::optional<std::int64_t> count_of(std::string_view line) {
     const std::optional<std::int64_t> count = whole_number_of(trimmed(line));
     return count && *count >= 0 ? count : std::nullopt;
@@ -253,7 +251,7 @@ std::vector<ColumnFiller> named_columns(const std::vector<XyzField>& fields) {
     return columns;
 }
 
-// Plain XYZ says nothing of its columns; "c5" is the fifth.
+// Plain XYZ does not name its columns; "c5" is the fifth.
 std::vector<ColumnFiller> plain_columns(const Words& row) {
     std::vector<ColumnFiller> columns;
     columns.emplace_back("species", CellKind::word_or_number);
@@ -375,7 +373,7 @@ bool takes_xyz(const FileHead& head) {
     std::string_view rest = head.bytes;
     constexpr std::string_view mark = "\xef\xbb\xbf";
     if (rest.starts_with(mark)) rest.remove_prefix(mark.size());
-    Words lines;  // blank ones too: a comment may be empty
+    Words lines;  // blank lines too, because a comment may be empty
     for (int i = 0; i < 4 && !rest.empty(); ++i) {
         const std::size_t length = std::min(rest.find('\n'), rest.size());
         lines.push_back(trimmed(rest.substr(0, length)));

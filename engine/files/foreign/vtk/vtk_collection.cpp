@@ -1,4 +1,5 @@
-// Lists of VTK's files: .pvd and .series of ParaView, .vtm of VTK and LIGGGHTS.
+// Reads lists of VTK files: .pvd and .series of ParaView, .vtm of VTK and LIGGGHTS. Each time that the list
+// names is a frame, made of one or several files (vtk_parts.hpp).
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -41,7 +42,8 @@ struct CollectionList {
     std::string format;
     std::string program{};
     std::vector<CollectionMoment> moments{};
-    std::int64_t replaced = 0;  // files that were named again for the same time; the later ones count
+    std::int64_t replaced =
+        0;  // number of files that a later line names again for the same time; the later line counts
 };
 
 // One file as the list names it.
@@ -54,7 +56,7 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// "walls_0012.vtp" is "walls_#.vtp": files of one series have one stem.
+// "walls_#.vtp" for "walls_0012.vtp". Files of one series have the same stem.
 std::string stem_of(std::string_view name) {
     std::string stem;
     for (std::size_t i = 0; i < name.size(); ++i)
@@ -65,7 +67,7 @@ std::string stem_of(std::string_view name) {
     return stem;
 }
 
-// The last whole number in a file's name, "dump2000.vtm".
+// The last whole number in a file's name: 2000 for "dump2000.vtm".
 std::optional<std::int64_t> number_in_name(const std::string& file) {
     const std::string stem = fs::path(file).stem().string();
     std::size_t end = stem.size();
@@ -75,8 +77,8 @@ std::optional<std::int64_t> number_in_name(const std::string& file) {
     return begin == end ? std::nullopt : whole_in(std::string_view(stem).substr(begin, end - begin));
 }
 
-// LIGGGHTS writes the number of the frame in the place of a time: 0, 1, 2, ..., part 0, no group, all files
-// .vtm.
+// Whether LIGGGHTS wrote the list. It puts the number of the frame (0, 1, 2, ...) in place of a time; all
+// files are .vtm, with part 0 and no group.
 bool is_of_liggghts(const XmlElement& root, const std::vector<Entry>& entries) {
     if (entries.empty() || root.attribute("header_type") != "UInt64") return false;
     double next = 0;
@@ -96,8 +98,8 @@ bool same_stems(const std::vector<Entry>& entries) {
                        [&](const Entry& entry) { return stem_of(entry.file) == stem_of(entries[0].file); });
 }
 
-// Entries of one time are one moment. Without any time those with parts, or with different stems, are one
-// moment, and files of one stem are a moment each.
+// Entries with the same time are one moment. In a list without times, files with different stems or with
+// different parts are one moment, and files with the same stem are a moment each.
 void group(const fs::path& folder, const std::vector<Entry>& entries, CollectionList& list) {
     const bool timeless = std::none_of(entries.begin(), entries.end(),
                                        [](const Entry& entry) { return entry.time.has_value(); });
@@ -149,7 +151,7 @@ void find_entries(const fs::path& file, const XmlElement& element, std::vector<E
 }
 
 CollectionList list_of_pvd(const fs::path& file, const std::string& bytes) {
-    // While it is written it may end anywhere.
+    // While the list is being written it may end anywhere.
     const XmlTree tree = xml_tree(file, bytes, true);
     CollectionList list;
     list.format = "ParaView collection (.pvd)";
@@ -267,14 +269,14 @@ class VtkCollection : public RawFile {
   private:
     static std::ptrdiff_t done_of(std::size_t count) { return static_cast<std::ptrdiff_t>(count); }
 
-    // Those behind the last that was taken. A moment is whole when all of its files are there.
+    // Takes the moments after the last one taken. A moment is whole when all of its files are there.
     void take_moments() {
         const std::vector<CollectionMoment>& all = list_.moments;
         const auto whole = [](const CollectionMoment& moment) {
             return std::all_of(moment.files.begin(), moment.files.end(), is_there);
         };
         const auto last = std::find_if(all.rbegin(), all.rend(), whole);
-        // Where none is whole, the moments are taken by the files that they have.
+        // If no moment is whole, each is taken with the files that it has.
         const std::size_t end = last == all.rend() ? all.size() : static_cast<std::size_t>(all.rend() - last);
         Missing missing;
         for (std::size_t i = taken_.empty() ? 0 : taken_.back() + 1; i < all.size(); ++i) {
@@ -358,7 +360,7 @@ class VtkCollection : public RawFile {
     CollectionList list_;
     RawFacts facts_{};
     std::vector<RawMoment> moments_{};
-    std::vector<std::size_t> taken_{};  // of list_.moments
+    std::vector<std::size_t> taken_{};  // numbers in list_.moments
     std::vector<std::string> news_{};
     std::string complaint_{};
     fs::path first_missing_{}, grid_{};

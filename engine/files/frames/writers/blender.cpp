@@ -1,5 +1,4 @@
-// A folder for Blender (3.4 or newer): bed.bin with every frame, and bed.py, which builds the moving bed from
-// it:
+// A folder for Blender (3.4 or newer). bed.bin has every frame, and the script bed.py builds the moving bed:
 //     blender --python bed.py            (or blender -b --python bed.py -- --render 10 picture.png)
 
 #include <fmt/format.h>
@@ -197,7 +196,7 @@ class Blender final : public FrameWriter {
         }
         head_["frames"] = nlohmann::json::array();
     }
-    // The numbers of a frame: species and id (int32 each a grain), then x y z radius (float32 each a grain).
+    // A frame is species and id of each grain (int32), then x, y, z and radius of each grain (float32).
     void frame(const Frame& frame) override {
         nlohmann::json poses = nlohmann::json::array();
         for (const WorldSurface& surface : surfaces_) {

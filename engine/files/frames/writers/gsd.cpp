@@ -1,6 +1,6 @@
-// GSD, file layer 2.0, schema hoomd 1.4 (Anderson et al.; gsd.readthedocs.io, "File layer" and "HOOMD
-// Schema"). Numbers are floats, the box is centred at 0, and grains are known by their rows; their ids stand
-// in log/particles/id.
+// GSD files: file layer 2.0, schema hoomd 1.4 (gsd.readthedocs.io, "File layer" and "HOOMD Schema"). Numbers
+// are floats and the box is centred at 0. GSD knows grains by their rows; ours have their ids in
+// log/particles/id.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -100,7 +100,7 @@ class Gsd final : public FrameWriter {
     }
 
     void end() override {
-        // Entries of one frame are found by bisection on their names' numbers.
+        // Readers find an entry of a frame by bisection on the numbers of names, so entries are sorted.
         std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
             return a.frame != b.frame ? a.frame < b.frame : a.name < b.name;
         });
@@ -145,7 +145,7 @@ class Gsd final : public FrameWriter {
         place_ += bytes.size();
         check();
     }
-    // rows x columns numbers under a name.
+    // Adds a table of rows x columns numbers under a name.
     template <class T>
     void chunk(const std::string& name, Type type, std::size_t rows, const std::vector<T>& values) {
         if (values.empty()) return;

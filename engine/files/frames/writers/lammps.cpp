@@ -1,4 +1,4 @@
-// A data file of LAMMPS with atom_style sphere (manual, command read_data): the last of the frames.
+// Two writers for LAMMPS: a data file of the last frame, and a text dump of all frames.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,8 +11,9 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kDensity = 2500;  // kg/m3, where nobody says another
+constexpr double kDensity = 2500;  // kg/m3, where the density is not known
 
+// A data file with atom_style sphere (LAMMPS manual, command read_data).
 class LammpsData final : public FrameWriter {
   public:
     explicit LammpsData(const std::filesystem::path& path) : path_(path) {}
@@ -37,7 +38,7 @@ class LammpsData final : public FrameWriter {
                             box.origin[axis] + box.edges[static_cast<std::size_t>(axis)][axis], names[axis]);
         const double xy = box.edges[1].x(), xz = box.edges[2].x(), yz = box.edges[2].y();
         if (xy != 0 || xz != 0 || yz != 0) text += fmt::format("{} {} {} xy xz yz\n", xy, xz, yz);
-        // Ids of LAMMPS begin at 1.
+        // Ids begin at 1 in LAMMPS.
         const int shift = frame.size() > 0 && frame.id.front() == 0 ? 1 : 0;
         text += "\nAtoms # sphere\n\n";
         for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -78,18 +79,8 @@ class LammpsData final : public FrameWriter {
     std::optional<Frame> last_;
 };
 
-}  // namespace
-
-FrameFormat lammps_data_format() {
-    return {"lammps-data", "data file of LAMMPS (read_data, atom_style sphere), of the last frame", ".data",
-            make_writer<LammpsData>};
-}
-
-// A text dump as LAMMPS writes it (manual, command dump custom): `read_dump` of LAMMPS and LIGGGHTS takes it,
-// and OVITO.
-
-namespace {
-
+// A text dump as LAMMPS writes it (manual, command dump custom). OVITO reads it, and so does `read_dump` of
+// LAMMPS and LIGGGHTS.
 class LammpsDump final : public FrameWriter {
   public:
     explicit LammpsDump(const std::filesystem::path& path) : out_(path) {}
@@ -151,6 +142,11 @@ class LammpsDump final : public FrameWriter {
 };
 
 }  // namespace
+
+FrameFormat lammps_data_format() {
+    return {"lammps-data", "data file of LAMMPS (read_data, atom_style sphere), of the last frame", ".data",
+            make_writer<LammpsData>};
+}
 
 FrameFormat lammps_dump_format() {
     return {"lammps-dump", "text dump of LAMMPS and LIGGGHTS; OVITO opens it", ".dump",

@@ -1,5 +1,6 @@
-// glTF 2.0 binary (.glb): one sphere mesh for each species, drawn by instances (EXT_mesh_gpu_instancing), and
-// the walls. The last of the frames; lengths in m, y points up as glTF asks.
+// Two writers of triangles, both of the last frame: glTF 2.0 (.glb) and binary STL (.stl). In glTF each
+// species has one sphere mesh, drawn by instances (EXT_mesh_gpu_instancing); lengths are in m and y points
+// up.
 
 #include <cstdint>
 #include <cstring>
@@ -20,12 +21,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// From z up to y up.
+// A vector of axes with z up, in axes with y up.
 Vec3 turned(const Vec3& v) {
     return {v.x(), v.z(), -v.y()};
 }
 
-// The palette of the films' species (Okabe and Ito 2008), linear light.
+// The colours of species in films (Okabe and Ito 2008), as linear light.
 constexpr double kColours[][3] = {{0.094, 0.456, 0.807}, {0.665, 0.112, 0.0},   {0.0, 0.342, 0.171},
                                   {0.604, 0.191, 0.386}, {0.871, 0.776, 0.055}, {0.0, 0.168, 0.445},
                                   {0.791, 0.347, 0.0}};
@@ -38,7 +39,7 @@ class Glb {
         for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews"})
             json_[list] = Json::array();
     }
-    // Numbers as float vectors of `width`; returns the accessor.
+    // Adds float vectors of `width` numbers each and returns the number of their accessor.
     std::size_t floats(const std::vector<float>& values, std::size_t width, bool bounds) {
         Json accessor = {{"bufferView", view(values.data(), values.size() * sizeof(float))},
                          {"componentType", 5126},
@@ -132,7 +133,7 @@ struct Sphere {
     std::vector<std::uint32_t> corners;
 };
 
-// An icosahedron whose triangles were parted twice: 320 of them.
+// An icosahedron whose triangles are divided by four twice, which makes 320 of them.
 Sphere unit_sphere() {
     const double g = (1 + std::sqrt(5.0)) / 2;
     std::vector<Vec3> points;
@@ -222,17 +223,7 @@ class Gltf final : public FrameWriter {
     std::optional<Frame> last_;
 };
 
-}  // namespace
-
-FrameFormat gltf_format() {
-    return {"gltf", "glTF 2.0 (.glb) of the last frame: instanced spheres and walls", ".glb",
-            make_writer<Gltf>};
-}
-
-// Binary STL of the walls, where they are in the last of the frames.
-
-namespace {
-
+// Binary STL of the walls, where they are in the last frame.
 class Stl final : public FrameWriter {
   public:
     explicit Stl(std::filesystem::path path) : path_(std::move(path)) {}
@@ -281,6 +272,11 @@ class Stl final : public FrameWriter {
 };
 
 }  // namespace
+
+FrameFormat gltf_format() {
+    return {"gltf", "glTF 2.0 (.glb) of the last frame: instanced spheres and walls", ".glb",
+            make_writer<Gltf>};
+}
 
 FrameFormat stl_format() {
     return {"stl", "walls as binary STL, where they are in the last frame", ".stl", make_writer<Stl>};

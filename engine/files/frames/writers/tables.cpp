@@ -1,4 +1,4 @@
-// One long table of all frames, a row a grain and moment: for spreadsheets, pandas and R.
+// Writers of text with one row a grain: CSV, the program's own table of grains, and extended XYZ.
 
 #include <fmt/format.h>
 #include <optional>
@@ -11,6 +11,7 @@ namespace grainreel {
 
 namespace {
 
+// One long table with a row for each grain of each frame, for spreadsheets, pandas and R.
 class Csv final : public FrameWriter {
   public:
     explicit Csv(const std::filesystem::path& path) : out_(path) {}
@@ -47,17 +48,7 @@ class Csv final : public FrameWriter {
     FrameSupply supply_;
 };
 
-}  // namespace
-
-FrameFormat csv_format() {
-    return {"csv", "one table of all frames, SI units: for spreadsheets, pandas and R", ".csv",
-            make_writer<Csv>};
-}
-
-// The table of grains of a final.csv: the last of the frames.
-
-namespace {
-
+// A table of grains as in final.csv, of the last frame.
 class GrainTable final : public FrameWriter {
   public:
     explicit GrainTable(std::filesystem::path path) : path_(std::move(path)) {}
@@ -74,19 +65,9 @@ class GrainTable final : public FrameWriter {
     std::optional<Frame> last_;
 };
 
-}  // namespace
-
-FrameFormat grain_table_format() {
-    return {"grain-table", "a table of grains (final.csv), of the last frame", ".csv",
-            make_writer<GrainTable>};
-}
-
-// Extended XYZ, by the rules of ASE and OVITO: columns element, pos, radius, velo, omega, id; Lattice and pbc
-// where there is a periodic box. Names of species stand in `element`: ASE takes those in `species` for
-// symbols of the periodic table, and ends at "Small".
-
-namespace {
-
+// Extended XYZ by the rules of ASE and OVITO. Columns are element, pos, radius, velo, omega and id; Lattice
+// and pbc give the box. Names of species stand in `element`, because ASE takes a column `species` for symbols
+// of the periodic table and stops at "Small".
 class Xyz final : public FrameWriter {
   public:
     explicit Xyz(const std::filesystem::path& path) : out_(path) {}
@@ -131,6 +112,16 @@ class Xyz final : public FrameWriter {
 };
 
 }  // namespace
+
+FrameFormat csv_format() {
+    return {"csv", "one table of all frames, SI units: for spreadsheets, pandas and R", ".csv",
+            make_writer<Csv>};
+}
+
+FrameFormat grain_table_format() {
+    return {"grain-table", "a table of grains (final.csv), of the last frame", ".csv",
+            make_writer<GrainTable>};
+}
 
 FrameFormat xyz_writer_format() {
     return {"xyz", "extended XYZ, as ASE and OVITO read it", ".xyz", make_writer<Xyz>};

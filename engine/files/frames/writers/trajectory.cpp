@@ -1,5 +1,4 @@
-// A trajectory.nc from whatever has frames. A run writes its own through TrajectoryWriter itself, which can
-// also go on with a file that is there.
+// Writes any frames as a trajectory.nc. A run uses TrajectoryWriter itself, which can also continue a file.
 #include <optional>
 
 #include "engine/base/error.hpp"

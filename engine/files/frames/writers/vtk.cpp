@@ -1,6 +1,6 @@
-// A folder for ParaView and VTK: grains.pvd, walls.pvd and contacts.pvd with a .vtp file for each moment,
-// run.pvd with all of them as parts, and fields.pvd with a .vti file for each record of fields.nc. Arrays
-// have the names that this program and others read: id, type (counts from 1, as LAMMPS has it), omega.
+// A folder for ParaView and VTK. grains.pvd, walls.pvd and contacts.pvd list a .vtp file for each moment;
+// run.pvd lists all of them as parts; fields.pvd lists a .vti file for each record of fields.nc. Arrays have
+// the names that other programs read: id, type (from 1, as in LAMMPS), omega.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -86,7 +86,7 @@ VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const Frame& fra
     return data;
 }
 
-// One array for the components of a vector or tensor, in VTK's order; what has no such parts stays alone.
+// Joins the components of a vector or tensor into one array in VTK's order. A scalar stays as it is.
 std::vector<VtkList> joined(const std::vector<std::string>& names,
                             const std::vector<std::vector<double>>& values) {
     const std::vector<std::vector<std::string>> kinds{
@@ -121,7 +121,7 @@ std::vector<VtkList> joined(const std::vector<std::string>& names,
     return arrays;
 }
 
-// Along an axis without cells the image has one, as wide as the world.
+// Along an axis without cells the image has one cell that is as wide as the world.
 VtkImage grid_of(const FieldsReader& fields, const World& world) {
     VtkImage image;
     const std::array<double, 3> cell = fields.cell();
@@ -197,7 +197,7 @@ class Vtk final : public FrameWriter {
 
   private:
     void write(const char* name, int part, const Frame& frame, VtkPolyData data) {
-        // Frames without times are counted.
+        // Frames without times are numbered instead.
         const double time = world_.time_known ? frame.time : static_cast<double>(frames_);
         if (world_.time_known) data.facts.time = time;
         data.facts.step = frame.step;
@@ -210,8 +210,8 @@ class Vtk final : public FrameWriter {
     World world_;
     FrameSupply supply_;
     std::vector<WorldSurface> surfaces_;
-    std::optional<std::vector<ContactRecord>> contacts_;  // of the frame that comes
-    bool has_forces_ = false;                             // of this frame or one before
+    std::optional<std::vector<ContactRecord>> contacts_;  // of the next frame
+    bool has_forces_ = false;                             // whether this frame or one before it has forces
     std::vector<VtkEntry> entries_;
     std::int64_t frames_ = 0;
 };

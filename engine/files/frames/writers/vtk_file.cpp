@@ -17,8 +17,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
 
-constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes of an array that are packed at once
-constexpr int kLevel = 1;  // of zlib: level 6 makes files 4 % smaller in five times the time
+constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes of an array that are packed as one block
+constexpr int kLevel = 1;  // of zlib; level 6 makes files 4 % smaller and takes five times as long
 
 template <class T>
 std::string bytes_of(const std::vector<T>& values) {
@@ -43,7 +43,8 @@ struct Block {
     std::string out;
 };
 
-// Header of a packed array: blocks, size of a block, size of the last one (0: it is full), packed sizes.
+// The header of a packed array: number of blocks, size of a block, size of the last one (0 where it is full)
+// and the packed sizes.
 std::string with_header(const VtkList& array, const std::vector<Block>& blocks) {
     std::vector<std::uint64_t> head{0, kBlock, array.bytes.size() % kBlock};
     std::string body;
@@ -63,7 +64,7 @@ std::string one_array(const VtkList& array, std::uint64_t offset) {
         array.type, array.name, array.components, offset);
 }
 
-// The packed arrays of a file, and where each is.
+// The packed arrays of a file and the place of each.
 class Appended {
   public:
     Appended(const std::vector<const std::vector<VtkList>*>& lists, int threads) {
@@ -85,7 +86,7 @@ class Appended {
         for (const VtkList& array : list) text += one_array(array, place_.at(&array));
         return text + fmt::format("      </{}>\n", name);
     }
-    // The section and the file's end.
+    // The appended section and the end of the file.
     std::string text() const {
         return "  <AppendedData encoding=\"raw\">\n_" + bytes_ + "\n  </AppendedData>\n</VTKFile>\n";
     }
@@ -112,7 +113,7 @@ std::string head(const char* type) {
         type);
 }
 
-// Words are the bytes of their letters in UTF-8 and a 0, each as a number.
+// A word is written as the bytes of its letters in UTF-8 and a 0, each as a number.
 std::string facts_text(const VtkFacts& facts) {
     std::string text;
     if (facts.time)
@@ -202,14 +203,14 @@ std::string pvd_text(const std::vector<VtkEntry>& entries) {
 
 namespace {
 
-// The row of an id; as many as there are rows where the frame has no such grain.
+// The row of an id in the frame, or the number of rows where there is no such grain.
 std::size_t row_of(const Frame& frame, std::int32_t id) {
     const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
     return found == frame.id.end() || *found != id ? frame.size()
                                                    : static_cast<std::size_t>(found - frame.id.begin());
 }
 
-// The shortest of the ways that differ by edges of the periodic cell.
+// The shortest of all vectors that differ by edges of the periodic cell.
 Vec3 shortest(Vec3 way, const World& world) {
     if (!world.cell) return way;
     for (std::size_t edge = 3; edge-- > 0;) {
@@ -221,7 +222,7 @@ Vec3 shortest(Vec3 way, const World& world) {
     return way;
 }
 
-// The way from the first grain's centre to the second's, or to the point on a wall.
+// The vector from the first grain's centre to the second's, or to the point of contact on a wall.
 Vec3 way_of(const Frame& frame, const ContactRecord& contact, std::size_t first, std::size_t second,
             const World& world) {
     const Vec3 end = second < frame.size() ? frame.position[second] : contact.point;

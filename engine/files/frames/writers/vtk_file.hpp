@@ -1,5 +1,5 @@
-// Files of VTK in XML: .vtp (PolyData) and .vti (ImageData). Arrays lie in the appended section, raw, each
-// packed by zlib in blocks.
+// Writes VTK's XML files, .vtp (PolyData) and .vti (ImageData), and makes the lines of contacts for them.
+// Arrays lie raw in the appended section, each packed by zlib in blocks.
 #pragma once
 
 #include <array>
@@ -26,14 +26,15 @@ struct VtkList {
     static VtkList integers(std::string name, const std::vector<std::int64_t>& values);
 };
 
-// What a file says as a whole (FieldData).
+// Facts about the whole file (FieldData).
 struct VtkFacts {
     std::optional<double> time;                                           // s, as TimeValue
     std::optional<std::int64_t> step;                                     // as CYCLE
     std::vector<std::pair<std::string, std::vector<std::string>>> words;  // "species": names
 };
 
-// A piece of PolyData. Connectivity and offsets as VTK has them, for one of vertices, lines and triangles.
+// A piece of PolyData with cells of one kind: vertices, lines or triangles. Connectivity and offsets are
+// VTK's.
 struct VtkPolyData {
     enum class Cells { vertices, lines, triangles };
     Cells cells = Cells::vertices;
@@ -44,7 +45,7 @@ struct VtkPolyData {
     VtkFacts facts;
 };
 
-// A grid of equal cells, a value or a vector for each; x runs fastest.
+// A grid of equal cells with a value or a vector in each; x runs fastest.
 struct VtkImage {
     std::array<std::size_t, 3> cells{1, 1, 1};
     std::array<double, 3> origin{}, spacing{1, 1, 1};  // m; the origin is the lowest corner
@@ -52,12 +53,12 @@ struct VtkImage {
     VtkFacts facts;
 };
 
-// The file's text and bytes. Packs the blocks on as many threads; 0: as many as there are processors. The
-// bytes do not depend on that.
+// The whole content of the file. Blocks are packed on so many threads (0: as many as there are processors);
+// the bytes do not depend on that.
 std::string vtk_bytes(const VtkPolyData& data, int threads = 0);
 std::string vtk_bytes(const VtkImage& image, int threads = 0);
 
-// An unpacked file's name and time, for a .pvd.
+// A file's name and time, for the list in a .pvd.
 struct VtkEntry {
     double time = 0;
     int part = 0;
@@ -65,18 +66,18 @@ struct VtkEntry {
 };
 std::string pvd_text(const std::vector<VtkEntry>& entries);
 
-// The contacts of a frame for VTK: lines with forces, and what they add up to on each grain.
-
-// A line from the first grain's centre to the second's, or to the point of contact on a wall. Across a
-// periodic edge it ends at the image of the second one. Arrays of lines: normal_force (N, 0 or more),
-// tangential_force and force (N, both on the second one), id1, id2 (of a wall -1 - its number), to_wall.
+// The contacts of a frame as lines from the first grain's centre to the second's, or to the point of contact
+// on a wall. Across a periodic edge a line ends at the image of the second grain. Arrays of the lines are
+// normal_force (N, 0 or more), tangential_force and force (N, both on the second body), id1, id2 (a wall has
+// -1
+// - its number) and to_wall.
 VtkPolyData contact_lines(const Frame& frame, const std::vector<ContactRecord>& contacts, const World& world);
 
-// Where points and tangential forces are not known: lines between grains, with normal_force, id1, id2 and
-// to_wall.
+// The same where points and tangential forces are not known: lines between grains only, with normal_force,
+// id1, id2 and to_wall.
 VtkPolyData contact_lines(const Frame& frame, const std::vector<Touch>& touches, const World& world);
 
-// N, the sum of all contact forces on each grain.
+// The sum of all contact forces on each grain, N.
 std::vector<Vec3> forces_on_grains(const Frame& frame, const std::vector<ContactRecord>& contacts,
                                    const World& world);
 
