@@ -1,5 +1,7 @@
 // AMBER NetCDF trajectories (convention 1.0 and what LAMMPS, OVITO and SimPARTIX put beside it): every number
 // of a grain becomes a column under the file's name.
+
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +9,6 @@
 #include <limits>
 #include <map>
 #include <mutex>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/amber/amber_variables.hpp"
