@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/files/foreign/amber/amber_variables.hpp"
+#include "engine/files/foreign/amber_variables.hpp"
 #include "tests/foreign/small_files.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@
 #include <mutex>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/amber/amber_variables.hpp"
+#include "engine/files/foreign/amber_variables.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {

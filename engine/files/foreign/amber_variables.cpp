@@ -1,4 +1,4 @@
-#include "engine/files/foreign/amber/amber_variables.hpp"
+#include "engine/files/foreign/amber_variables.hpp"
 
 #include <fmt/format.h>
 #include <netcdf.h>
