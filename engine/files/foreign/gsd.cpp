@@ -1,13 +1,13 @@
 // GSD of HOOMD-blue: the schema "hoomd" over the chunks of a GSD file. A chunk that a frame lacks is that of
 // frame 0, or the schema's default where the count of grains is another.
+
+#include <fmt/format.h>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <set>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/gsd/gsd_file.hpp"
