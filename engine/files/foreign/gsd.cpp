@@ -10,7 +10,7 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/gsd/gsd_file.hpp"
+#include "engine/files/foreign/gsd_file.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {

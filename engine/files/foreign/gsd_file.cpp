@@ -1,11 +1,10 @@
-#include "engine/files/foreign/gsd/gsd_file.hpp"
+#include "engine/files/foreign/gsd_file.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <system_error>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 
