@@ -12,7 +12,6 @@
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
-#include "engine/files/foreign/dumps/text_head.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
 #include "engine/files/foreign/dumps/text_rows.hpp"
 #include "engine/files/foreign/raw_file.hpp"

@@ -1,4 +1,4 @@
-#include "engine/files/foreign/dumps/text_head.hpp"
+#include "engine/files/foreign/dumps/text_index.hpp"
 
 #include <fmt/format.h>
 
