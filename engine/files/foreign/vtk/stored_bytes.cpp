@@ -1,4 +1,4 @@
-#include "engine/files/foreign/vtk/stored_bytes.hpp"
+#include "engine/files/foreign/vtk/xml_arrays.hpp"
 
 #include <fmt/format.h>
 #include <lz4.h>
