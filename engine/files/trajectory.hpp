@@ -28,6 +28,8 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -114,5 +116,10 @@ class TrajectoryReader {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+// What the files of a run's moments say of the run: trajectory.nc, film_moments.nc, key_moments.nc.
+
+// With room for all grains that the plan expects.
+TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& program_version);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-#include "engine/files/trajectory_info.hpp"
+#include "engine/files/trajectory.hpp"
 
 #include "engine/scene/bed.hpp"
 

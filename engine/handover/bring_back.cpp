@@ -10,7 +10,6 @@
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/files/trajectory.hpp"
-#include "engine/files/trajectory_info.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"

@@ -12,7 +12,6 @@
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/files/trajectory.hpp"
-#include "engine/files/trajectory_info.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/measure/walls/wear_observer.hpp"
 #include "engine/plan/times.hpp"
