@@ -28,10 +28,10 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
-#include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
 
 namespace grainreel {
+
+struct Plan;  // engine/plan/plan.hpp
 
 // m. A nanometre is too small for any picture. It is not 0, because OVITO then draws its default radius of 1.
 inline constexpr double kAbsentRadius = 1e-9;
@@ -117,9 +117,8 @@ class TrajectoryReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// What the files of a run's moments say of the run: trajectory.nc, film_moments.nc, key_moments.nc.
-
-// With room for all grains that the plan expects.
+// The header for files of moments of a run: trajectory.nc, film_moments.nc, key_moments.nc. It has places for all
+// grains that the plan expects.
 TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& program_version);
 
 }  // namespace grainreel

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/trajectory.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {
