@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int32_t most_columns = 100000;
 constexpr std::int32_t longest_text = 1 << 20;  // bytes
-constexpr std::int32_t most_chunks = 1 << 24;   // one a process
+constexpr std::int32_t most_chunks = 1 << 24;   // each process writes one
 
 class HeadReader {
   public:
@@ -100,7 +100,7 @@ class HeadReader {
         return true;
     }
 
-    // Lengths that a program computes with; other bytes taken for doubles are mostly none.
+    // Whether it is a length that a program can compute with. Other bytes, read as doubles, mostly are not.
     bool length(double& to) {
         if (!number(to)) return false;
         constexpr double least = 1e-30, most = 1e30;
@@ -118,7 +118,8 @@ class HeadReader {
         for (std::size_t k = 0; k < 3; ++k)
             if (bounds.high[k] < bounds.low[k])
                 return head_.rows == 0 ||
-                       wrong("the box ends before it begins");  // shrink-wrapped around nothing
+                       wrong(
+                           "the box ends before it begins");  // a box without grains that was shrink-wrapped
         head_.box = cell_of(bounds);
         return true;
     }
@@ -203,7 +204,7 @@ class MemoryBytes : public ByteSource {
     std::size_t place_ = 0;
 };
 
-// Whether a frame of that form begins the bytes, its first part among it.
+// Whether the bytes begin with a frame of that form, including its first chunk.
 bool makes_sense(std::string_view bytes, const BinaryForm& form) {
     MemoryBytes memory(bytes);
     BinaryReader in(memory, form.swapped);
@@ -247,7 +248,7 @@ std::size_t BinaryReader::read(double* to, std::size_t count) {
 
 bool BinaryReader::pass(std::uint64_t bytes) {
     if (bytes == 0) return true;
-    // A file lets itself be sought behind its end. The last byte shows that it is there.
+    // seek() also works beyond the end of a file, so the last byte is read to see that it exists.
     char last = 0;
     source_.seek(place_ + bytes - 1);
     place_ += bytes - 1;
@@ -296,7 +297,7 @@ namespace fs = std::filesystem;
     refuse_byte(file, static_cast<std::size_t>(byte), what);
 }
 
-// Over the parts of a frame. Returns false where the content ends before.
+// Skips the chunks of a frame. Returns false where the content ends before.
 bool pass_chunks(BinaryReader& in, const fs::path& file, const BinaryHead& head) {
     std::int64_t rows = 0;
     for (std::int32_t chunk = 0; chunk < head.chunks; ++chunk) {

@@ -1,5 +1,6 @@
-// What stands before the numbers of one frame of a binary dump, in all its forms: with names of columns
-// (since 2021), with flags of the box (since 2010), and before.
+// Binary dumps: the head of a frame in all forms that LAMMPS has written (with names of columns since 2021,
+// with flags of the box since 2010, and older), and where the frames of a file lie. The numbers themselves
+// are read in lammps_binary.cpp.
 #pragma once
 
 #include <cstddef>
@@ -15,43 +16,44 @@
 
 namespace grainreel {
 
-// Numbers of either byte order, one behind the other.
+// Reads numbers in either byte order, one after the other.
 class BinaryReader {
   public:
     BinaryReader(ByteSource& source, bool swapped) : source_(source), swapped_(swapped) {}
 
-    // Returns false where the content ends before.
+    // These return false where the content ends before.
     bool read(std::int32_t& to) { return read_bytes(&to, sizeof to); }
     bool read(std::int64_t& to) { return read_bytes(&to, sizeof to); }
     bool read(double& to) { return read_bytes(&to, sizeof to); }
     bool read(char& to) { return read_bytes(&to, sizeof to); }
     bool read_text(std::string& to, std::size_t size);
-    // As many numbers as there still are; returns how many.
+    // Reads up to `count` numbers; returns how many there were.
     std::size_t read(double* to, std::size_t count);
-    // Passes over bytes. Returns false where the content ends before.
+    // Skips bytes. Returns false where the content ends before.
     bool pass(std::uint64_t bytes);
 
     std::uint64_t place() const { return place_; }
     void seek(std::uint64_t place);
 
   private:
-    bool read_bytes(void* to, std::size_t size);  // of one number
+    bool read_bytes(void* to, std::size_t size);  // reads one number
 
     ByteSource& source_;
     bool swapped_;
     std::uint64_t place_ = 0;
 };
 
-// How a program wrote all frames of a file.
+// The form in which a program wrote all frames of a file.
 struct BinaryForm {
     enum class Box { flags, bare, bare_tilted };
 
-    bool magic = false;    // since 2021
-    bool swapped = false;  // other byte order than this machine's
+    bool magic = false;    // begins with a magic word, since 2021
+    bool swapped = false;  // the byte order is not that of this machine
     bool narrow = false;   // step and number of grains have 32 bits
-    Box box = Box::flags;  // of files without magic: with a word and flags before, or without
+    Box box = Box::flags;  // in files without magic: with a word and flags before it, or without
 };
 
+// What the head of a frame says.
 struct BinaryHead {
     std::uint64_t place = 0;
     std::int64_t step = 0, rows = 0;
@@ -59,37 +61,37 @@ struct BinaryHead {
     std::string units{};
     std::optional<WorldCell> box{};
     std::int32_t columns = 0, chunks = 0;
-    std::vector<std::string> names{};  // of the columns, where the file says them
-    std::uint64_t data = 0;            // where the first chunk begins
+    std::vector<std::string> names{};  // of the columns, where the file has them
+    std::uint64_t data = 0;            // place of the first chunk
 };
 
 enum class BinaryEnd { whole, nothing, cut, damaged };
 
-// `complaint` says what is damaged, and the reader stands behind it.
+// Reads a head. If it is damaged, `complaint` says what is wrong, and the reader stands after the damage.
 BinaryEnd read_binary_head(BinaryReader& in, const BinaryForm& form, BinaryHead& head,
                            std::string& complaint);
 
-// The form of a file by its first bytes; none where no form makes sense of them.
+// The form of a file, by its first bytes; none where they fit no form.
 std::optional<BinaryForm> binary_form_of(std::string_view bytes);
 
-// Where the frames of a binary dump lie. Heads are read, numbers are passed over.
-
 struct BinaryFrame {
-    std::uint64_t place = 0;  // of the head
+    std::uint64_t place = 0;  // byte at which its head begins
     std::int64_t step = 0, rows = 0;
     std::optional<double> time{};
 };
 
+// Where the frames of a file lie. To find them, heads are read and numbers are skipped.
 struct BinaryIndex {
     std::vector<BinaryFrame> frames;
     std::int32_t columns = 0;
-    std::vector<std::string> names;  // of the columns, as the file says; none in old files
+    std::vector<std::string> names;  // of the columns as in the file; none in old files
     std::string units;
-    std::uint64_t end = 0;  // behind the last whole frame
-    bool cut = false;       // a frame begins there that is not whole
+    std::uint64_t end = 0;  // after the last whole frame
+    bool cut = false;       // a frame that is not whole begins there
     std::int64_t cut_step = 0, cut_rows = 0;
 
-    // Frames behind those that are known. Throws UserError with the byte where the content is none of a dump.
+    // Finds the frames after those that are known. Throws UserError with the byte where the content is no
+    // dump.
     void go_on(BinaryReader& in, const BinaryForm& form, const std::filesystem::path& file);
 };
 

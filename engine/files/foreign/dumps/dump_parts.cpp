@@ -50,7 +50,7 @@ std::string BoxReader::take(std::string_view line) {
         if (!number) return fmt::format("a number of the box is expected, and {}", no_number(word));
         if (count < row.size()) row[count] = *number;
     }
-    // Some programs write tilts and do not name them.
+    // Some programs write tilts without naming them.
     if (lines_ == 1 && count == 3) tilted_ = !general_;
     if (count != wanted()) return fmt::format("the box has {} numbers in this line, of {}", count, wanted());
     return "";
@@ -91,7 +91,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-// A bit for each id that can be.
+// One bit for each possible id.
 std::optional<BadId> doubled_among_near(const Values& ids, double least, double span) {
     std::vector<bool> seen(static_cast<std::size_t>(span) + 1);
     for (std::size_t row = 0; row < ids.size(); ++row) {

@@ -1,5 +1,5 @@
-// The box of a dump: three lines below "ITEM: BOX BOUNDS", in one of three forms. Binary dumps have the same
-// numbers.
+// What text and binary dumps have in common: the box, and the checks of grains. In text the box is three
+// lines below "ITEM: BOX BOUNDS" in one of three forms; binary dumps have the same numbers.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace grainreel {
 
-// lo and hi along x, y, z, and the tilts xy, xz, yz. Bounds of a tilted box are those of the box around it,
-// from which the tilts are taken off (LAMMPS, Howto_triclinic).
+// lo and hi along x, y and z, and the tilts xy, xz and yz. For a tilted box the file has the bounds of the
+// box around it, from which the tilts are subtracted (LAMMPS, Howto_triclinic).
 struct BoxBounds {
     std::array<double, 3> low{}, high{};
     double xy = 0, xz = 0, yz = 0;
@@ -22,14 +22,15 @@ struct BoxBounds {
 };
 WorldCell cell_of(const BoxBounds& bounds);
 
-// Line by line.
+// Reads the box line by line.
 class BoxReader {
   public:
-    // flags: what stands behind "BOX BOUNDS", "xy xz yz pp pp ff" or nothing in old dumps.
+    // flags: the text after "BOX BOUNDS", "xy xz yz pp pp ff" or nothing in old dumps.
     explicit BoxReader(std::string_view flags);
-    // One of the three lines. Returns what is wrong with it, or nothing.
+    // Takes one of the three lines. Returns what is wrong with it, or nothing.
     std::string take(std::string_view line);
-    // After the third. `empty`: a box without grains may be inside out, as a shrink-wrapped one is.
+    // Called after the third line. empty: there are no grains, so that a shrink-wrapped box may be inside
+    // out.
     std::string finish(bool empty);
     const std::optional<WorldCell>& box() const { return box_; }
 
@@ -43,18 +44,16 @@ class BoxReader {
     std::optional<WorldCell> box_;
 };
 
-// What text and binary dumps hold their grains to.
-
-// Whether a grain cannot be without a finite number there: ids, places, radii. Computes and fixes may be nan.
+// Whether a column must have finite numbers: ids, places, radii. Computes and fixes may be nan.
 bool must_be_finite(const std::string& column);
 
-// A row whose id is no whole number, or one that a row before it has. `id` of a table of grains; none where
-// it has no ids, or where all are good.
+// A row whose id is not a whole number or is also in an earlier row.
 struct BadId {
     std::size_t row = 0;
     double id = 0;
     std::string words() const;
 };
+// The first bad id in a table of grains; none where all are good or there are no ids.
 std::optional<BadId> bad_id(const RawTable& grains);
 
 }  // namespace grainreel

@@ -20,7 +20,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t compared = 4096;  // bytes
+constexpr std::size_t compared = 4096;  // bytes before the end that Growth compares
 
 }  // namespace
 
@@ -61,9 +61,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "grainreel index 1\n";
-constexpr std::size_t hashed = 65536;  // bytes at either end of the file
+constexpr std::size_t hashed = 65536;  // bytes at each end of the file
 
-// Tells the file that an index belongs to.
+// What identifies the file that an index belongs to.
 struct Identity {
     std::uint64_t inode = 0, size = 0;
     std::int64_t changed = 0;
@@ -85,7 +85,7 @@ void each_of(Way& way, auto& identity) {
     way(identity.end_hash);
 }
 
-// Frames as numbers: a vector of structs with holes would write what lies in them.
+// Frames as plain numbers, because structs have gaps with arbitrary bytes.
 void write_frames(std::ostream& out, const TextIndex& index) {
     std::vector<std::int64_t> numbers;
     std::vector<double> times;
@@ -120,7 +120,7 @@ bool read_frames(Bytes& in, TextIndex& index) {
     return before <= index.end;
 }
 
-// A frame that is cut, as numbers.
+// A frame that is cut off, as plain numbers.
 std::vector<std::int64_t> numbers_of(const std::optional<CutFrame>& cut) {
     if (!cut) return {};
     return {cut->line, cut->step ? 1 : 0, cut->step.value_or(0), cut->in_head ? 1 : 0,
@@ -150,7 +150,7 @@ std::optional<std::string> bytes_of(const fs::path& path) {
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-// Whether an index made for `then` serves the file as it is now.
+// Whether an index made for the state `then` fits the file as it is now.
 bool serves(const Identity& then, const FileBytes& file, const FileState& now) {
     if (then.inode != now.inode || then.size > now.size) return false;
     if (then.size == now.size && then.changed != now.changed) return false;
@@ -168,7 +168,7 @@ std::optional<KeptIndex> index_in(const fs::path& path, const FileBytes& file, c
     each_of(read, then);
     if (in.failed() || !serves(then, file, now)) return std::nullopt;
     std::optional<TextIndex> index = index_of_bytes(std::string_view(*all).substr(all->size() - in.left()));
-    // Behind any packing there may be more than the file has bytes, but not without an end.
+    // A packed file may hold more than its size in bytes, but not more than this.
     constexpr std::uint64_t most_packed = 2000;
     if (index && index->end / most_packed > now.size) return std::nullopt;
     if (!index) return std::nullopt;
@@ -247,12 +247,12 @@ void keep_index(const fs::path& file, const FileState& state, const TextIndex& i
     each_of(write, identity);
     const std::string all = out.str() + index_bytes(index);
     for (const fs::path& place : index_places(file)) {
-        std::error_code ignored;  // the folder of the file is there; that of the cache is made
+        std::error_code ignored;  // the folder of the file exists; the one in the cache may have to be made
         fs::create_directories(place.parent_path(), ignored);
         try {
             replace_file(place, all);
             return;
-        } catch (const RunError&) {  // the next place
+        } catch (const RunError&) {  // try the next path
         }
     }
 }

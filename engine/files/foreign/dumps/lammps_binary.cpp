@@ -1,4 +1,4 @@
-// Binary dumps of LAMMPS: dump atom and dump custom into a file that is called .bin.
+// Reads binary dumps of LAMMPS: dump atom and dump custom into a file with the ending .bin.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t block_numbers = std::size_t{1} << 15;  // read at once; they stay in a processor's cache
+constexpr std::size_t block_numbers = std::size_t{1}
+                                      << 15;  // numbers read at once; they fit into a processor's cache
 
 class LammpsBinary : public RawFile {
   public:
@@ -36,7 +37,7 @@ class LammpsBinary : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const BinaryFrame& frame = index_.frames.at(index);
-        // A packed file is read on from the frame before, and closed behind the last one.
+        // A packed file is read on from the last frame that was read, and closed after the file's last frame.
         const std::lock_guard lock(reading_);
         std::unique_ptr<ByteSource> source = std::move(kept_);
         if (!source) source = open_bytes(file_);
@@ -138,7 +139,7 @@ RawFrame LammpsBinary::read_frame(ByteSource& source, const BinaryFrame& frame) 
 }
 
 RawTable LammpsBinary::read_rows(BinaryReader& in, const BinaryHead& head) const {
-    // The rows were found in the file when its frames were looked for, so that their number is no mere claim.
+    // The rows were counted when frames were looked for, so their number is not only a claim of the head.
     RawTable table;
     table.rows = static_cast<std::size_t>(head.rows);
     const auto width = static_cast<std::size_t>(head.columns);

@@ -100,9 +100,9 @@ class LammpsText : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const DumpFrame& frame = index_.frames.at(index);
-        // A packed file is read on from the frame before: it has no other way to a place than through all
-        // bytes before it. Behind the last frame it is closed, so that a series of many files does not keep
-        // them open.
+        // A packed file is read on from the frame before, because a place in it can only be reached through
+        // all bytes before it. After the last frame the file is closed, so that a series of many files does
+        // not keep all of them open.
         const std::lock_guard lock(reading_);
         std::unique_ptr<LineReader> lines = std::move(kept_);
         if (!lines) lines = std::make_unique<LineReader>(file_);
@@ -127,7 +127,7 @@ class LammpsText : public RawFile {
     Packing packing_;
     Growth growth_;
     TextIndex index_;
-    OldColumns old_;  // in files without names
+    OldColumns old_;  // only for files without names
     RawFacts facts_;
     std::vector<RawMoment> moments_;
     mutable std::mutex reading_;
@@ -144,7 +144,7 @@ void LammpsText::refuse_yaml() const {
 }
 
 void LammpsText::find_frames() {
-    // A small file is read without an index.
+    // Below this size a packed file is read without an index.
     constexpr std::uint64_t packed_long_pass = std::uint64_t{1} << 20;  // bytes
     const bool large = growth_.state().size >= (packing_ == Packing::none ? long_pass : packed_long_pass);
     if (std::optional<KeptIndex> kept; large && (kept = kept_index(file_, growth_.state()))) {
@@ -164,7 +164,7 @@ void LammpsText::refuse_without_frame() const {
         fmt::format("no frame of this file is whole, neither is the one that begins here: {}", cut_words()));
 }
 
-// Why the frame at the end is not whole.
+// Says why the frame at the end is not whole.
 std::string LammpsText::cut_words() const {
     const CutFrame& cut = *index_.cut;
     if (cut.in_head) return "it is cut within its head";
@@ -247,8 +247,8 @@ bool LammpsText::grow() {
     return index_.frames.size() > had;
 }
 
-// The first words of a dump, or those of one whose first line is missing. A dump in YAML is refused by name
-// when it is opened.
+// Whether the bytes begin as a dump, perhaps without its first line. A dump in YAML is taken too, and refused
+// with a message when it is opened.
 bool takes_text_dump(const FileHead& head) {
     std::string_view text = head.bytes;
     drop_byte_order_mark(text);

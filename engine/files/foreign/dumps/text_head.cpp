@@ -22,12 +22,12 @@ class HeadReader {
         : lines_(lines), file_(file), head_(head) {}
 
     HeadEnd read() {
-        bool passing = false;  // over the lines of an item that is not known
+        bool passing = false;  // skipping the lines of an unknown item
         bool any = false;
         while (lines_.next_with_words(line_)) {
             if (!line_.text.starts_with(mark)) {
                 if (passing) continue;
-                // A last line of "ITE" is the beginning of an item.
+                // If the last line is "ITE", it is the beginning of an item.
                 if (!line_.ended && mark.starts_with(line_.text)) return HeadEnd::cut;
                 refuse_other_line();
             }
@@ -75,10 +75,10 @@ class HeadReader {
         return Found::unknown;
     }
 
-    // The line behind an item. Returns false where the content ends before it.
+    // Takes the line after an item. Returns false where the content ends before it.
     bool value() { return lines_.next(line_); }
 
-    // Where a line is no value: cut where the content ends within it.
+    // For a line that is no value: the frame is cut where the content ends within the line.
     Found wrong(const std::string& what) const {
         if (!line_.ended) return Found::cut;
         refuse(what);
@@ -169,7 +169,7 @@ class HeadReader {
     DumpHead& head_;
     TextLine line_;
     bool counted_ = false;
-    std::string label_;  // what NUMBER OF counts
+    std::string label_;  // the word after NUMBER OF: what is counted
 };
 
 }  // namespace

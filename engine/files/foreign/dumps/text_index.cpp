@@ -21,10 +21,10 @@ constexpr std::string_view mark = "ITEM:";
 
 struct PassedRows {
     std::int64_t rows = 0;
-    bool unended = false;  // the last one has no line feed behind it
+    bool unended = false;  // the last one has no line feed
 };
 
-// A line is a row if it has words. memchr does most of the work.
+// Counts the rows. A line with words is a row; memchr does most of the work.
 class RowCounter {
   public:
     RowCounter(LineReader& lines, const fs::path& file, const DumpHead& head)
@@ -82,7 +82,7 @@ class RowCounter {
 
 void TextIndex::go_on(LineReader& lines, const fs::path& file) {
     cut.reset();
-    // A last row without a line feed may have become longer.
+    // If the last row had no line feed, it may have become longer.
     if (unended && !frames.empty()) {
         end = frames.back().place;
         end_line = frames.back().line;
@@ -100,7 +100,7 @@ bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {
     const HeadEnd found = read_head(lines, file, head);
     if (found == HeadEnd::nothing) return false;
     if (found == HeadEnd::cut) {
-        // Behind the last rows a time or units alone belong to a frame to come only where frames have them.
+        // Only a time or units after the last rows belong to a next frame if other frames have them.
         if (!frames.empty() && !head.step && (head.time || !head.units.empty()) && !timed)
             refuse_line(
                 file, head.line,
@@ -171,11 +171,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_words = 20000;  // that are looked at
-constexpr std::size_t many = 12;           // words whose common form is no chance
+constexpr std::size_t most_words = 20000;  // number of words that are looked at
+constexpr std::size_t many = 12;           // so many words have the same form not by chance
 
 struct Form {
-    std::size_t decimals = 0, exponent = 0, digits = 0;  // digits: significant ones
+    std::size_t decimals = 0, exponent = 0, digits = 0;  // digits: number of significant ones
     bool same(const Form& other) const { return decimals == other.decimals && exponent == other.exponent; }
 };
 
@@ -211,7 +211,7 @@ Row row_of(std::string_view text) {
     return row;
 }
 
-// From where `lines` stands. Returns the last row; the last words of those before it go to `others`.
+// Reads rows from where `lines` stands. Returns the last row; the last words of the others go to `others`.
 Row read_last_words(LineReader& lines, std::int64_t rows, std::vector<std::string>& others) {
     TextLine line;
     Row row;

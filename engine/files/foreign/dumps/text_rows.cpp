@@ -17,9 +17,9 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 19;   // bytes; it stays in a processor's cache
+constexpr std::size_t buffer_size = std::size_t{1} << 19;   // bytes; it fits into a processor's cache
 constexpr std::size_t longest_line = std::size_t{1} << 24;  // bytes
-constexpr std::size_t behind = 64;                          // bytes that may be read behind the last line
+constexpr std::size_t behind = 64;                          // bytes that may be read after the last line
 
 bool only_blanks(std::string_view text) {
     return text.find_first_not_of(" \t\r\v\f") == std::string_view::npos;
@@ -95,7 +95,7 @@ std::string_view LineReader::lines() {
         if (fill()) continue;
         if (used_ == held_) return {};
         unended_ = true;
-        buffer_[held_] = '\n';  // in the room behind
+        buffer_[held_] = '\n';  // in the extra room
         return {buffer_.data() + used_, held_ - used_ + 1};
     }
 }
@@ -122,9 +122,9 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class Kind {
-    number,  // of computes and fixes perhaps not finite
-    finite,  // what a grain cannot be without
-    word     // names of elements and types
+    number,  // of computes and fixes, perhaps not finite
+    finite,  // a grain must have it
+    word     // name of an element or a type
 };
 
 Kind kind_of(const std::string& name) {
@@ -136,8 +136,8 @@ class RowReader {
   public:
     RowReader(LineReader& lines, const fs::path& file, const RowsToRead& wanted)
         : lines_(lines), file_(file), wanted_(wanted) {
-        // A number takes two bytes of the file at least. Where more rows are claimed than there is room for,
-        // one of those that fit has too few fields.
+        // A number takes at least two bytes of the file. If the head claims more rows than there is room for,
+        // a row has too few fields and is found below.
         const std::uint64_t width = 2 * std::max<std::uint64_t>(wanted.names.size(), 1);
         const std::uint64_t room = wanted.bytes / width + 1;
         table_.rows =
@@ -166,7 +166,7 @@ class RowReader {
     }
 
   private:
-    // As many rows as the text has, at most all that are wanted. Returns the number of the next.
+    // Reads the rows of the text, but not more than wanted. Returns the number of the next row.
     std::size_t read_block(std::string_view text, std::size_t row) {
         const char* p = text.data();
         const char* const end = p + text.size();
@@ -181,8 +181,8 @@ class RowReader {
         return row;
     }
 
-    // Returns where the row ends. Where a word ends is found apart from the number in it, so that the
-    // processor begins with the next word before it is done with this one.
+    // Reads a row and returns its end. The end of a word is found independently of its number, so that the
+    // processor can begin with the next word before this one is finished.
     const char* read_row(const char* p, std::size_t row) {
         const std::size_t columns = values_.size();
         for (std::size_t c = 0; c < columns; ++c) {
@@ -204,11 +204,11 @@ class RowReader {
     static std::size_t words_from(const char* p) {
         std::size_t count = 0;
         for (; *p != '\n'; ++count)
-            p = pass_blanks(std::max(word_end(p), p + 1));  // a control character is a word
+            p = pass_blanks(std::max(word_end(p), p + 1));  // a control character counts as a word
         return count;
     }
 
-    // What is no plain decimal.
+    // Reads a word that is no plain decimal number.
     double read_word(std::string_view word, std::size_t c) {
         if (word.empty()) refuse_fields(c);
         if (kinds_[c] == Kind::word) return index_of(word, c);

@@ -1,4 +1,5 @@
-// Lines of a text behind any packing, with their places, through a buffer of fixed size.
+// Reads a text line by line through a buffer of fixed size, packed or not, and turns the rows of a dump's
+// frame into numbers. Most of the time of reading is spent here, and the source is compiled with -O3.
 #pragma once
 
 #include <cstddef>
@@ -16,28 +17,29 @@ namespace grainreel {
 
 struct TextLine {
     std::string_view text;    // without its end; valid until the next call
-    std::uint64_t place = 0;  // of its first byte in the unpacked content
+    std::uint64_t place = 0;  // its first byte in the unpacked content
     std::int64_t number = 0;  // from 1
-    bool ended = false;       // whether a line feed stands behind it
+    bool ended = false;       // whether it ends with a line feed
 };
 
 class LineReader {
   public:
     explicit LineReader(const std::filesystem::path& file);
 
-    // Returns false at the end of the content. Throws UserError where a line is longer than any of a dump.
+    // Reads the next line. Returns false at the end of the content. Throws UserError where a line is longer
+    // than any line of a dump.
     bool next(TextLine& line);
-    // The same, with lines passed over in which there are only blanks.
+    // The same, but lines with only blanks are skipped.
     bool next_with_words(TextLine& line);
-    // The line that next() gave will be given once more.
+    // Makes next() return this line, its last one, once more.
     void back(const TextLine& line);
 
-    // Lines as one piece of text, at least one, the last of them with its line feed (which is put there where
-    // the content ends without one). Behind it are 64 bytes more. Empty at the end of the content.
+    // One or more whole lines as one piece of text. The last line has a line feed, which is added if the
+    // content ends without one. 64 more bytes after the text may be read. Empty at the end of the content.
     std::string_view lines();
-    // Whether what lines() gave last is a line that ends with the content, without a line feed.
+    // Whether the last piece that lines() returned ends with the content and without a line feed.
     bool unended() const { return unended_; }
-    // Says that so many bytes and lines of what lines() gave were read.
+    // Tells that so many bytes and lines of the piece from lines() were used.
     void take(std::size_t bytes, std::int64_t lines);
 
     // Where the next line begins.
@@ -45,33 +47,31 @@ class LineReader {
     std::int64_t number() const { return number_; }
     void seek(std::uint64_t place, std::int64_t number);
 
-    // Whether the packed stream ended before its end; known once the end was reached.
+    // Whether a packed stream ended too early. It is known when the end was reached.
     bool cut_off() const { return source_->cut_off(); }
 
   private:
-    // More of the content behind what was not read yet. Returns false at the end.
+    // Reads more of the content into the buffer. Returns false at the end.
     bool fill();
 
     std::filesystem::path file_;
     std::unique_ptr<ByteSource> source_;
     std::vector<char> buffer_;
-    std::uint64_t buffer_place_ = 0;  // of its first byte
+    std::uint64_t buffer_place_ = 0;  // of its first byte in the content
     std::size_t used_ = 0, held_ = 0;
     bool at_end_ = false, unended_ = false;
     std::int64_t number_ = 1;
 };
 
-// The rows of a frame of a text dump, as numbers. This is where the time goes that reading takes.
-
 struct RowsToRead {
     std::vector<std::string> names;  // of the columns
     std::int64_t rows = 0;
-    std::uint64_t bytes = 0;  // of all rows together, at most; bounds the memory that is asked for
-    bool pairs = false;       // no grains: nothing is known of what the columns mean
+    std::uint64_t bytes = 0;  // at most, of all rows together; it limits the memory that is asked for
+    bool pairs = false;       // the rows are not grains, and the columns can be anything
 };
 
-// From where `lines` stands. Throws UserError with the line of a row that has too few or too many fields,
-// that has a word where a number must be, or an id, a place or a radius that is no finite number.
+// Reads the rows from where `lines` stands. Throws UserError with the line of a row that has too few or too
+// many fields, a word in place of a number, or an id, a place or a radius that is not finite.
 RawTable read_rows(LineReader& lines, const std::filesystem::path& file, const RowsToRead& wanted);
 
 }  // namespace grainreel
