@@ -1,5 +1,5 @@
-// AMBER NetCDF trajectories (convention 1.0 and what LAMMPS, OVITO and SimPARTIX put beside it): every number
-// of a grain becomes a column under the file's name.
+// Reads AMBER NetCDF trajectories (convention 1.0 with the additions of LAMMPS, OVITO and SimPARTIX). Each
+// number of a grain becomes a column with the name that it has in the file.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view hdf5_signature("\x89HDF\r\n\x1a\n");
 constexpr double pi = 3.14159265358979323846;
 
-// The library has one state for all files.
+// The library has one state for all files, so only one thread may use it at a time.
 std::mutex& library() {
     static std::mutex one;
     return one;
@@ -34,7 +34,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-// m in a unit of length, s in a unit of time; none where the word is no such unit.
+// m in a unit of length or s in a unit of time; none where the word is no such unit.
 std::optional<double> unit_of(const std::string& word) {
     static const std::map<std::string, double> units{{"m", 1},
                                                      {"meter", 1},
@@ -79,7 +79,7 @@ class AmberFile : public RawFile {
     const std::vector<RawMoment>& moments() const override { return moments_; }
     std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
-    // The same, where the library is ours already.
+    // The same for a caller that already holds the lock.
     RawFrame frame_at(std::size_t index) const;
 
   private:
@@ -122,8 +122,8 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), variables
     find_units();
 }
 
-// Who writes such a file counts a frame behind the others when it is whole, and a program that is stopped may
-// leave none counted.
+// Programs count a frame in the header only when it is whole, and a program that was stopped may not have
+// counted any.
 void AmberFile::refuse_without_frames() const {
     const std::string name = file_.string();
     if (variables_.declared() > 0)
@@ -140,7 +140,7 @@ void AmberFile::refuse_without_frames() const {
                     name, *behind, count, name));
 }
 
-// Fewer than there is room for: the rest has the fill value.
+// Number of grains in a frame. The places after them have the fill value.
 std::size_t AmberFile::grains_of(std::size_t frame) const {
     const AmberVariable& places = variables_.places();
     const std::size_t most = variables_.grains(), width = places.components;
@@ -175,7 +175,8 @@ std::optional<std::array<double, 3>> AmberFile::triple(const char* name, std::si
     return triple;
 }
 
-// The first edge lies along x, the second in the plane of x and y. A length of 0: the box has no end there.
+// The first edge of the box lies along x, the second in the plane of x and y. Where a length is 0, the box
+// has no end.
 std::optional<WorldCell> AmberFile::box_of(std::size_t frame) const {
     const auto lengths = triple("cell_lengths", frame);
     if (!lengths) return std::nullopt;
@@ -213,7 +214,7 @@ void AmberFile::add_columns(RawTable& grains, const AmberVariable& variable, std
     }
 }
 
-// Whether the grains lie closer than 1 angstrom on the average, so that a file that says angstrom, as the
+// Whether the mean distance of grains is less than 1 angstrom. Then a file that says angstrom, as the
 // convention asks for, cannot mean it.
 bool AmberFile::too_dense_for_atoms() const {
     const RawFrame frame = frame_at(0);
@@ -274,7 +275,7 @@ bool is_hdf5(const std::filesystem::path& file) {
     return head == hdf5_signature;
 }
 
-// Opens a file of HDF5 and reads all of it, where a crash does no harm.
+// Opens a file of HDF5 and reads all of it in a child process, where a crash does no harm.
 void try_hdf5(const std::filesystem::path& file) {
     const auto read_all = [&] {
         const AmberFile one(file);

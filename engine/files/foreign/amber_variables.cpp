@@ -23,7 +23,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::size_t most_components = 64;
-constexpr std::uint64_t most_packing = 1100;  // how many bytes zlib makes of one at most
+constexpr std::uint64_t most_packing = 1100;  // the most bytes that zlib makes of one
 
 std::uint64_t size_of(const std::filesystem::path& file) {
     std::error_code error;
@@ -42,7 +42,7 @@ std::uint64_t little_endian(const std::string& bytes, std::size_t place, std::si
     return value;
 }
 
-// The superblock of HDF5 says where the file ends (HDF5 file format specification, II.A).
+// Checks the end of the file against HDF5's superblock (HDF5 file format specification, II.A).
 void check_hdf5(const std::filesystem::path& file, const std::string& head) {
     constexpr std::size_t superblock = 64;
     const std::string name = file.string();
@@ -52,7 +52,7 @@ void check_hdf5(const std::filesystem::path& file, const std::string& head) {
         throw UserError(fmt::format("{}: byte 8: has the version {} of HDF5's superblock; 0 to 3 are read",
                                     name, version));
     const std::size_t width = static_cast<unsigned char>(head[version < 2 ? 13 : 9]);
-    if (width != 8) return;  // the library says what it thinks of such a file
+    if (width != 8) return;  // the library reports what is wrong with such a file
     const std::size_t place = version == 0 ? 40 : version == 1 ? 44 : 28;
     const std::uint64_t end = little_endian(head, place, 8), size = size_of(file);
     if (end > size)
@@ -87,7 +87,7 @@ std::optional<double> number_attribute(int group, int variable, const char* name
     return value;
 }
 
-// What the library writes where nothing was; none for types that are no numbers.
+// The library's fill value of a type; none for types that are not numbers.
 std::optional<double> usual_fill(nc_type type) {
     switch (type) {
         case NC_BYTE:
@@ -254,7 +254,7 @@ std::vector<double> AmberVariables::read(const AmberVariable& variable, std::siz
     if (variable.per_frame) add(frame, 1);
     if (variable.per_grain) add(0, grains);
     if (!variable.single) add(0, variable.components);
-    if (start.empty()) add(0, 1);  // a single number; the library takes any place for it
+    if (start.empty()) add(0, 1);  // a single number; the library ignores the place
     std::vector<double> values(size);
     if (size > 0) check(nc_get_vara_double(id_, variable.id, start.data(), count.data(), values.data()));
     return values;
@@ -262,7 +262,7 @@ std::vector<double> AmberVariables::read(const AmberVariable& variable, std::siz
 
 namespace {
 
-// The child's way: no handlers of ours, no core file, an end in time.
+// What the child does: it has none of our signal handlers, leaves no core file and ends in time.
 [[noreturn]] void work_alone(const std::function<void()>& work, unsigned seconds) {
     constexpr std::array<int, 6> signals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM};
     for (const int signal : signals) ::signal(signal, SIG_DFL);
@@ -271,7 +271,7 @@ namespace {
     ::alarm(seconds);
     try {
         work();
-    } catch (...) {  // the parent hears of it when it does the same
+    } catch (...) {  // the parent gets the same exception when it does the work itself
     }
     ::_exit(0);
 }

@@ -44,7 +44,7 @@ class PlainBytes : public ByteSource {
     std::uint64_t place_ = 0;
 };
 
-// What is packed in a way that is not read, by its first bytes.
+// The name of a packing that is not read, by the first bytes; empty for all else.
 struct UnreadPacking {
     std::string_view magic;
     const char* name;
@@ -62,8 +62,8 @@ constexpr UnreadPacking unread[] = {
     {"7z\xBC\xAF\x27\x1C"sv, "7-Zip", "7z x"},
 };
 
-// Whether the digits and the pi of bzip2 follow, and whether lzma's head has a dictionary and a size that can
-// be.
+// Whether bzip2's digit and its bytes of pi follow, and whether lzma's header has a possible dictionary and
+// size.
 bool really(const UnreadPacking& packing, std::string_view head) {
     const auto byte = [head](std::size_t k) {
         return k < head.size() ? static_cast<unsigned char>(head[k]) : 0u;
@@ -81,7 +81,7 @@ Packing packing_of(const FileBytes& file) {
     const std::string_view head(bytes, file.read_at(0, bytes, sizeof bytes));
     if (head.starts_with("\x1F\x8B")) return Packing::gzip;
     if (head.starts_with("\x28\xB5\x2F\xFD")) return Packing::zstd;
-    // A zstd frame that is to be skipped: 0x184D2A50 to 5F.
+    // The magic of a skippable zstd frame is 0x184D2A50 to 0x184D2A5F.
     if (head.size() >= 4 && (head[0] & 0xF0) == 0x50 && head.substr(1).starts_with("\x2A\x4D\x18"))
         return Packing::zstd;
     for (const UnreadPacking& packing : unread)
@@ -150,7 +150,7 @@ std::string shown(const fs::path& file) {
 FileBytes::FileBytes(const fs::path& file) : path_(file) {
     if (const std::string other = other_than_file(file, true); !other.empty())
         throw UserError(fmt::format("{}: is {}; give an ordinary file", shown(file), other));
-    // O_NONBLOCK keeps the opening from waiting where a pipe took the file's name just now.
+    // O_NONBLOCK keeps open() from waiting if a pipe has just taken the file's name.
     file_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat about {};
     if (file_ >= 0 && ::fstat(file_, &about) == 0 && S_ISREG(about.st_mode)) return;
@@ -237,11 +237,11 @@ void PackedBytes::damaged(const std::string& why) const {
                     shown(file_->path()), read_ - left(), why));
 }
 
-// gzip: RFC 1952, members one behind the other are one content.
+// gzip, RFC 1952. Members that follow each other are one content.
 
 namespace {
 
-constexpr int gzip_window = 15 + 16;  // zlib: the largest window, with the head and the sum of gzip
+constexpr int gzip_window = 15 + 16;  // for zlib: the largest window, with gzip's header and checksum
 
 class GzipBytes : public PackedBytes {
   public:
@@ -256,11 +256,11 @@ class GzipBytes : public PackedBytes {
         between_ = true;
     }
 
-    // To the next member. Returns whether there is one.
+    // Goes to the next member. Returns whether there is one.
     bool next_member() {
         while (fill()) {
             if (*packed() != 0) break;
-            use(1);  // tapes and some copies fill up with zeros
+            use(1);  // tapes and some copies are filled up with zeros
         }
         if (left() == 0) return false;
         if (static_cast<unsigned char>(*packed()) != 0x1f)
@@ -295,7 +295,7 @@ class GzipBytes : public PackedBytes {
     }
 
     z_stream stream_{};
-    bool between_ = true;  // of two members, or at the beginning
+    bool between_ = true;  // between two members, or at the beginning
 };
 
 }  // namespace
@@ -304,7 +304,7 @@ std::unique_ptr<ByteSource> gzip_bytes(std::unique_ptr<FileBytes> file) {
     return std::make_unique<GzipBytes>(std::move(file));
 }
 
-// zstd: RFC 8878, frames one behind the other are one content.
+// zstd, RFC 8878. Frames that follow each other are one content.
 
 namespace {
 
@@ -324,7 +324,7 @@ class ZstdBytes : public PackedBytes {
     std::size_t unpack(char* to, std::size_t size) override {
         ZSTD_outBuffer out{to, size, 0};
         while (out.pos == 0) {
-            // Where all was read, zstd may still hold unpacked bytes that found no room in the call before.
+            // When all is read, zstd may still hold unpacked bytes for which the last call had no room.
             const bool more = fill();
             ZSTD_inBuffer in{packed(), left(), 0};
             if (!more && wants_ == 0) return 0;

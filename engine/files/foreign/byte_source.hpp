@@ -1,4 +1,5 @@
-// The bytes of a file behind gzip (several members too) and zstd. The content decides, not the suffix.
+// The bytes of a file, unpacked where it is gzip (also with several members) or zstd. The content decides,
+// not the suffix. All readers of other programs' files take their bytes from here.
 #pragma once
 
 #include <sys/types.h>
@@ -15,41 +16,39 @@ namespace grainreel {
 enum class Packing { none, gzip, zstd };
 
 // The first kHeadBytes of a file's content, unpacked. Throws UserError where the file is no ordinary file,
-// cannot be opened, or is packed in a way that is not read (xz, lzma, bzip2: refused by name).
+// cannot be opened, or is packed in a way that is not read (xz, lzma and bzip2 are refused by name).
 FileHead unpacked_head(const std::filesystem::path& file);
 
 // A stream of a file's content from its beginning.
 class ByteSource {
   public:
     virtual ~ByteSource() = default;
-    // Up to `size` bytes; fewer only at the end. Throws UserError where the packed bytes are damaged.
+    // Reads up to `size` bytes; fewer only at the end. Throws UserError where the packed bytes are damaged.
     virtual std::size_t read(char* to, std::size_t size) = 0;
-    // Whether the packed stream ended before its end: the bytes until there were given.
+    // Whether the packed stream ended too early; the bytes before that were given.
     virtual bool cut_off() const = 0;
-    // To a place of the unpacked content. Packed files are read from the beginning again where it lies
-    // behind.
+    // Goes to a place of the unpacked content. To go back, a packed file is read from the beginning again.
     virtual void seek(std::uint64_t place) = 0;
 };
 
 Packing packing_of(const std::filesystem::path& file);
 std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& file);
 
-// All of a file, unpacked. Throws UserError where there are more than `most` bytes.
+// The whole content of a file, unpacked. Throws UserError where it has more than `most` bytes.
 std::string all_bytes(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 33);
 
-// An ordinary file, read at any place. It is read into memory and not mapped: a file that another program
-// truncates while it is read must end in a message, and a mapped one ends in a signal.
-
-// Which file lies under a name, and how it was when somebody looked.
+// Which file has a name, and its state when it was looked at.
 struct FileState {
     std::uint64_t size = 0;
     std::uint64_t device = 0, inode = 0;
-    std::int64_t changed = 0;  // ns since 1970, of its content
+    std::int64_t changed = 0;  // ns since 1970, the last change of its content
 
     bool same_file(const FileState& other) const { return device == other.device && inode == other.inode; }
     bool operator==(const FileState&) const = default;
 };
 
+// An ordinary file that is read at any place. It is not mapped into memory: if another program truncates it
+// while it is read, there must be a message, and a mapped file would end in a signal.
 class FileBytes {
   public:
     // Throws UserError where there is no ordinary file or where it cannot be opened.
@@ -60,8 +59,8 @@ class FileBytes {
 
     const std::filesystem::path& path() const { return path_; }
     FileState state() const;
-    // Up to `size` bytes from a place on; fewer only at the end of the file. Throws UserError where the disk
-    // fails.
+    // Reads up to `size` bytes from a place on; fewer only at the end of the file. Throws UserError where the
+    // disk fails.
     std::size_t read_at(std::uint64_t place, char* to, std::size_t size) const;
 
   private:
@@ -69,18 +68,15 @@ class FileBytes {
     int file_ = -1;
 };
 
-// The path as a message shows it.
+// The path as messages show it.
 std::string shown(const std::filesystem::path& file);
 
-// Sources of bytes behind a packing. Each reads its file from the beginning; a place behind the present one
-// is reached by beginning again.
-
-// Reads one member or several. Zero bytes between and behind them are passed over.
+// Reads gzip with one or several members. Zero bytes between and after members are skipped.
 std::unique_ptr<ByteSource> gzip_bytes(std::unique_ptr<FileBytes> file);
-// Reads one frame or several, and passes over those that are to be skipped.
+// Reads zstd with one or several frames; skippable frames are skipped.
 std::unique_ptr<ByteSource> zstd_bytes(std::unique_ptr<FileBytes> file);
 
-// What both have in common: the packed bytes, a piece at a time, and the way to a place.
+// What both have in common: the packed bytes, read piece by piece, and the way to a place.
 class PackedBytes : public ByteSource {
   public:
     explicit PackedBytes(std::unique_ptr<FileBytes> file);
@@ -90,11 +86,11 @@ class PackedBytes : public ByteSource {
     void seek(std::uint64_t place) final;
 
   protected:
-    // Some unpacked bytes; none at the end. It may set cut_off_.
+    // Gives some unpacked bytes; none at the end. It may set cut_off_.
     virtual std::size_t unpack(char* to, std::size_t size) = 0;
     virtual void begin_again() = 0;
 
-    // The packed bytes that were not used yet, at least one. Returns whether there are any.
+    // Makes sure that there are packed bytes which were not used yet. Returns whether there are any.
     bool fill();
     const char* packed() const { return piece_.get() + used_; }
     std::size_t left() const { return held_ - used_; }
@@ -108,8 +104,8 @@ class PackedBytes : public ByteSource {
     std::unique_ptr<FileBytes> file_;
     std::unique_ptr<char[]> piece_;
     std::size_t held_ = 0, used_ = 0;
-    std::uint64_t read_ = 0;   // packed bytes that were read
-    std::uint64_t place_ = 0;  // in the unpacked content
+    std::uint64_t read_ = 0;   // number of packed bytes read
+    std::uint64_t place_ = 0;  // present place in the unpacked content
 };
 
 }  // namespace grainreel

@@ -29,8 +29,8 @@ ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& optio
     decide_velocities();
 }
 
-// Steps and times agree in every moment: where the files' own do not, steps are ticks of a millionth of the
-// shortest interval.
+// Makes the moments, in each of which the time is the step times a constant length. If the files' steps and
+// times do not fit this, steps are counted in ticks of a millionth of the shortest interval.
 void ForeignArchive::list_moments() {
     const std::vector<RawMoment>& raw = grains_->moments();
     const UnitSystem units = [&] {
@@ -61,14 +61,14 @@ void ForeignArchive::list_moments() {
         std::sort(sorted.begin(), sorted.end());
         const double median =
             sorted.empty() || !(sorted[sorted.size() / 2] > 0) ? 1 : sorted[sorted.size() / 2];
-        // A single frame tells no interval.
+        // With a single frame there is no interval.
         for (double& time : times) time = times.size() == 1 ? 0 : time / (median * kUntimedRate);
         for (double& interval : intervals) interval /= median * kUntimedRate;
         news_.push_back(fmt::format("{}: says no times; its frames are taken as {} a second{}",
                                     path_.string(), kUntimedRate,
                                     stepped ? "; --time-step 1e-6 (s) gives them" : ""));
     }
-    // One length of a step for all?
+    // Do all moments have steps of the same length?
     double tick = 0;
     bool even = stepped;
     for (std::size_t k = 0; k < times.size(); ++k)
@@ -105,16 +105,17 @@ const RawFrame& ForeignArchive::raw(std::size_t index) const {
     return last_->second;
 }
 
-// Frames in which types are looked for.
+// Number of frames in which types are looked for.
 std::size_t ForeignArchive::most_looks() const {
-    constexpr std::uintmax_t small = 32 << 20;  // bytes, read in a moment
+    constexpr std::uintmax_t small = 32 << 20;  // bytes; so many are read in a moment
     std::uintmax_t bytes = 0;
     std::error_code ignored;
     for (const fs::path& file : grains_->files()) bytes += fs::file_size(file, ignored);
     return looks_ == Looks::all || bytes <= small ? moments_.size() : 64;
 }
 
-// Which types there are, how many grains, and what the columns mean. Of many frames some are looked at.
+// Finds out which types there are, how many grains, and what the columns mean. Of many frames only some are
+// read.
 void ForeignArchive::survey() {
     const std::size_t frames = moments_.size(), most = std::max<std::size_t>(1, most_looks());
     const std::size_t stride = std::max<std::size_t>(1, (frames + most - 1) / most);
@@ -130,7 +131,7 @@ void ForeignArchive::survey() {
     }
     for (const auto& [word, name] : options_.species) types_.add(word);
     if (!meaning_) {
-        // Not one grain: the meaning of no columns is that of a bare table.
+        // There is not one grain, so the columns get the meaning of an empty table.
         RawFrame empty;
         empty.grains.columns = {{"id", {}}, {"x", {}}, {"y", {}}, {"z", {}}, {"radius", {}}};
         meaning_.emplace(grains_->facts(), empty, ReadingOptions(), path_.string());
@@ -158,7 +159,7 @@ void ForeignArchive::survey_contacts() {
     for (std::size_t k = 0; k < moments.size(); ++k) {
         std::optional<std::int64_t> step = moments[k].step;
         if (!step && moments[k].time) {
-            // By time, where both have times alone.
+            // Where both only have times, contacts are found by time.
             for (std::size_t f = 0; f < frames; ++f)
                 if (grains_->moments()[f].time && std::abs(*grains_->moments()[f].time - *moments[k].time) <=
                                                       1e-6 * std::abs(*moments[k].time) + 1e-12)
@@ -169,7 +170,7 @@ void ForeignArchive::survey_contacts() {
     has_contacts_ = !contacts_at_.empty();
 }
 
-// Columns of a dump local have any names. Where they do not say who touches whom, there are no contacts.
+// Columns of a dump local may have any names. If they do not tell which grains touch, contacts are left out.
 void ForeignArchive::check_contact_columns() {
     const RawSeries& from = contacts_ ? *contacts_ : *grains_;
     for (std::size_t k = 0; k < from.moments().size(); ++k) {
@@ -267,7 +268,7 @@ FrameSupply ForeignArchive::supply() const {
 
 namespace {
 
-// The way of a grain between two frames, through a periodic box the short way round.
+// The displacement of a grain between two frames; in a periodic box the shortest one.
 Vec3 way(const Vec3& from, const Vec3& to, const std::optional<WorldCell>& cell) {
     Vec3 between = to - from;
     if (!cell) return between;
@@ -289,7 +290,7 @@ std::optional<std::size_t> row_of(const Frame& frame, std::int32_t id) {
 
 }  // namespace
 
-// Moments are close enough where nearly all grains move less than their diameter from one to the next.
+// Velocities are computed if nearly all grains move less than their diameter from one moment to the next.
 void ForeignArchive::decide_velocities() {
     if (meaning_->has_velocities() || !world_.time_known || !meaning_->has_ids() || moments_.size() < 2)
         return;
@@ -311,7 +312,7 @@ void ForeignArchive::decide_velocities() {
                                path_.string()));
 }
 
-// By central differences; at the ends and where a grain has come or goes, by the one neighbour that it has.
+// Velocities by central differences. At the first and last moment of a grain, one neighbour is used.
 void ForeignArchive::derive_velocities(std::size_t index, Frame& frame) const {
     const bool has_before = index > 0, has_after = index + 1 < moments_.size();
     const Frame before = has_before ? read(index - 1) : Frame(),

@@ -1,4 +1,6 @@
-// A run of another program as a record of frames: grains, contacts and walls from its files, in SI.
+// A run of another program as a FrameArchive: grains, contacts and walls from its files, in SI. Three sources
+// belong to it: foreign_files.cpp chooses the files, foreign_walls.cpp follows walls, foreign_archive.cpp
+// does the rest. Formats are read elsewhere (raw_file.hpp); nothing here depends on one of them.
 #pragma once
 
 #include <filesystem>
@@ -15,21 +17,22 @@
 
 namespace grainreel {
 
-// Frames without times come so many to a second; whoever shows them says that it is no time of the run.
+// The rate of frames without times. Code that shows them says that this is not the time of the run.
 inline constexpr double kUntimedRate = 25;  // 1/s
 
-// Whether some reader of other programs' files takes what has that name: a file, a pattern, or a folder with
-// such files that is no run of ours.
+// Whether a path names files of other programs that can be read: a file, a pattern, or a folder with such
+// files that is not a run of ours.
 bool is_foreign(const std::filesystem::path& path);
 
 class ForeignArchive final : public FrameArchive {
   public:
-    // How many frames are looked at for the types that there are. some: all of small files, and 64 of others,
-    // so that a question to one frame need not wait; a frame with another type throws UnknownType.
+    // In how many frames types are looked for. some: in all frames of small files and in 64 of others, so
+    // that a question about one frame need not wait long. A frame with a type that was not found throws
+    // UnknownType.
     enum class Looks { some, all };
 
-    // path: a file, a pattern, or a folder. Throws UserError where nothing there can be read, and for what
-    // its reader finds wrong.
+    // path: a file, a pattern, or a folder. Throws UserError where nothing there can be read or its reader
+    // finds something wrong.
     ForeignArchive(const std::filesystem::path& path, const ReadingOptions& options,
                    Looks looks = Looks::some);
 
@@ -42,16 +45,16 @@ class ForeignArchive final : public FrameArchive {
     bool has_contacts_of(std::size_t) const override { return has_contacts_; }
     std::vector<std::string> news() const override { return news_; }
 
-    // Walls by their bodies, from kFirstPlaneBody on.
+    // The walls. Wall k is body kFirstPlaneBody + k.
     const std::vector<MovingWall>& walls() const { return walls_; }
-    // What a wall says of its triangles at a moment, a row each; null where it says nothing.
+    // The numbers of a wall's triangles at a moment, a row for each triangle; null where there are none.
     const RawTable* wall_cells(std::size_t index, std::size_t wall) const;
     const UnitSystem& units() const { return meaning_->units(); }
     // All files that were read.
     const std::vector<std::filesystem::path>& files() const { return all_files_; }
-    // "LAMMPS text dump".
+    // The name of the format: "LAMMPS text dump".
     const std::string& format() const { return grains_->facts().format; }
-    // Velocities come from the places of neighbouring moments.
+    // Whether velocities are computed from the places of neighbouring moments.
     bool derived_velocities() const { return derived_; }
 
   private:
@@ -76,22 +79,22 @@ class ForeignArchive final : public FrameArchive {
     ReadingOptions options_;
     Looks looks_;
     std::unique_ptr<RawSeries> grains_,
-        contacts_;  // contacts: null where the grains' files have them, or nobody
+        contacts_;  // contacts_ is null where the grains' files have the contacts, or there are none
     std::vector<std::vector<std::filesystem::path>> wall_files_;
     std::vector<std::filesystem::path> all_files_;
     std::optional<GrainMeaning> meaning_;
     TypeList types_;
     World world_;
     std::vector<Frame> moments_;
-    std::vector<std::int64_t> raw_steps_;              // of the moments, as the files have them
-    std::map<std::int64_t, std::size_t> contacts_at_;  // step -> its place in contacts_
+    std::vector<std::int64_t> raw_steps_;              // steps of the moments as in the files
+    std::map<std::int64_t, std::size_t> contacts_at_;  // for each step: its place in contacts_
     std::vector<MovingWall> walls_;
     std::vector<WallMoment> wall_moments_;
-    std::vector<std::vector<std::size_t>> wall_at_;  // of each moment and wall: which of its poses
+    std::vector<std::vector<std::size_t>> wall_at_;  // for each moment and wall: the number of its pose
     bool has_contacts_ = false, derived_ = false;
     std::vector<std::string> news_;
     mutable std::optional<std::pair<std::size_t, RawFrame>>
-        last_;  // read last: grains and contacts of one moment
+        last_;  // the frame that was read last, and its number
     const RawFrame& raw(std::size_t index) const;
 };
 

@@ -1,5 +1,5 @@
-// Which files of another program are read as one run: the grains, and the contacts and walls beside them.
-// This part of ForeignArchive chooses them; foreign_reader() is its line in the list of readers of frames.
+// The part of ForeignArchive that chooses the files of a run: those of the grains, and of contacts and walls
+// beside them. foreign_reader() is its entry in the list of readers of frames.
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a file holds, by its first frame.
+// What a file holds, judged by its first frame.
 enum class Holds { nothing, grains, contacts, walls };
 
 Holds what_holds(const fs::path& file) {
@@ -96,7 +96,8 @@ void ForeignArchive::choose_files() {
     for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
 }
 
-// Takes the longest of several series of grains in a folder, because a run is often written in two formats.
+// Of several series of grains in a folder it takes the longest, because a run is often written in two
+// formats.
 void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     const std::vector<FileGroup> groups = grouped(files);
     const FileGroup* chosen = nullptr;
@@ -125,8 +126,8 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     if (options_.contacts.empty() && !contacts.empty())
         contacts_ = std::make_unique<RawSeries>(contacts.front()->files);
     if (!options_.walls.empty()) return;
-    // Surfaces that come again at each moment are where they are; a lone file beside them is what they were
-    // made of.
+    // Surfaces that are written at each moment are in their present places. A single file beside them is what
+    // they were made from.
     const bool moving =
         std::any_of(walls.begin(), walls.end(), [](const FileGroup* one) { return one->files.size() > 1; });
     for (const FileGroup* wall : walls) {
@@ -139,7 +140,7 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     }
 }
 
-// MercuryDPM writes NAME.data, NAME.fstat and NAME.restart.
+// Adds contacts and walls of MercuryDPM, which writes NAME.data, NAME.fstat and NAME.restart.
 void ForeignArchive::add_companions(const fs::path& file) {
     if (grains_->facts().program.find("Mercury") == std::string::npos &&
         grains_->facts().format.find("Mercury") == std::string::npos)

@@ -17,8 +17,8 @@ namespace grainreel {
 
 namespace {
 
-// Which part each triangle belongs to. Vertices join where they lie on one place to six digits, as text files
-// have them.
+// The number of the connected part that each triangle belongs to. Vertices are the same if their places agree
+// to six digits, which is what text files have.
 std::vector<std::size_t> parts_of(const TriangleMesh& mesh) {
     Vec3 low = Vec3::Constant(1e300), high = -low;
     for (const Vec3& vertex : mesh.vertices) low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);
@@ -49,7 +49,7 @@ std::vector<std::size_t> parts_of(const TriangleMesh& mesh) {
     return parts;
 }
 
-// Corners of some triangles, three each.
+// The corners of some triangles, three for each.
 std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::size_t>& triangles,
                              double unit) {
     std::vector<Vec3> corners;
@@ -78,7 +78,7 @@ RawTable rows_of(const RawTable& table, const std::vector<std::size_t>& rows) {
     return some;
 }
 
-// One part of one surface through all moments.
+// Follows one part of one surface through all moments.
 MovingWall follow(const std::vector<WallMoment>& moments, std::size_t wall,
                   const std::vector<std::size_t>& triangles, double unit, bool& changes) {
     const RawWall& first = moments.front().walls[wall];
@@ -148,7 +148,7 @@ std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, dou
         const RawWall& first = moments.front().walls[wall];
         if (first.mesh.empty()) continue;
         std::vector<std::vector<std::size_t>> parts(1);
-        // Parts matter only where something moves.
+        // Parts matter only if something can move.
         if (moments.size() > 1) {
             const std::vector<std::size_t> of = parts_of(first.mesh);
             parts.assign(1 + *std::max_element(of.begin(), of.end()), {});
@@ -160,7 +160,7 @@ std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, dou
         std::vector<MovingWall> moving;
         for (const std::vector<std::size_t>& triangles : parts)
             moving.push_back(follow(moments, wall, triangles, unit, changes));
-        // What stands still together is one wall again.
+        // If no part moves, the parts are one wall again.
         const bool any =
             std::any_of(moving.begin(), moving.end(), [](const MovingWall& one) { return one.moves; });
         constexpr std::size_t most_parts = 100;
@@ -177,7 +177,7 @@ std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, dou
     return all;
 }
 
-// Where no other walls are known, the sides and the floor of a box that is not periodic stand for them.
+// Adds the sides and the floor of a box that is not periodic as walls, if no others are known.
 void ForeignArchive::add_box() {
     if (!walls_.empty() || !world_.cell || !options_.container.empty()) return;
     const WorldCell& cell = *world_.cell;
@@ -223,7 +223,7 @@ void ForeignArchive::read_walls() {
         walls_ = follow_walls(wall_moments_, unit, wall_files_.front().front().string(), news_);
         return;
     }
-    // Several series: those of one file stand still, and of the others all must have the same moments.
+    // There are several series. A series of one file stands still, and all others must have the same moments.
     for (const std::vector<std::filesystem::path>& files : wall_files_) {
         const RawSeries series(files);
         std::vector<WallMoment> moments;
@@ -237,7 +237,7 @@ void ForeignArchive::read_walls() {
     }
 }
 
-// A wall rests where it is at the first moment of the grains.
+// Makes the place of a wall at the first moment of the grains its place at rest.
 void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
     const BodyPose rest = wall.poses[first];
     for (Vec3& vertex : wall.shape.vertices) vertex = rest.moved(vertex);
@@ -247,7 +247,7 @@ void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
     }
 }
 
-// The pose of each wall at each moment: the last one that is not later, by step or by time.
+// Finds the pose of each wall at each moment: the last one that is not later, by step or by time.
 void ForeignArchive::match_walls() {
     for (std::size_t k = 0; k < moments_.size(); ++k) {
         std::vector<std::size_t> at;

@@ -1,5 +1,5 @@
-// Walls of other programs: surfaces that come once, or again at each moment where they are then. A surface
-// that moves is one rigid body, whose shape is kept once and whose pose each moment has.
+// Walls of other programs. A file has a surface once, or again at each moment in its present place. Here a
+// surface that moves becomes a rigid body: its shape is kept once, and each moment has its pose.
 #pragma once
 
 #include <optional>
@@ -21,19 +21,19 @@ struct WallMoment {
 struct MovingWall {
     std::string name;
     TriangleMesh shape;           // m, as it was at its first moment
-    std::vector<BodyPose> poses;  // one for each WallMoment; velocities are zero
+    std::vector<BodyPose> poses;  // one for each WallMoment, with zero velocities
     bool moves = false;
-    std::vector<RawTable> cells;  // of each moment, a row a triangle; empty where there are none
+    std::vector<RawTable> cells;  // for each moment a row for each triangle; empty where there are none
 };
 
-// Connected parts of each surface, which may move on their own (LIGGGHTS writes all its meshes into one
-// solid), each followed through all moments. unit: m. Where a surface changes its shape or its number of
-// triangles, it stays as it was at first, with a line of news. name: of the files, for news.
+// Follows the connected parts of each surface through all moments. Parts may move on their own, because
+// LIGGGHTS writes all its meshes into one solid. A surface that changes its shape or its number of triangles
+// stays as it was at first, with a line of news. unit: m. name: of the files, for news.
 std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, double unit,
                                      const std::string& name, std::vector<std::string>& news);
 
-// The rotation and shift that bring points to where they are now, by least squares (Kabsch 1976, Acta Cryst.
-// A 32, 922); residual: m, the largest distance that is left.
+// The rotation and displacement that move points to their present places, by least squares (Kabsch 1976, Acta
+// Cryst. A 32, 922). residual: m, the largest distance that remains.
 struct RigidMotion {
     BodyPose pose;
     double residual = 0;

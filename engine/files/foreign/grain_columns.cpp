@@ -15,7 +15,7 @@ namespace grainreel {
 namespace {
 
 constexpr const char* kAxes = "xyz";
-constexpr double kMostId = 2147483646;  // ids of frames have 32 bits
+constexpr double kMostId = 2147483646;  // ids have 32 bits in a Frame
 
 std::optional<double> number_of(const std::string& word) {
     char* end = nullptr;
@@ -126,7 +126,7 @@ void GrainMeaning::find_places(const RawTable& table) {
         place_unit_ = units_.length;
 }
 
-// No z means discs in a plane where the box is thinner than a grain there, or the file says so.
+// Without z the grains are discs in a plane, if the box is thinner than a grain along z or the file says so.
 void GrainMeaning::check_flat(const RawFrame& frame) const {
     if (facts_.dimensions == 2) return;
     const bool thin = frame.box && frame.box->periodic[2] &&
@@ -172,7 +172,7 @@ Vec3 GrainMeaning::place_of(const RawFrame& raw, std::size_t row) const {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<Eigen::Index>(axis);
             if (!scaled_[axis]) continue;
-            // A share of one edge moves along all of it; an axis that is given as a length keeps that length.
+            // A fraction is multiplied by the whole edge; a coordinate that is a length stays as it is.
             const Vec3 along = share[a] * raw.box->edges[axis];
             place[a] += raw.box->origin[a];
             for (std::size_t other = 0; other < 3; ++other)
@@ -214,7 +214,7 @@ void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
         types.add("1");
         return;
     }
-    // Neighbouring rows often have one type; the word is made only where it changes.
+    // Neighbouring rows often have the same type, so the word is made only where the type changes.
     double last = std::numeric_limits<double>::quiet_NaN();
     constexpr std::size_t most = 1000;
     for (std::size_t row = 0; row < raw.grains.rows; ++row) {
@@ -269,7 +269,7 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
         if (i > 0 && ids[order[i - 1]] == ids[row])
             throw UserError(
                 fmt::format("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]));
-        // Neighbours often have one type; its word is made only where it changes.
+        // Neighbouring rows often have the same type, so the word is made only where the type changes.
         const double type = type_ ? value(table, type_, row) : 0;
         if (!species || type != last_type) {
             species = types.place(type_of(raw, row));
@@ -344,7 +344,7 @@ std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingO
         touch.first = static_cast<std::int32_t>(a);
         touch.second = static_cast<std::int32_t>(b);
         if (touch.first < 0) std::swap(touch.first, touch.second);
-        if (touch.first < 0) continue;  // two walls
+        if (touch.first < 0) continue;  // a contact of two walls
         if (normal)
             touch.force = std::abs(at(*normal, row)) * units.force();
         else if (fx && fy && fz)

@@ -1,5 +1,5 @@
-// Which columns of a file say what of its grains, and how they become SI. Found once for a file's names, and
-// used for all its frames.
+// Turns the columns of a file into grains in SI. The meaning of the columns is found once for a file and used
+// for all its frames.
 #pragma once
 
 #include <array>
@@ -17,18 +17,18 @@
 
 namespace grainreel {
 
-// A frame has a type that was not among those that were looked for.
+// A frame has a type that was not found in the frames that were looked at.
 class UnknownType : public UserError {
   public:
     using UserError::UserError;
 };
 
-// Types of a record by the words that the files have for them ("1", "big"), in the order of the species.
+// The types of a run in the order of the species, by the words that the files have for them ("1", "big").
 class TypeList {
   public:
-    // Adds a word where it is new, so that numbers come before words, by rising value.
+    // Adds a word if it is new. Numbers come first, by rising value, and then words.
     void add(const std::string& word);
-    // Where a word stands; none where it is unknown.
+    // The place of a word in the list; none where it is unknown.
     std::optional<std::size_t> place(const std::string& word) const;
     const std::vector<std::string>& words() const { return words_; }
 
@@ -36,14 +36,13 @@ class TypeList {
     std::vector<std::string> words_;
 };
 
-// The word of a value in a column of types: "1" for 1.0, the column's word where it has words.
+// The word for a value in a column of types: "1" for 1.0, or the column's own word.
 std::string type_word(const RawColumn& column, double value);
 
 class GrainMeaning {
   public:
-    // file: for messages. Throws UserError where the file has no places, where no radius is known, and for
-    // what the options say wrongly. `frame`: the first of the file that has rows; its columns are those of
-    // all.
+    // frame: the first of the file that has rows; all frames have its columns. file: for messages. Throws
+    // UserError where the file has no places, where no radius is known, and where the options do not fit.
     GrainMeaning(const RawFacts& facts, const RawFrame& frame, const ReadingOptions& options,
                  std::string file);
 
@@ -55,17 +54,18 @@ class GrainMeaning {
         return quaternion_[0] && quaternion_[1] && quaternion_[2] && quaternion_[3];
     }
     const UnitSystem& units() const { return units_; }
-    // What was guessed, a line each.
+    // What was guessed, a line for each guess.
     const std::vector<std::string>& guesses() const { return guesses_; }
 
-    // Words of the types in a frame.
+    // Adds the types of a frame to the list.
     void add_types(const RawFrame& raw, TypeList& types) const;
-    // Grains by rising id, in SI. place: "run.dump: frame 3", for messages. Throws UserError for a radius
-    // that is not positive, an id that comes twice or is no whole number, and a type that is not in the list.
+    // The grains of a frame by rising id, in SI. place: "run.dump: frame 3", for messages. Throws UserError
+    // for a radius that is not positive, an id that comes twice or is not a whole number, and a type that is
+    // not in the list.
     Frame frame(const RawFrame& raw, const TypeList& types, const std::string& place) const;
-    // Mean density of each type in kg/m3, from columns of density or mass; NaN where that is not known.
+    // Mean density of each type in kg/m3 from columns of density or mass; NaN where it is not known.
     std::vector<double> densities(const RawFrame& raw, const TypeList& types) const;
-    // The same box in m.
+    // The box of a frame in m.
     std::optional<WorldCell> cell(const RawFrame& raw) const;
 
   private:
@@ -91,12 +91,13 @@ class GrainMeaning {
     std::array<Column, 3> place_{}, velocity_{}, spin_{};
     std::array<double, 3> velocity_unit_{};  // m/s
     std::array<bool, 3> scaled_{};
-    bool flat_ = false;                   // there is no z
+    bool flat_ = false;                   // there is no column of z
     std::array<Column, 4> quaternion_{};  // w x y z
     std::vector<std::string> guesses_;
 };
 
-// Contacts of a frame by ids, in N; walls are -1 - wall. Null where the table has no pairs of ids.
+// The contacts of a frame by ids, with forces in N; wall k is -1 - k. None where the table has no pairs of
+// ids.
 std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingOptions& options,
                                              const UnitSystem& units, const std::string& file);
 

@@ -1,5 +1,5 @@
-// GSD of HOOMD-blue: the schema "hoomd" over the chunks of a GSD file. A chunk that a frame lacks is that of
-// frame 0, or the schema's default where the count of grains is another.
+// Reads GSD files of HOOMD-blue with the schema "hoomd". The chunks are read by gsd_file.hpp. If a frame
+// lacks a chunk, that of frame 0 is used, or the schema's default where the number of grains differs.
 
 #include <fmt/format.h>
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view of_particles = "particles/", of_log = "log/";
 constexpr std::uint32_t most_columns = 64;  // of one chunk
 
-// The schema's default of a component; NaN for what it does not know.
+// The schema's default of a component; NaN where it has none.
 double default_of(const std::string& name, std::size_t component) {
     static const std::set<std::string> zeros{"typeid", "charge",         "velocity",
                                              "angmom", "moment_inertia", "image"};
@@ -37,7 +37,7 @@ std::string column_name(const std::string& name, std::size_t component, std::siz
     return components == 1 ? name : fmt::format("{}:{}", name, component);
 }
 
-// The diameter of {"type": "Sphere", "diameter": 2}; NaN for other shapes.
+// The diameter in {"type": "Sphere", "diameter": 2}; NaN for other shapes.
 double diameter_of_shape(const std::string& text) {
     const nlohmann::json shape = nlohmann::json::parse(text, nullptr, false);
     if (!shape.is_object() || shape.value("type", nlohmann::json()) != "Sphere")
@@ -56,7 +56,7 @@ class GsdFrames : public RawFile {
     RawFrame read(std::size_t index) const override;
 
   private:
-    // That of the frame, else that of frame 0.
+    // The chunk of the frame, or else that of frame 0.
     const GsdChunk* chunk_of(const std::string& name, std::size_t frame) const;
     std::optional<double> scalar(const std::string& name, std::size_t frame) const;
     std::optional<double> time_of(std::size_t frame) const;
@@ -69,7 +69,7 @@ class GsdFrames : public RawFile {
     GsdFile file_;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
-    std::string time_name_;  // of the chunk that has the time; empty where there is none
+    std::string time_name_;  // name of the chunk with the time; empty where there is none
     mutable std::mutex reading_;
 };
 
@@ -118,7 +118,7 @@ std::optional<double> GsdFrames::time_of(std::size_t frame) const {
     return std::isfinite(time) ? std::optional(time) : std::nullopt;
 }
 
-// Lengths and tilts, which are ratios to Ly and Lz; the middle is at 0.
+// The box by lengths and by tilts, which are ratios to Ly and Lz. Its middle is at 0.
 WorldCell GsdFrames::box_of(const GsdChunk& chunk) const {
     const std::vector<double> n = file_.numbers(chunk);
     if (n.size() != 6) file_.fault(chunk.place, "configuration/box is not six numbers");

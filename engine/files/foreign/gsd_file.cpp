@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t magic = 0x65DF65DF65DF65DFu;
 constexpr std::uint64_t header_size = 256, entry_size = 32, name_size = 64;
 
-// Bytes of a value by the number of its type; 0 for none of the format's.
+// Number of bytes of a value by the number of its type, or 0 for an unknown type.
 std::uint64_t size_of_type(std::uint8_t type) {
     constexpr std::array<std::uint8_t, 12> sizes{0, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 1};
     return type < sizes.size() ? sizes[type] : 0;
@@ -39,14 +39,14 @@ void convert(const std::string& bytes, std::vector<double>& values) {
         values[i] = static_cast<double>(value_at<T>(bytes, i * sizeof(T)));
 }
 
-// Whether `count` things of `size` bytes from `place` on lie in a file of `all` bytes.
+// Whether a file of `all` bytes has room for `count` things of `size` bytes from `place` on.
 bool fits(std::uint64_t place, std::uint64_t count, std::uint64_t size, std::uint64_t all) {
     return place <= all && (size == 0 || count <= (all - place) / size);
 }
 
 }  // namespace
 
-// Bytes of the file that belong to one thing.
+// A range of bytes in the file.
 struct GsdFile::Block {
     std::uint64_t begin = 0, end = 0;
 };
@@ -96,7 +96,7 @@ void GsdFile::read_header() {
     read_index();
 }
 
-// 64 bytes a name in layer 1, one behind the other in layer 2.
+// The names: 64 bytes for each in layer 1, one after the other in layer 2.
 void GsdFile::read_names() {
     const std::string bytes = bytes_at(names_place_, names_size_);
     for (std::size_t at = 0; at < bytes.size();) {

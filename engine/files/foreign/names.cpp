@@ -14,9 +14,9 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// In lower case. Sources: LAMMPS (dump custom), LIGGGHTS (dump custom/vtk, atom/vtk), YADE (VTKRecorder,
-// export.text), MercuryDPM (.data, .vtu), Lethe and MFIX (.vtu), ASE, QUIP and OVITO (extended XYZ), GSD,
-// AMBER, DEM-Engine and ParaView (CSV).
+// The names in lower case. Sources: LAMMPS (dump custom), LIGGGHTS (dump custom/vtk, atom/vtk), YADE
+// (VTKRecorder, export.text), MercuryDPM (.data, .vtu), Lethe and MFIX (.vtu), ASE, QUIP and OVITO (extended
+// XYZ), GSD, AMBER, DEM-Engine and ParaView (CSV).
 const std::vector<std::pair<std::string, Names>>& all() {
     static const std::vector<std::pair<std::string, Names>> list{
         {"id",
@@ -90,7 +90,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-// "Radius [mm]" and "x (m)" end before their unit.
+// The name without its unit: "Radius" for "Radius [mm]".
 std::string without_unit(const std::string& name) {
     const std::size_t at = name.find_first_of("[(");
     if (at == std::string::npos || at == 0) return name;

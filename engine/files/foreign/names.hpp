@@ -1,5 +1,6 @@
-// What the columns of other programs are called. One name may mean one thing in one program and another in
-// the next; the list is asked in its order, and case does not count.
+// What the columns of other programs are called and in which units they are. A name may have different
+// meanings in two programs, so the lists of names have an order, and the first name that a file has wins.
+// Case does not count. A name of a further program is added in names.cpp.
 #pragma once
 
 #include <optional>
@@ -11,29 +12,28 @@
 
 namespace grainreel {
 
-// Names for one meaning, the best known first. "v:0" is the first component of the vector v.
+// All names for a meaning, the best known first. "v:0" is the first component of the vector v.
 const std::vector<std::string>& names_of(const std::string& meaning);
 
 // All meanings that --columns takes.
 std::vector<std::string> all_meanings();
 
-// The place of the column with that meaning in the table; none where there is none. What the user says by
-// --columns counts before the list. Throws UserError where the user names a column that the file lacks.
-// file: for the message.
+// The number of the column with that meaning in the table; none where there is none. What the user says by
+// --columns has precedence over the list. Throws UserError where the user names a column that the file does
+// not have. file: for the message.
 std::optional<std::size_t> column_for(const std::string& meaning, const RawTable& table,
                                       const ReadingOptions& options, const std::string& file);
 
-// "id, type, x, y, z, c_rad": what a file has, for messages.
+// The names of all columns for messages: "id, type, x, y, z, c_rad".
 std::string names_in(const RawTable& table);
 
-// Systems of units of other programs: how much one unit of each is in SI.
-
+// A system of units: how much each unit is in SI.
 struct UnitSystem {
     std::string name;
     double length = 1;  // m
     double time = 1;    // s
     double mass = 1;    // kg
-    bool real = true;   // false for lj, whose units are those of the model
+    bool real = true;   // false for lj, which has no relation to SI
 
     double velocity() const { return length / time; }
     double density() const { return mass / (length * length * length); }
@@ -41,13 +41,13 @@ struct UnitSystem {
     double pressure() const { return mass / (length * time * time); }
 };
 
-// "si", "lj", "cgs", "micro", "nano", "real", "metal" (LAMMPS manual, command `units`). None for another
-// name.
+// The system "si", "lj", "cgs", "micro", "nano", "real" or "metal" (LAMMPS manual, command `units`); none for
+// another name.
 std::optional<UnitSystem> unit_system(const std::string& name);
 std::vector<std::string> unit_names();
 
-// A unit in a column's name, as in "x [mm]" or "radius (um)": m, s or m/s in one of it; none where the name
-// has none that is known.
+// The size in m, s or m/s of the unit in a column's name, as in "x [mm]" or "radius (um)"; none where the
+// name has no known unit.
 std::optional<double> unit_in_name(const std::string& column);
 
 }  // namespace grainreel

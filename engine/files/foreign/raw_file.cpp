@@ -4,8 +4,8 @@
 
 #include "engine/files/foreign/byte_source.hpp"
 
-// All formats, a line each, in the order in which they are asked: RawFormat NAME_format() in the folders
-// beside this file.
+// All formats in the order in which they are asked. NAME stands for a function RawFormat NAME_format(), which
+// is in this folder or in a folder below.
 #define GRAINREEL_RAW_FORMATS(one)                                                                           \
     one(lammps_binary) one(lammps_text) one(vtk_xml) one(vtk_legacy) one(vtk_collection) one(gsd) one(amber) \
         one(mercury_data) one(mercury_contacts) one(mercury_restart) one(wall_surface) one(xyz)              \

@@ -1,5 +1,6 @@
-// One file of another program. A format is a function that gives its RawFormat, and a line in the list of
-// raw_formats.cpp.
+// A file of another program and its frames, under the file's own names and in its own units. Their meaning
+// and SI are found once for all formats, in grain_columns.hpp. A new format is a function that returns a
+// RawFormat, and a line in the list of raw_file.cpp.
 #pragma once
 
 #include <cstddef>
@@ -16,44 +17,42 @@
 
 namespace grainreel {
 
-// What a file of another program holds at one moment, under the file's own names and in its own units. What
-// the names mean, and what they are in SI, is decided elsewhere (meaning.hpp), once for all formats.
-
-// One number a row. A vector has a column for each component: "v:0", "v:1", "v:2". Places are "x", "y", "z"
-// where the format has a place of its own for them (VTK's Points, XYZ, GSD). Numbers that are missing are
-// NaN.
+// A column with one number in each row. A vector has a column for each component: "v:0", "v:1", "v:2". Places
+// are "x", "y", "z" where the format keeps them apart from other columns (VTK's Points, XYZ, GSD). A missing
+// number is NaN.
 struct RawColumn {
     std::string name;
     std::vector<double> values;
-    // Words in place of numbers (element names of XYZ, types of GSD): each value is an index into this list.
+    // For a column of words (elements in XYZ, types in GSD) each value is an index into this list.
     std::vector<std::string> words{};
 };
 
 struct RawTable {
     std::size_t rows = 0;
-    std::vector<RawColumn> columns;  // of `rows` values each
+    std::vector<RawColumn> columns;  // with `rows` values each
 
-    // By its exact name; null where there is none. Of doubled names the first.
+    // The first column with exactly this name; null where there is none.
     const RawColumn* find(const std::string& name) const;
 };
 
-// A surface of walls, in the file's unit of length, where it is at that moment.
+// A surface of walls in its place at that moment, in the file's unit of length.
 struct RawWall {
     std::string name;   // "bucket"; empty where the file has none
     TriangleMesh mesh;  // quads and strips are split into triangles
-    RawTable cells{};   // a row a triangle: stress, wear
+    RawTable cells{};   // stress, wear: a row for each triangle
 };
 
+// What a file holds at one moment.
 struct RawFrame {
     std::optional<std::int64_t> step;
     std::optional<double> time;    // in the file's unit of time
     std::optional<WorldCell> box;  // in the file's unit of length; tilted boxes have tilted edges
-    RawTable grains;               // a row a grain, in the file's order
-    RawTable contacts;             // a row a contact
+    RawTable grains;               // a row for each grain, in the order of the file
+    RawTable contacts;             // a row for each contact
     std::vector<RawWall> walls;
 };
 
-// A moment without its numbers.
+// A moment without its tables.
 struct RawMoment {
     std::optional<std::int64_t> step{};
     std::optional<double> time{};  // in the file's unit of time
@@ -61,16 +60,17 @@ struct RawMoment {
     bool has_contacts = false, has_walls = false;
 };
 
+// Facts that hold for the whole file.
 struct RawFacts {
-    std::string format;   // "LAMMPS text dump"
-    std::string program;  // that wrote it, with its version, where the file says so
-    std::string units;    // "si", "lj", "cgs", "micro", "real", ... as the file says; empty where it does not
-    std::optional<Vec3> gravity{};  // in the file's units, where it says it
-    // Where the format fixes them: m in one unit of length, s in one unit of time.
+    std::string format;             // "LAMMPS text dump"
+    std::string program;            // the program that wrote it, with its version, if the file says so
+    std::string units;              // "si", "lj", "cgs", "micro", "real", ...; empty if the file does not say
+    std::optional<Vec3> gravity{};  // in the file's units, if it says
+    // m in the unit of length and s in the unit of time, where the format fixes them.
     std::optional<double> length_unit{}, time_unit{};
-    int dimensions = 3;    // 2 where the file says so
-    int first_row_id = 1;  // id of a frame's first row where the file has no ids; contacts count from there
-    bool scaled_places = false;  // columns x, y, z are shares of the box (old dumps without names)
+    int dimensions = 3;          // 2 if the file says so
+    int first_row_id = 1;        // id of a frame's first row in a file without ids, used by contacts
+    bool scaled_places = false;  // columns x, y, z are fractions of the box (old dumps without names)
 };
 
 class RawFile {
@@ -78,23 +78,23 @@ class RawFile {
     virtual ~RawFile() = default;
 
     virtual const RawFacts& facts() const = 0;
-    // All that are whole, in the order of the file. A frame that is cut at the end is left out, with a line
-    // of news(). Where no frame is whole, opening throws UserError.
+    // All whole frames, in the order of the file. A frame that is cut at the end is left out, with a line of
+    // news(). If no frame is whole, opening the file throws UserError.
     virtual const std::vector<RawMoment>& moments() const = 0;
-    // Throws UserError "FILE:LINE: what is wrong; what to do" (byte in place of line in binary files). Counts
-    // are bounded by the file's size before memory is asked for.
+    // Reads a frame. Throws UserError "FILE:LINE: what is wrong; what to do" (a byte in place of the line for
+    // binary files). Counts are checked against the file's size before memory is asked for.
     virtual RawFrame read(std::size_t index) const = 0;
-    // What the user is to know of the file, a line each, beginning with the file's name.
+    // What the user should know about the file. Each line begins with the file's name.
     virtual std::vector<std::string> news() const { return {}; }
-    // Looks for frames that were written since. Returns whether moments() has more. A file that was truncated
-    // or replaced throws UserError.
+    // Looks for frames that were written since then. Returns whether moments() has more. Throws UserError if
+    // the file was truncated or replaced.
     virtual bool grow() { return false; }
 };
 
 struct RawFormat {
     const char* name;   // "lammps-dump"
     const char* about;  // "dumps of LAMMPS and LIGGGHTS (text)", for the list of what can be read
-    // By content: the name of a file says nothing. head.bytes are those behind gzip and zstd.
+    // Whether this format reads the file. The content decides, not the name. head.bytes are unpacked.
     bool (*takes)(const FileHead& head);
     std::unique_ptr<RawFile> (*open)(const std::filesystem::path& file);
 };
@@ -102,7 +102,8 @@ struct RawFormat {
 // All formats, in the order in which they are asked.
 const std::vector<RawFormat>& raw_formats();
 
-// The first that takes the file; null where none does. Throws UserError where the file cannot be opened.
+// The first format that reads the file; null where none does. Throws UserError where the file cannot be
+// opened.
 const RawFormat* raw_format_of(const std::filesystem::path& file);
 
 }  // namespace grainreel

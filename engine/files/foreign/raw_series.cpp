@@ -42,7 +42,7 @@ std::set<double> ids_of(const RawTable& table) {
 bool share_ids(const RawTable& a, const RawTable& b) {
     const std::set<double> known = ids_of(a);
     const RawColumn* ids = b.find("id");
-    if (ids == nullptr || known.empty()) return true;  // rows without ids cannot be told apart
+    if (ids == nullptr || known.empty()) return true;  // without ids, rows of two files cannot be compared
     return std::any_of(ids->values.begin(), ids->values.end(),
                        [&](double id) { return known.count(id) > 0; });
 }
@@ -80,7 +80,7 @@ void RawSeries::list_moments() {
         const std::vector<RawMoment>& moments = one.moments();
         for (std::size_t frame = 0; frame < moments.size(); ++frame) {
             RawMoment moment = moments[frame];
-            // The number in the name of a file with one frame is the step.
+            // For a file with one frame and no step, the number in its name is the step.
             if (!moment.step && moments.size() == 1 && files_.size() > 1)
                 moment.step = number_in_name(files_[file]);
             all.emplace_back(moment, Part{file, frame});
@@ -102,7 +102,7 @@ void RawSeries::list_moments() {
 void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
     std::size_t twice = 0;
     for (auto& each : all) {
-        auto& moment = each.first;  // no structured binding: clang 14 lets no lambda take one
+        auto& moment = each.first;  // not a structured binding, which lambdas of clang 14 cannot capture
         auto& part = each.second;
         const auto same_time = [&] {
             const RawMoment& before = moments_.back();
@@ -144,7 +144,8 @@ RawFrame RawSeries::read(std::size_t index) const {
             first = false;
             continue;
         }
-        // Processes have different grains. A file that goes on with a run has the same ones again.
+        // Files of several processes have different grains. A file of a continued run has the same ones
+        // again.
         if (frame.grains.rows > 0 && more.grains.rows > 0 && share_ids(frame.grains, more.grains)) {
             frame = std::move(more);
             continue;
@@ -172,14 +173,13 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// Where the number stands in a name; empty when there is none. Digits within a suffix like ".mp4" do not
-// count.
+// The place of the number in a name; empty where there is none. Digits in a suffix like ".mp4" do not count.
 struct NumberAt {
     std::size_t from = 0, size = 0;
 };
 NumberAt number_at(const std::string& name) {
     std::size_t end = name.size();
-    // A suffix that begins with a letter is passed over, with a packed file's second one (".dump.gz").
+    // A suffix that begins with a letter is skipped; a packed file has two of them (".dump.gz").
     for (int suffixes = 0; suffixes < 2; ++suffixes) {
         const std::size_t dot = name.rfind('.', end == 0 ? 0 : end - 1);
         if (dot == std::string::npos || dot + 1 >= end) break;

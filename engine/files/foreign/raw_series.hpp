@@ -1,5 +1,6 @@
-// The frames of one or many files as one list by rising step or time. Files that several processes wrote of
-// one step are one frame; of a step that a file or its successor has twice the later one counts.
+// Which files belong together, and their frames as one list by rising step or time. Files that several
+// processes wrote of one step are one frame. If a step comes twice because a run was continued, the later one
+// counts.
 #pragma once
 
 #include <cstddef>
@@ -17,14 +18,14 @@ namespace grainreel {
 
 class RawSeries {
   public:
-    // All files must be of one format. Throws UserError where one cannot be read.
+    // All files must have the same format. Throws UserError where one cannot be read.
     explicit RawSeries(std::vector<std::filesystem::path> files);
 
     const RawFacts& facts() const { return facts_; }
     const std::vector<std::filesystem::path>& files() const { return files_; }
-    // By rising step, else by time, else in the order of the files.
+    // The moments by rising step, or else by time, or else in the order of the files.
     const std::vector<RawMoment>& moments() const { return moments_; }
-    // With the rows of all files that have this moment. Throws as RawFile::read.
+    // A frame with the rows of all files that have this moment. Throws as RawFile::read does.
     RawFrame read(std::size_t index) const;
     // "run.dump: frame 3", for messages.
     std::string place(std::size_t index) const;
@@ -34,7 +35,7 @@ class RawSeries {
     struct Part {
         std::size_t file, frame;
     };
-    // Opens a file, or takes the one that was opened last.
+    // Opens a file, unless it is the one that was opened last.
     RawFile& opened(std::size_t file) const;
     void list_moments();
     void join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all);
@@ -43,35 +44,34 @@ class RawSeries {
     const RawFormat* format_ = nullptr;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
-    std::vector<std::vector<Part>> parts_;  // of each moment
+    std::vector<std::vector<Part>> parts_;  // for each moment: the frames that it is made of
     std::vector<std::string> news_;
-    // One file at a time is kept open: there may be thousands.
+    // Only one file is kept open, because there may be thousands.
     mutable std::size_t open_file_ = 0;
     mutable std::unique_ptr<RawFile> open_;
 };
 
-// Which files belong together: one file, a numbered series, what a pattern names, or all of a folder.
-
-// Files whose names differ in one number alone, by rising number ("dump.2" before "dump.10"); or one file.
+// Files whose names differ only in one number, by rising number ("dump.2" before "dump.10"); or a single
+// file.
 struct FileGroup {
-    std::string pattern;  // "post/dump.*.vtk"; a lone file's own name
+    std::string pattern;  // "post/dump.*.vtk", or the name of a single file
     std::vector<std::filesystem::path> files;
 };
 
-// The last number in a file's name, before its suffix where that is one of letters: 5000 for "dump.5000.vtk".
+// The last number in a file's name before a suffix of letters: 5000 for "dump.5000.vtk".
 std::optional<std::int64_t> number_in_name(const std::filesystem::path& file);
 
-// The series that a file is part of: all files of its folder whose names differ from its own in that number.
-// The file alone where its name has no number.
+// The series of a file: all files of its folder whose names differ only in that number. If the name has no
+// number, only the file itself.
 FileGroup series_of(const std::filesystem::path& file);
 
-// All groups of these files, each in the order of its numbers; groups in the order of their patterns.
+// All groups of these files, in the order of their patterns. Files in a group are in the order of numbers.
 std::vector<FileGroup> grouped(const std::vector<std::filesystem::path>& files);
 
-// The ordinary files that a pattern names: * ? [...] in the last parts of the path. Throws UserError where
-// there are none.
+// The ordinary files that a pattern (with * ? [...] in the last parts of the path) names. Throws UserError
+// where there are none.
 std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path& pattern);
-// The ordinary files of a folder, without hidden ones.
+// The ordinary files of a folder without hidden ones.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
 }  // namespace grainreel

@@ -168,7 +168,7 @@ std::optional<KeptIndex> index_in(const fs::path& path, const FileBytes& file, c
     each_of(read, then);
     if (in.failed() || !serves(then, file, now)) return std::nullopt;
     std::optional<TextIndex> index = index_of_bytes(std::string_view(*all).substr(all->size() - in.left()));
-    // A packed file may hold more than its size in bytes, but not more than this.
+    // A packed file may hold more bytes than its size, but at most this many times more.
     constexpr std::uint64_t most_packed = 2000;
     if (index && index->end / most_packed > now.size) return std::nullopt;
     if (!index) return std::nullopt;
