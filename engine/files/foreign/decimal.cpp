@@ -32,8 +32,8 @@ double assembled(std::uint64_t kept, int e) {
     return static_cast<double>(kept) * std::bit_cast<double>(scale);
 }
 
-// The double nearest to (m + more) 2^e, where m has its highest bit set and 0 <= more < 1 says, by being more
-// than 0, that something lies behind m.
+// The double nearest to (m + more) 2^e. The highest bit of m is set, and 0 <= more < 1; only whether it is
+// more than 0 matters.
 double rounded(std::uint64_t m, bool more, int e) {
     const std::uint64_t rest = rest_of(m);
     std::uint64_t kept = m >> dropped;
@@ -41,15 +41,17 @@ double rounded(std::uint64_t m, bool more, int e) {
     return assembled(kept, e + dropped);
 }
 
-// a 2^63 / b, rounded to 53 bits, times 2^e; a and b have their highest bit set. By division, always right.
+// a 2^63 / b, rounded to 53 bits, times 2^e. The highest bits of a and b are set. It divides, so it is always
+// right.
 double divided(std::uint64_t a, std::uint64_t b, int e) {
-    const int extra = a < b ? 1 : 0;  // so that the quotient has 64 bits
+    const int extra = a < b ? 1 : 0;  // gives the quotient 64 bits
     const Wide shifted = Wide{a} << (63 + extra);
     const auto quotient = static_cast<std::uint64_t>(shifted / b);
     return rounded(quotient, Wide{quotient} * b != shifted, e - extra);
 }
 
-// 2^127 / (5^k 2^s), rounded down, where s brings the highest bit of 5^k to the top; of 64 bits for k > 0.
+// 2^127 / (5^k 2^s), rounded down, where s shifts the highest bit of 5^k to the top. It has 64 bits for k >
+// 0.
 constexpr auto inverses = [] {
     std::array<std::uint64_t, 28> all{};
     for (std::size_t k = 1; k < all.size(); ++k)
@@ -64,7 +66,7 @@ bool same(std::string_view word, std::string_view lower) {
     return true;
 }
 
-// "nan", "inf", and what the C library of Windows wrote until 2015: "1.#QNAN", "1.#IND", "1.#INF".
+// Reads "nan", "inf" and the words of Windows' C library until 2015: "1.#QNAN", "1.#IND", "1.#INF".
 bool not_finite(std::string_view word, double& value) {
     const bool negative = word.starts_with('-');
     if (negative) word.remove_prefix(1);
@@ -79,7 +81,7 @@ bool not_finite(std::string_view word, double& value) {
     return true;
 }
 
-// from_chars says of 1e-400 and of 1e400 alike that they are out of range.
+// from_chars reports "out of range" for 1e-400 and for 1e400, so this finds out which it is.
 double beyond_range(std::string_view word) {
     const bool negative = word.starts_with('-');
     const std::size_t exponent = word.find_first_of("eE");
@@ -110,11 +112,11 @@ double scale_exactly(std::uint64_t w, int e) {
         return rounded(static_cast<std::uint64_t>(level >> 64), static_cast<std::uint64_t>(level) != 0,
                        e + 64 - up);
     }
-    // The inverse is short of 2^127/b by less than 1, so a/2^64 times it is short of t = 2^63 a/b by less
-    // than 1, and its whole part m by less than 2: m <= t < m + 2. Where m is one bit shorter than 64, all is
-    // doubled with one more bit of the product: m <= t < m + 3. That decides on which side of the half t lies
-    // unless the half is m, m + 1 or m + 2. Where m + 3 goes beyond the next kept number, that number is the
-    // nearest too.
+    // The inverse is less than 2^127/b by less than 1. So a/2^64 times the inverse is less than t = 2^63 a/b
+    // by less than 1, and its whole part m by less than 2: m <= t < m + 2. If m has only 63 bits, everything
+    // is doubled and one more bit of the product is used: m <= t < m + 3. This decides on which side of the
+    // half t lies, unless the half is m, m + 1 or m + 2. If m + 3 is beyond the next number that is kept,
+    // that number is still the nearest.
     const auto k = static_cast<std::size_t>(-e);
     const int shift = std::countl_zero(w);
     const int by_shift = std::countl_zero(fives[k]);

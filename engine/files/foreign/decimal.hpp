@@ -1,10 +1,10 @@
-// Decimal numbers of text files, fast, each the double that is nearest to what stands there (ties to even),
-// as strtod gives it.
+// Reads decimal numbers in text files fast. The result is the nearest double (ties to even), exactly as
+// strtod gives it. It is inline because readers of large files call it for every number.
 //
-// A plain decimal of at most 19 digits is w 10^e with a whole w < 2^64. Where w < 2^53 and |e| <= 22, w and
-// 10^|e| are doubles without error, so that one multiplication or division of doubles rounds once, correctly
-// (W. D. Clinger, How to read floating point numbers accurately, PLDI 1990). Where |e| <= 27, 5^|e| < 2^63 is
-// whole, and scale_exactly() knows w 5^e well enough to round it. All others go to std::from_chars.
+// A plain decimal of at most 19 digits is w 10^e with a whole w < 2^64. If w < 2^53 and |e| <= 22, w and
+// 10^|e| are exact doubles, so that one multiplication or division rounds correctly (W. D. Clinger, How to
+// read floating point numbers accurately, PLDI 1990). If |e| <= 27, 5^|e| is a whole number below 2^63, and
+// scale_exactly() can round w 5^e correctly. All other numbers go to std::from_chars.
 #pragma once
 
 #ifdef __SSE2__
@@ -21,13 +21,13 @@ namespace grainreel {
 // w 10^e, rounded once. w > 0, |e| <= 27.
 double scale_exactly(std::uint64_t w, int e);
 
-// The number that all of `word` is. "+1.5", 1e-400 (0), 1e400 (infinity), "nan", "-inf" and "1.#QNAN" of
-// Windows are numbers here; whoever needs finite ones looks. Returns false where it is none.
+// Reads a word that is a number as a whole. "+1.5", 1e-400 (0), 1e400 (infinity), "nan", "-inf" and Windows'
+// "1.#QNAN" are numbers here; callers that need finite ones must check. Returns false where it is no number.
 bool any_number(std::string_view word, double& value);
 
 namespace decimal_detail {
 
-// 10^k and -10^k: a number takes its sign from what it is multiplied or divided by, also a zero.
+// 10^k and -10^k. A number gets its sign from the factor or divisor, and so does a zero.
 inline constexpr double powers[2][23] = {
     {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22},
@@ -36,13 +36,13 @@ inline constexpr double powers[2][23] = {
 inline constexpr int most_digits = 19;     // 10^19 - 1 < 2^64
 inline constexpr int most_clinger = 22;    // 10^22 = 2^22 5^22, 5^22 < 2^53
 inline constexpr int most_exact = 27;      // 5^27 < 2^63
-inline constexpr int most_exponent = 999;  // that is read here
+inline constexpr int most_exponent = 999;  // the largest that is read here
 
 inline bool digit_at(const char* p) {
     return static_cast<unsigned char>(*p - '0') < 10;
 }
 
-// The next eight characters, the first one in the lowest byte.
+// The next eight characters as a number, with the first one in the lowest byte.
 inline std::uint64_t eight_at(const char* p) {
     std::uint64_t v;
     std::memcpy(&v, p, sizeof v);
@@ -50,8 +50,8 @@ inline std::uint64_t eight_at(const char* p) {
     return v;
 }
 
-// How many of eight characters are digits, from the first one on. A digit xor '0' is at most 9; what is more
-// sets the highest bit of its byte, and no byte carries into the next.
+// How many of eight characters, from the first one on, are digits. A digit xor '0' is at most 9. Larger
+// values set the highest bit of their byte below, and no byte carries into the next.
 inline int digits_of(std::uint64_t v) {
     const std::uint64_t x = v ^ 0x3030303030303030u;
     const std::uint64_t others =
@@ -59,15 +59,15 @@ inline int digits_of(std::uint64_t v) {
     return std::countr_zero(others) / 8;
 }
 
-// The number that eight digits make; bytes of 0 count as digits 0. Pairs of digits, then of pairs, then of
-// fours.
+// The number that eight digits make; bytes of 0 count as digits 0. Digits are combined in pairs, then in
+// fours, then in eights.
 inline std::uint64_t number_of(std::uint64_t v) {
     v = (v & 0x0F0F0F0F0F0F0F0Fu) * (10 * 256 + 1) >> 8;
     v = (v & 0x00FF00FF00FF00FFu) * (100 * 65536 + 1) >> 16;
     return (v & 0x0000FFFF0000FFFFu) * ((std::uint64_t{10000} << 32) + 1) >> 32;
 }
 
-// Zeros before the first other digit, a point between them passed over.
+// Number of zeros before the first other digit; a point between them does not count.
 inline int leading_zeros(const char* p) {
     int zeros = 0;
     for (; *p == '0' || *p == '.'; ++p) zeros += *p == '0' ? 1 : 0;
@@ -82,15 +82,15 @@ inline const char* take_digits(const char* p, std::uint64_t& w) {
     while (true) {
         const std::uint64_t v = eight_at(p);
         const int count = digits_of(v);
-        // The digits go up to the end of the eight, zeros before them; two shifts, for one of 64 bits is
-        // none.
+        // The digits move to the end of the eight, with zeros before them. There are two shifts, because a
+        // shift by 64 bits does nothing.
         w = w * whole_powers[count] + number_of(v << (56 - 7 * count) << (8 - count));
         p += count;
         if (count < 8) return p;
     }
 }
 
-// "e-05" behind a mantissa; null where no exponent stands there.
+// Reads "e-05" after a mantissa. Null where there is no exponent.
 inline const char* take_exponent(const char* p, int& e) {
     ++p;
     const bool negative = *p == '-';
@@ -107,9 +107,9 @@ inline const char* take_exponent(const char* p, int& e) {
 
 }  // namespace decimal_detail
 
-// A plain decimal that begins at p. Returns the place behind it, or null where any_number() must look; it
-// must look too where a character stands at that place that cannot follow a number ("1.#IND", "1.5d0").
-// Behind the number must stand a character that belongs to none, such as the end of a line, and 8 more bytes.
+// Reads a plain decimal that begins at p. Returns the place after it, or null where any_number() must be
+// used. That is also needed if the next character cannot follow a number ("1.#IND", "1.5d0"). After the
+// number there must be a character that is not part of it, such as the end of a line, and 8 more bytes.
 inline const char* plain_decimal(const char* p, double& value) {
     using namespace decimal_detail;
     const std::uint64_t negative = *p == '-' ? 1 : 0;
@@ -125,7 +125,7 @@ inline const char* plain_decimal(const char* p, double& value) {
         e = static_cast<int>(fraction - p);
         digits += p - fraction;
     }
-    if (digits > most_digits) digits -= leading_zeros(first);  // they have made nothing of w
+    if (digits > most_digits) digits -= leading_zeros(first);  // they do not change w
     if (digits == 0 || digits > most_digits) return nullptr;
     if ((*p | 0x20) == 'e') {
         p = take_exponent(p, e);
@@ -142,7 +142,7 @@ inline const char* plain_decimal(const char* p, double& value) {
     return p;
 }
 
-// Behind the word that begins at p: at the first character up to a blank. 16 bytes behind it are read.
+// The end of the word that begins at p: the first blank or control character. 16 bytes after it are read.
 inline const char* word_end(const char* p) {
 #ifdef __SSE2__
     const __m128i blank = _mm_set1_epi8(' ');

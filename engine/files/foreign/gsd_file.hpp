@@ -1,4 +1,4 @@
-// The chunks of a GSD file (file layers 1 and 2, as the GSD specification says), whatever its schema is.
+// Reads the chunks of a GSD file with any schema (file layers 1 and 2 of the GSD specification).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// A table of `rows` by `columns` values at a place of the file.
+// A table of rows x columns values at a place of the file.
 struct GsdChunk {
     std::uint64_t rows = 0, place = 0;
     std::uint32_t columns = 0;
@@ -21,22 +21,22 @@ struct GsdChunk {
 
 class GsdFile {
   public:
-    // Reads header, names and index. Throws UserError where the file is damaged: a chunk that lies outside it
-    // or over another, a name or a type that does not exist.
+    // Reads header, names and index. Throws UserError where the file is damaged: a chunk lies outside the
+    // file or overlaps another, or a name or a type does not exist.
     explicit GsdFile(const std::filesystem::path& file);
 
     const std::string& schema() const { return schema_; }
     const std::string& application() const { return application_; }
     std::size_t frames() const { return frames_; }
     const std::vector<std::string>& names() const { return names_; }
-    // The chunk of that name in that frame itself; null where there is none.
+    // The chunk with that name in that frame; null where the frame has none.
     const GsdChunk* find(const std::string& name, std::size_t frame) const;
-    // That some frame has one.
+    // Whether any frame has a chunk with that name.
     bool has(const std::string& name) const { return chunks_.count(name) > 0; }
 
-    // All values, row by row. Of a chunk of characters their codes.
+    // All values row by row. Characters are given as their codes.
     std::vector<double> numbers(const GsdChunk& chunk) const;
-    // A text a row, up to its first NUL.
+    // The text of each row, up to its first NUL.
     std::vector<std::string> texts(const GsdChunk& chunk) const;
 
     // Throws UserError "FILE: byte PLACE: what".

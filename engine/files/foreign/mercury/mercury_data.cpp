@@ -29,7 +29,8 @@ WorldCell box_between(const Numbers& corners) {
     return box;
 }
 
-// The number that a word of a row is. column: its number in the row, from 1.
+// The number in a word of a row. column: number of the column, from 1. Throws UserError where it is no
+// number.
 double number_in_row(const TextLines& lines, std::string_view word, std::size_t column, const char* name) {
     const std::optional<double> number = number_of(word);
     if (!number)
@@ -52,7 +53,7 @@ constexpr std::array<const char*, 14> names_3d{"x",     "y",    "z",     "vx", "
                                                "alpha", "beta", "gamma", "wx", "wy", "wz", "info"};
 constexpr std::array<const char*, 8> names_2d{"x", "y", "vx", "vy", "radius", "gamma", "wz", "info"};
 
-// The line before a frame: N, t, lower corner, upper corner.
+// The line before a frame: number of grains, time, lowest corner, highest corner.
 struct DataHeader {
     std::int64_t grains = 0;
     double time = 0;
@@ -71,7 +72,7 @@ std::optional<DataHeader> data_header_of(std::string_view line) {
     return DataHeader{*grains, *time, *corners, corners->size() / 2};
 }
 
-// None where the corners have changed places.
+// The box; none where its highest corner is below its lowest one.
 std::optional<WorldCell> box_of(const DataHeader& header) {
     for (std::size_t axis = 0; axis < header.dimensions; ++axis)
         if (header.corners[header.dimensions + axis] < header.corners[axis]) return std::nullopt;
@@ -181,7 +182,7 @@ struct ContactsHeader {
     WorldCell box;
 };
 
-// The header that these three lines are, or none.
+// The header in these three lines; none where they are no header.
 std::optional<ContactsHeader> contacts_header_of(const std::array<std::optional<Numbers>, 3>& lines) {
     if (!lines[0] || !lines[1] || !lines[2]) return std::nullopt;
     if (lines[0]->size() != 2 || lines[1]->size() != 6 || lines[2]->size() < 6) return std::nullopt;
@@ -271,7 +272,7 @@ RawFrame MercuryContacts::read_frame(TextLines& lines, const RawMoment& moment) 
     frame.time = moment.time;
     if (const std::optional<ContactsHeader> header = read_header(lines)) frame.box = header->box;
     for (const char* name : contact_names) frame.contacts.columns.push_back({name, {}, {}});
-    std::map<std::pair<double, double>, int> waiting;  // pairs that were not yet seen from the other side
+    std::map<std::pair<double, double>, int> waiting;  // pairs that were seen only from one side so far
     while (next_row(lines) == Row::row) {
         const Numbers row = numbers(lines);
         const auto other = waiting.find({row[1], row[0]});

@@ -1,5 +1,5 @@
-// MercuryDPM's .restart: one moment as text of keys and values, "MercuryDPM 1.0" and "restart_version 1.0",
-// and the rows of plain numbers of restart_version 3 ("TSP BP x y z vx vy vz r angles w 1/m 1/I species").
+// Reads MercuryDPM's .restart: one moment as text. "MercuryDPM 1.0" and "restart_version 1.0" have keys and
+// values; restart_version 3 has rows of plain numbers ("TSP BP x y z vx vy vz r angles w 1/m 1/I species").
 #include <array>
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ struct Field {
     const char* key;
     std::vector<const char*> columns;
 };
-// The keys of a grain, and what they mean.
+// The keys of a grain, and the columns that they become.
 const std::vector<Field>& fields_of_keys() {
     static const std::vector<Field> fields{
         {"id", {"id"}},
@@ -37,7 +37,7 @@ const std::vector<Field>& fields_of_keys() {
     };
     return fields;
 }
-// The numbers of a grain without keys, in their order. The empty one is the inverse moment of inertia.
+// The columns of a grain without keys, in their order. The empty one is the inverse moment of inertia.
 constexpr std::array<const char*, 16> plain_columns{"x",      "y",       "z",    "vx",     "vy", "vz",
                                                     "radius", "alpha",   "beta", "gamma",  "wx", "wy",
                                                     "wz",     "invMass", "",     "species"};
@@ -54,7 +54,7 @@ class MercuryRestart : public RawFile {
   private:
     enum class Part { head, species, walls, boundaries, grains, rest };
 
-    // Whether the line begins a part.
+    // Whether the line begins a part of the file.
     bool begins_part(std::string_view line);
     void take_line(std::string_view line);
     void take_head(const RestartLine& line);
@@ -69,10 +69,10 @@ class MercuryRestart : public RawFile {
     TextLines lines_;
     Part part_ = Part::head;
     std::int64_t grains_left_ = 0;
-    std::size_t next_column_ = 0;  // of the grain that is taken
+    std::size_t next_column_ = 0;  // of the present grain
     bool grains_seen_ = false;
-    std::vector<double> densities_;        // of the species
-    std::map<std::string, int> left_out_;  // kinds of walls, and how many
+    std::vector<double> densities_;        // by species
+    std::map<std::string, int> left_out_;  // number of walls that were left out, by kind
     RawFacts facts_;
     RawFrame frame_;
     WorldCell box_;
@@ -163,7 +163,7 @@ void MercuryRestart::take_head(const RestartLine& line) {
     if (const std::optional<Vec3> gravity = line.vector("gravity")) facts_.gravity = *gravity;
 }
 
-// Those of one species alone: what stands between two of them has no density.
+// Takes the densities of single species. Entries for two species have no density.
 void MercuryRestart::take_species(const RestartLine& line) {
     std::optional<double> density = line.number("density");
     if (!density) density = line.number("rho");

@@ -48,7 +48,7 @@ namespace {
 
 using Polygon = std::vector<Vec3>;
 
-// What of it lies where x·way <= most (Sutherland and Hodgman 1974).
+// The part of a polygon where x·way <= most (Sutherland and Hodgman 1974).
 Polygon cut(const Polygon& polygon, const Vec3& way, double most) {
     Polygon kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -60,7 +60,7 @@ Polygon cut(const Polygon& polygon, const Vec3& way, double most) {
     return kept;
 }
 
-// A polygon on a face of the box may lie beside it by a rounding.
+// A polygon on a face of the box may lie outside it by rounding.
 Polygon cut_to(Polygon polygon, const Vec3& low, const Vec3& high) {
     const double slack = 1e-9 * (high - low).norm();
     for (int axis = 0; axis < 3; ++axis) {
@@ -87,7 +87,7 @@ TriangleMesh plane_in_box(const Vec3& place, const Vec3& outwards, const WorldCe
     const Polygon large{foot - size * u - size * v, foot + size * u - size * v, foot + size * u + size * v,
                         foot - size * u + size * v};
     Polygon polygon = cut_to(large, low, high);
-    if (polygon.size() < 3) {  // beside the box: cut where the box ends, and moved back
+    if (polygon.size() < 3) {  // the plane is outside the box: it is cut at the box's end and moved back
         const double reach = 0.5 * normal.cwiseAbs().dot(high - low);
         const double away = normal.dot(foot - middle);
         const Vec3 shift = normal * (std::copysign(reach * (1 - 1e-9), away) - away);
@@ -98,7 +98,7 @@ TriangleMesh plane_in_box(const Vec3& place, const Vec3& outwards, const WorldCe
     }
     if (polygon.size() < 3) return mesh;
     mesh.vertices = polygon;
-    for (std::size_t i = 2; i < polygon.size(); ++i)  // they go round against the normal
+    for (std::size_t i = 2; i < polygon.size(); ++i)  // their corners go round against the normal
         mesh.triangles.push_back({0, static_cast<std::int32_t>(i - 1), static_cast<std::int32_t>(i)});
     return mesh;
 }

@@ -1,5 +1,6 @@
-// Tables of numbers, a row a grain: CSV of ParaView, DEM-Engine, Lethe, pandas and spreadsheets, and columns
-// between blanks, as YADE and numpy write them. A column of time makes frames of the rows of one time.
+// Reads tables of numbers with a row for each grain: CSV of ParaView, DEM-Engine, Lethe, pandas and
+// spreadsheets, and columns between blanks, as YADE and numpy write them. If there is a column of time, the
+// rows of one time are a frame.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,7 +22,7 @@ using Cells = std::vector<std::string_view>;
 
 // Rows that follow each other in the file.
 struct Run {
-    std::uint64_t byte = 0, lines = 0;  // lines before them
+    std::uint64_t byte = 0, lines = 0;  // of their beginning; number of lines before them
     std::uint64_t rows = 0, last_line = 0;
 };
 
@@ -30,7 +31,7 @@ struct FrameRows {
     std::vector<Run> runs;
 };
 
-// The least and the greatest number of each of four columns.
+// The smallest and the largest number of each of four columns.
 struct Ranges {
     double least[4]{INFINITY, INFINITY, INFINITY, INFINITY},
         most[4]{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
@@ -42,7 +43,7 @@ struct Ranges {
             most[i] = std::max(most[i], value);
         }
     }
-    // Whether the fourth can be the radius of grains whose places are the others.
+    // Whether the fourth column can be the radius of grains at the places in the other three.
     bool are_spheres() const {
         double extent = 0;
         for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, most[i] - least[i]);
@@ -54,7 +55,7 @@ std::optional<TableLayout> layout_at(const FileHead& head) {
     return layout_of(head.bytes, head.bytes.size() < kHeadBytes);
 }
 
-// s in the unit that stands behind the name of a time.
+// The unit after the name of a column of time, in s.
 double seconds_in(const std::string& unit) {
     static const std::map<std::string, double> units{{"ms", 1e-3},      {"us", 1e-6}, {"\u00b5s", 1e-6},
                                                      {"\u03bcs", 1e-6}, {"ns", 1e-9}, {"min", 60},
@@ -85,9 +86,9 @@ class NumberTable : public RawFile {
     TableLayout layout_;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
-    std::vector<std::vector<Run>> runs_;  // of each moment
+    std::vector<std::vector<Run>> runs_;  // the rows of each moment
     std::vector<std::string> news_;
-    std::optional<std::size_t> time_, step_;  // columns
+    std::optional<std::size_t> time_, step_;  // numbers of these columns
     double time_unit_ = 1;                    // s
     double last_ = 0;                         // time or step of the last row
     Ranges ranges_;
@@ -108,7 +109,7 @@ NumberTable::NumberTable(const std::filesystem::path& file) : lines_(file) {
     name_nameless();
 }
 
-// A measures.csv of ours has a row a moment.
+// Whether the file is a measures.csv of ours, which has a row for each moment and not for each grain.
 void NumberTable::refuse_measures() const {
     const auto has = [&](const char* name) {
         return std::find(layout_.names.begin(), layout_.names.end(), name) != layout_.names.end();
@@ -120,7 +121,7 @@ void NumberTable::refuse_measures() const {
             lines_.file().string()));
 }
 
-// Which columns tell when: of two names for one thing the first.
+// Finds the columns of time and step. If two columns fit, the first is taken.
 void NumberTable::find_clocks() {
     constexpr std::array<const char*, 5> times{"time", "timevalue", "time value", "simulation time", "zeit"};
     constexpr std::array<const char*, 5> steps{"step", "timestep", "time step", "frame", "iteration"};
@@ -128,7 +129,7 @@ void NumberTable::find_clocks() {
     for (std::size_t i = 0; i < layout_.names.size(); ++i) {
         const std::string& name = layout_.names[i];
         const std::string bare = bare_name(name);
-        const bool small_t = bare == "t" && name.starts_with('t');  // T is a temperature
+        const bool small_t = bare == "t" && name.starts_with('t');  // T would be a temperature
         if (layout_.is_word[i]) continue;
         if (!time_ && (small_t || std::find(times.begin(), times.end(), bare) != times.end())) {
             time_ = i;

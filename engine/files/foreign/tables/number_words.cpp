@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f";
 
-// What a number is that no double holds: 0 if it is too small, infinite if it is too large.
+// The value of a number that is out of range for a double: 0 if it is too small, infinity if it is too large.
 double beyond_range(std::string_view word) {
     const bool negative = word.front() == '-';
     const std::size_t exponent = word.find_first_of("eE");
@@ -21,7 +21,7 @@ double beyond_range(std::string_view word) {
     return negative ? -size : size;
 }
 
-// What is left of a word behind the number that std::from_chars found in it.
+// Reads the rest of a word after the number that std::from_chars found in it.
 std::optional<double> with_rest(std::string_view word, double value, std::string_view rest) {
     if (rest.empty()) return value;
     if (rest.front() == '#') return std::numeric_limits<double>::quiet_NaN();

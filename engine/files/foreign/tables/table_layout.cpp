@@ -15,7 +15,7 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-constexpr std::size_t most_rows = 40;  // that are tried
+constexpr std::size_t most_rows = 40;  // so many rows are tried
 
 struct Writing {
     char separator;
@@ -25,10 +25,10 @@ struct Writing {
 // The first lines of a file.
 struct Sample {
     std::vector<std::string_view> remarks, filled;
-    std::vector<std::uint64_t> numbers;  // of the filled ones, from 1
+    std::vector<std::uint64_t> numbers;  // of the lines that are not blank, from 1
 };
 
-// Without blanks at both ends, but with tabs.
+// The text without blanks at both ends. Tabs stay, because they may separate cells.
 std::string_view trimmed_blanks(std::string_view line) {
     while (line.starts_with(' ')) line.remove_prefix(1);
     while (line.ends_with(' ') || line.ends_with('\r')) line.remove_suffix(1);
@@ -65,7 +65,7 @@ bool is_number(std::string_view cell, bool decimal_comma) {
     return !cell.empty() && cell_number(cell, decimal_comma).has_value();
 }
 
-// Whether the cells can be names: none of them is a number, and not all are empty.
+// Whether the cells can be names of columns: none is a number, and not all are empty.
 bool are_names(const Cells& cells, bool decimal_comma) {
     const bool number = std::any_of(cells.begin(), cells.end(),
                                     [&](std::string_view cell) { return is_number(cell, decimal_comma); });
@@ -74,7 +74,7 @@ bool are_names(const Cells& cells, bool decimal_comma) {
     return any && !number;
 }
 
-// ParaView writes a vector as "Points:0", newer ones as "Points_0".
+// ParaView names a component of a vector "Points:0"; newer versions write "Points_0".
 std::string name_of(std::string_view cell, std::size_t column) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (cell == fmt::format("Points:{}", axis) || cell == fmt::format("Points_{}", axis))
@@ -91,7 +91,7 @@ void name_columns(TableLayout& layout, const Cells& cells) {
         layout.names[i] = name_of(i < cells.size() ? cells[i] : std::string_view{}, i);
 }
 
-// YADE's "#format x_y_z_r_matId".
+// The names in YADE's "#format x_y_z_r_matId".
 std::optional<Cells> format_of_yade(const Sample& sample) {
     for (std::string_view line : sample.remarks) {
         if (take_word(line) != "#format") continue;
@@ -106,7 +106,7 @@ std::optional<Cells> format_of_yade(const Sample& sample) {
     return std::nullopt;
 }
 
-// Names that stand in a remark before the rows, as numpy and gnuplot have them: "# x y z radius".
+// The names in a remark before the rows, as numpy and gnuplot write them: "# x y z radius".
 void name_by_remarks(TableLayout& layout, const Sample& sample) {
     if (const std::optional<Cells> names = format_of_yade(sample)) {
         layout.program = "YADE";
@@ -135,7 +135,7 @@ std::string program_of(const TableLayout& layout) {
     return {};
 }
 
-// Whether a row has the units of the columns: "m", "[mm]", "-".
+// Whether a row holds the units of the columns: "m", "[mm]", "-".
 bool are_units(const Cells& cells) {
     constexpr std::array<std::string_view, 22> known{
         "m",    "cm",   "mm", "um", "µm",    "micron", "nm",  "s", "ms", "us",  "m/s",
@@ -153,7 +153,7 @@ bool are_units(const Cells& cells) {
     return units > 0;
 }
 
-// A unit of its own row goes where others have it: "x [mm]".
+// Moves the units from a row of their own into the names: "x [mm]".
 void add_units(TableLayout& layout, const Cells& cells) {
     for (std::size_t i = 0; i < std::min(cells.size(), layout.names.size()); ++i) {
         std::string unit(trimmed(cells[i]));
@@ -163,7 +163,7 @@ void add_units(TableLayout& layout, const Cells& cells) {
     }
 }
 
-// Whether a column of that name holds numbers alone.
+// Whether a column with that name must hold only numbers.
 bool must_be_numbers(const std::string& name) {
     const std::string bare = bare_name(name);
     for (const char* meaning : {"x", "y", "z", "vx", "vy", "vz", "radius", "diameter"})
@@ -172,8 +172,8 @@ bool must_be_numbers(const std::string& name) {
     return false;
 }
 
-// Says for each column whether it holds words. A word among numbers of places, velocities and radii is a
-// mistake in its row. None where a row has another number of cells.
+// Finds out for each column whether it holds words. A word among places, velocities or radii is a mistake in
+// its row. None where a row has another number of cells.
 std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
                                           const std::vector<std::string>& names, bool closed,
                                           bool last_may_be_cut) {

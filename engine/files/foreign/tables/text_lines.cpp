@@ -132,7 +132,8 @@ void TextFrames::go_on(bool growing) {
         const Place begin = next_;
         const Passed passed = pass_over(lines_, moment);
         if (passed == Passed::end) break;
-        // A line without an end may be cut within its last number. Where it ends the only frame it is taken.
+        // A line without a line feed may be cut within its last number. In the only frame it is taken
+        // nevertheless.
         open_end_ = passed == Passed::frame && !lines_.ended();
         if (passed == Passed::cut || (open_end_ && (growing || !moments_.empty()))) {
             open_end_ = false;
@@ -164,7 +165,7 @@ bool TextFrames::grow() {
     if (now.size == seen_.size) return false;
     const std::lock_guard lock(reading_);
     const std::size_t before = moments_.size();
-    if (open_end_) {  // the line may have gone on
+    if (open_end_) {  // the line may be longer now
         next_ = places_.back();
         places_.pop_back();
         moments_.pop_back();

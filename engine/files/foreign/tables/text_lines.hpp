@@ -1,4 +1,6 @@
-// The lines of a text file, behind gzip and zstd too, with their numbers and places.
+// TextLines gives the lines of a text file, packed or not, with their numbers and places. TextFrames is the
+// base of readers of text files in which frames follow each other. A format must say how one frame is passed
+// over and how it is read. (Dumps have a faster reader of their own, dumps/text_rows.hpp.)
 #pragma once
 
 #include <cstdint>
@@ -19,26 +21,25 @@ class TextLines {
     // Throws UserError when the file cannot be opened.
     explicit TextLines(const std::filesystem::path& file);
 
-    // To the next line. False at the end of the file.
+    // Goes to the next line. False at the end of the file.
     bool next();
-    // The same, past lines of blanks.
+    // The same, but skips lines of blanks.
     bool next_filled();
-    // Takes the line back: next() gives it once more. The line is then the one before, without its text.
+    // Goes back by one line, so that next() gives this line once more.
     void put_back() { go_to(begin_, number_ - 1); }
-    // Without its end ("\n", "\r\n"); the mark of UTF-8 before the first line is left out. Stands until the
-    // next call.
+    // The line without its end ("\n", "\r\n") and without a byte order mark. Valid until the next call.
     std::string_view text() const { return text_; }
     std::uint64_t number() const { return number_; }  // from 1
-    std::uint64_t begin() const { return begin_; }    // byte of the unpacked content
-    bool ended() const { return ended_; }             // whether the line has an end
+    std::uint64_t begin() const { return begin_; }    // its first byte in the unpacked content
+    bool ended() const { return ended_; }             // whether the line has a line feed
     std::uint64_t next_begin() const { return place_ + at_; }
     bool cut_off() const { return source_->cut_off(); }
 
-    // The next line is then the one that begins at `byte`, with `lines` lines before it.
+    // Makes the line that begins at `byte`, with `lines` lines before it, the next one.
     void go_to(std::uint64_t byte, std::uint64_t lines);
 
     const std::filesystem::path& file() const { return file_; }
-    // Throws UserError "FILE:LINE: what" for the present line.
+    // Throws UserError "FILE:LINE: what" with the present line.
     [[noreturn]] void fault(const std::string& what) const;
 
   private:
@@ -47,20 +48,18 @@ class TextLines {
     std::filesystem::path file_;
     std::unique_ptr<ByteSource> source_;
     std::vector<char> buffer_;
-    std::size_t at_ = 0, filled_ = 0;  // of the buffer
+    std::size_t at_ = 0, filled_ = 0;  // bytes of the buffer that were used, and that are there
     std::uint64_t place_ = 0;          // byte of the file where the buffer begins
     std::string_view text_;
     std::uint64_t number_ = 0, begin_ = 0;
     bool ended_ = true;
 };
 
-// The lines that lie whole in the first bytes of a file, `most` at most, and blank ones left out; how a file
-// is known by its content.
+// The whole lines among the first bytes of a file, without blank ones and at most `most` of them. Formats are
+// recognised by these.
 std::vector<std::string_view> lines_of(const FileHead& head, std::size_t most);
 
-// A text file of frames one behind the other. It is read over once to find where each frame begins; a format
-// says how one frame is passed over and how it is read.
-
+// A text file in which frames follow each other. It is passed over once to find where each frame begins.
 class TextFrames : public RawFile {
   public:
     const RawFacts& facts() const override { return facts_; }
@@ -74,14 +73,14 @@ class TextFrames : public RawFile {
 
     explicit TextFrames(const std::filesystem::path& file);
 
-    // Reads over one frame and says of which moment it is. `end`: nothing but blank lines is left; `cut`: the
-    // file ends within the frame. Throws UserError where the file cannot be followed.
+    // Passes over one frame and gives its moment. `end`: only blank lines are left. `cut`: the file ends
+    // within the frame. Throws UserError where the file makes no sense.
     virtual Passed pass_over(TextLines& lines, RawMoment& moment) = 0;
-    // One that was passed over.
+    // Reads a frame that was passed over before.
     virtual RawFrame read_frame(TextLines& lines, const RawMoment& moment) const = 0;
 
-    // Finds all frames; called by who makes the reader, once it is whole. Throws UserError when there is
-    // none.
+    // Finds all frames. It is called after the constructor, since it calls virtual functions. Throws
+    // UserError when there is no frame.
     void find_frames();
     template <class Reader>
     friend std::unique_ptr<RawFile> open_text_frames(const std::filesystem::path& file);
@@ -90,10 +89,10 @@ class TextFrames : public RawFile {
 
   private:
     struct Place {
-        std::uint64_t byte = 0, lines = 0;  // lines before it
+        std::uint64_t byte = 0, lines = 0;  // its first byte, and the number of lines before it
     };
     struct Seen {
-        std::uint64_t size = 0, file = 0;  // bytes; number of the inode
+        std::uint64_t size = 0, file = 0;  // in bytes; number of the inode
     };
 
     Seen look() const;
@@ -104,7 +103,7 @@ class TextFrames : public RawFile {
     std::vector<RawMoment> moments_;
     std::vector<Place> places_;
     Place next_;             // where the next frame begins
-    bool open_end_ = false;  // the last line of the last frame has no end
+    bool open_end_ = false;  // the last line of the last frame has no line feed
     std::vector<std::string> news_;
     Seen seen_;
     mutable std::mutex reading_;
