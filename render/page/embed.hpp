@@ -1,8 +1,10 @@
 // Text and data inside HTML.
 #pragma once
 
+#include <fmt/format.h>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,5 +41,34 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
 
 // In zlib's format (RFC 1950), which DecompressionStream calls "deflate".
 std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes);
+
+// The files of render/page/html, which the build puts into the program.
+
+// Page, parts and style are as they lie there. The scripts are joined by the build (embed_page.cmake), uPlot
+// first.
+struct PageFiles {
+    std::string_view page, body, variant, bed, charts, fields, live, style;
+    std::string_view script_before, mesh_script, script_after;
+
+    // One script; only a page of a scene with meshes needs the part that draws them.
+    std::string script(bool meshes) const {
+        return fmt::format("{}{}{}", script_before, meshes ? mesh_script : "", script_after);
+    }
+};
+const PageFiles& page_files();
+
+// Whoever makes a page tells how far that is, and may be stopped.
+
+// Told the share that is done; false: stop.
+using PageProgress = std::function<bool(double)>;
+
+// Thrown where one said stop; write_report() catches it.
+struct PageStopped {};
+
+inline const PageProgress kNoPageProgress = [](double) { return true; };
+
+inline void go_on_or_stop(const PageProgress& progress, double share) {
+    if (!progress(share)) throw PageStopped();
+}
 
 }  // namespace grainreel

@@ -9,7 +9,7 @@
 
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/production/picture_files.hpp"
-#include "render/page/page_progress.hpp"
+#include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -8,7 +8,6 @@
 #include "engine/base/plain_file.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/facts/run_names.hpp"
-#include "render/page/page_files.hpp"
 #include "render/page/run_part.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "render/film/sources/recorded_run.hpp"
-#include "render/page/page_progress.hpp"
+#include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

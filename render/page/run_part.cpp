@@ -10,7 +10,6 @@
 #include "render/film/run/folder_film.hpp"
 #include "render/page/bed/all_moments.hpp"
 #include "render/page/embed.hpp"
-#include "render/page/page_files.hpp"
 #include "render/page/page_parts.hpp"
 
 namespace grainreel {

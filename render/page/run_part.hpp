@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/facts/run_facts.hpp"
 #include "render/page/page_measures.hpp"
-#include "render/page/page_progress.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
 

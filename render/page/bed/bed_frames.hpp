@@ -19,7 +19,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
 #include "render/page/bed/all_moments.hpp"
-#include "render/page/page_progress.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 

@@ -17,7 +17,6 @@
 #include "render/film/sources/recorded_run.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
-#include "render/page/page_files.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/page/page_parts.hpp"
