@@ -14,7 +14,7 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/app/check/study_estimate.hpp"
+#include "render/app/check/check_cost.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/paper_options.hpp"
 #include "render/app/report/result.hpp"
