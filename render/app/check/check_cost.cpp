@@ -10,7 +10,7 @@
 #include "engine/base/team.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/app/check/check_parts.hpp"
+#include "render/app/check/print_plan.hpp"
 #include "render/app/estimate/cost_estimate.hpp"
 #include "render/app/estimate/disk_estimate.hpp"
 #include "render/film/codec/codec.hpp"

@@ -11,7 +11,7 @@
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/scene/bed.hpp"
-#include "render/app/check/check_parts.hpp"
+#include "render/app/check/print_plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/state/glued_grains.hpp"
-#include "render/app/check/check_parts.hpp"
+#include "render/app/check/print_plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

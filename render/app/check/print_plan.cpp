@@ -1,16 +1,15 @@
 #include "render/app/check/print_plan.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <sstream>
 
 #include "engine/plan/plan_bed.hpp"
-#include "render/app/check/check_parts.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 std::string start_text(const FilmedScene& scene, const Plan& plan) {

@@ -1,12 +1,17 @@
 // What `grainreel check` prints.
 #pragma once
 
+#include <fmt/ostream.h>
+#include <cstdint>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "engine/base/text.hpp"
 #include "engine/plan/plan.hpp"
+#include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -22,5 +27,43 @@ struct PlanWords {
     std::string contacts;
 };
 PlanWords plan_words(const FilmedScene& scene, const Plan& plan);
+
+// The chapters of what `grainreel check` prints. Internal to print_plan.
+
+// Lines of a name and a text, the texts below each other. They are printed and kept.
+class Listing {
+  public:
+    explicit Listing(std::ostream& out) : out_(out) {}
+    void line(std::string_view name, const std::string& text) {
+        fmt::print(out_, "{:<13}{}\n", name, message_text(text));
+        lines_.emplace_back(name, text);
+    }
+    void gap() { out_ << '\n'; }
+    const std::vector<std::pair<std::string, std::string>>& lines() const { return lines_; }
+
+  private:
+    std::ostream& out_;
+    std::vector<std::pair<std::string, std::string>> lines_;
+};
+
+std::string metres_text(double metres);
+std::string span_text(double seconds);
+std::string grouped(std::int64_t count);  // 1234567 as "1,234,567"
+
+std::string turn_text(const BodyTurn& turn);     // "turns at 30 rpm about ..."
+std::string motion_text(const SceneMesh& mesh);  // "stands still"
+
+// Three lines a mesh, and one for each kind of fault that was mended.
+void print_meshes(const Scene& scene, Listing& list);
+void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list);
+void print_model(const FilmedScene& scene, const Plan& plan, Listing& list);
+void print_contacts(const FilmedScene& scene, const Plan& plan, std::ostream& out);
+void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+                 Listing& list);
+// Measures the machine when its cache has nothing (cost_estimate.hpp).
+void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
+                Listing& list);
+
+std::int64_t frames_of(const std::vector<SegmentCount>& film);
 
 }  // namespace grainreel
