@@ -12,7 +12,6 @@
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/app/estimate/cost_estimate.hpp"
-#include "render/app/estimate/disk_estimate.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/held_frames.hpp"
