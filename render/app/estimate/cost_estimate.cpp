@@ -11,7 +11,6 @@
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "render/app/estimate/engine_cost.hpp"
 #include "render/app/estimate/film_probe.hpp"
-#include "render/app/estimate/speed_cache.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -1,18 +1,29 @@
 #include "render/app/estimate/engine_cost.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "build_info.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/program.hpp"
+#include "engine/base/team.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/scheme.hpp"
+#include "engine/vector/instructions.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 // All measured by processor time (docs/notes/performance.md). Contacts a grain of a bed at rest.
@@ -208,6 +219,94 @@ EngineCost engine_cost(const FilmedScene& scene, const Plan& plan) {
     cost.run = cost.run_steps * (grains * grain_cost(scene, plan, contacts) + kStep) +
                measuring_cost(scene, plan, grains, contacts);
     return cost;
+}
+
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_films = 200;  // looks kept; then all are measured again
+constexpr std::uintmax_t largest_file = 1 << 20;
+
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 1);
+    return "unknown";
+}
+
+bool sane(double value, double least, double most) {
+    return value >= least && value <= most;  // false for NaN
+}
+
+bool sane_engine(double grain_steps) {
+    return sane(grain_steps, 1e3, 1e13);
+}
+
+bool sane_film(const FilmSpeed& speed) {
+    return sane(speed.seconds, 1e-6, 1e5) && sane(speed.drawing, 0, 1);
+}
+
+}  // namespace
+
+SpeedCache::SpeedCache()
+    : machine_(fmt::format("{} x {}, grainreel {}, {}", processor_name(), usable_processors(),
+                           build_info::version, vector_instructions())) {
+    const fs::path folder = cache_folder();
+    if (folder.empty()) return;
+    path_ = folder / fmt::format("speed-{:016x}.json", std::hash<std::string>()(machine_));
+    try {
+        read();
+    } catch (const std::exception&) {  // whatever it is, it is not what save() writes
+        engine_.clear();
+        films_.clear();
+    }
+}
+
+void SpeedCache::read() {
+    if (!fs::is_regular_file(path_) || fs::file_size(path_) > largest_file) return;
+    const Json all = Json::parse(std::ifstream(path_));
+    if (all.at("machine").get<std::string>() != machine_) return;
+    for (const auto& [threads, speed] : all.at("engine").items())
+        if (sane_engine(speed.get<double>())) engine_[std::stoi(threads)] = speed.get<double>();
+    for (const auto& [look, film] : all.at("film").items()) {
+        const FilmSpeed speed{film.at("seconds").get<double>(), film.at("drawing").get<double>()};
+        if (sane_film(speed)) films_[look] = speed;
+    }
+}
+
+std::optional<double> SpeedCache::engine(int threads) const {
+    const auto found = engine_.find(threads);
+    return found == engine_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<FilmSpeed> SpeedCache::film(const std::string& look) const {
+    const auto found = films_.find(look);
+    return found == films_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void SpeedCache::keep_engine(int threads, double grain_steps) {
+    if (sane_engine(grain_steps)) engine_[threads] = grain_steps;
+}
+
+void SpeedCache::keep_film(const std::string& look, const FilmSpeed& speed) {
+    if (films_.size() >= most_films) films_.clear();
+    if (sane_film(speed)) films_[look] = speed;
+}
+
+void SpeedCache::save() const {
+    if (path_.empty()) return;
+    Json engine = Json::object(), films = Json::object();
+    for (const auto& [threads, speed] : engine_) engine[std::to_string(threads)] = speed;
+    for (const auto& [look, film] : films_)
+        films[look] = {{"seconds", film.seconds}, {"drawing", film.drawing}};
+    const Json all = {{"machine", machine_}, {"engine", engine}, {"film", films}};
+    try {
+        fs::create_directories(path_.parent_path());
+        replace_file(path_, all.dump(1) + "\n");
+    } catch (const std::exception&) {  // a cache that cannot be kept is measured again
+    }
 }
 
 }  // namespace grainreel

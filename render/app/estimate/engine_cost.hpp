@@ -6,6 +6,11 @@
 // 3 g, all means over a period.
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
 #include "engine/plan/plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -23,5 +28,37 @@ EngineCost engine_cost(const FilmedScene& scene, const Plan& plan);
 
 // Contacts a grain, the mean over the run.
 double mean_contacts(const FilmedScene& scene, const Plan& plan);
+
+// How fast this machine computes and draws, measured once and kept in the cache folder.
+
+// How fast films of one look are made.
+struct FilmSpeed {
+    double seconds = 0;    // of processor time, to draw and encode a frame of one moment
+    double drawing = 0.5;  // share of it that is drawing
+};
+
+// A file for each processor, version and vector width in $XDG_CACHE_HOME/grainreel or ~/.cache/grainreel. A
+// file that is missing, damaged or of anything else counts as empty; where none can be written, nothing is
+// kept.
+class SpeedCache {
+  public:
+    SpeedCache();  // reads it
+
+    std::optional<double> engine(int threads) const;  // grain-steps a second of lattice_speed
+    std::optional<FilmSpeed> film(const std::string& look) const;
+    void keep_engine(int threads, double grain_steps);
+    void keep_film(const std::string& look, const FilmSpeed& speed);
+    void save() const;
+
+    const std::filesystem::path& path() const { return path_; }  // empty: there is no home
+
+  private:
+    void read();
+
+    std::filesystem::path path_;
+    std::string machine_;
+    std::map<int, double> engine_;
+    std::map<std::string, FilmSpeed> films_;
+};
 
 }  // namespace grainreel

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/frame.hpp"
-#include "render/app/estimate/speed_cache.hpp"
+#include "render/app/estimate/engine_cost.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
 
