@@ -1,4 +1,4 @@
-#include "render/app/options/camera_file.hpp"
+#include "render/app/options/option_groups.hpp"
 
 #include <fstream>
 
@@ -7,7 +7,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
-#include "render/app/options/option_groups.hpp"
 
 namespace grainreel {
 

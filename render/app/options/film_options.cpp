@@ -6,7 +6,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/app/options/number_range.hpp"
 #include "render/app/options/option_groups.hpp"
 
 namespace grainreel {

@@ -2,18 +2,20 @@
 // in what it is given.
 #pragma once
 
+#include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
-
 #include "engine/scene/keys/keys.hpp"
+#include "render/app/print/paper.hpp"
 #include "render/app/report/reporter.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/page/live/watch.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
 
@@ -87,5 +89,63 @@ struct Choices {
         about += (about.empty() ? "" : "; ") + name + " (" + what + ")";
     }
 };
+
+// A number in a range, for options.
+
+// CLI::Range lets "nan" through.
+inline CLI::Validator number_within(double low, double high) {
+    return CLI::Validator(
+        [low, high](const std::string& text) {
+            double number = 0;
+            const bool good = CLI::detail::lexical_cast(text, number) && number >= low && number <= high;
+            return good ? std::string()
+                        : fmt::format("must be a number from {} to {}, but is {}", low, high, text);
+        },
+        "");
+}
+
+// A camera that is kept as a file, and used again on other runs.
+//
+// The file is the keys of [film.camera] of a scene, a line each: azimuth = 20. Lengths are in m, angles in
+// degrees.
+
+struct CameraFiles {
+    std::optional<std::filesystem::path> use, keep;
+};
+
+// --camera, and --keep-camera with `keep`.
+void add_camera_file(CLI::App& verb, CameraFiles& files, bool keep = true);
+
+// The file's keys come before what was set on the command line. Throws UserError with its line for what is no
+// key of a camera.
+void use_camera_file(const CameraFiles& files, Assignments& sets);
+
+// Writes the camera that pictures are drawn with. Throws UserError where the file is there, RunError where it
+// cannot be written.
+void keep_camera_file(const CameraFiles& files, const Camera& camera);
+
+// Charts for print: --charts, --as, --width-mm and --dpi.
+
+struct PaperOptions {
+    std::optional<std::filesystem::path> folder;  // none: no charts are wanted
+    Paper paper;
+};
+
+// Gives --charts, which the other options need. about: of --charts.
+CLI::Option* add_paper(CLI::App& verb, PaperOptions& options, const char* about);
+
+// Throws UserError where the folder of charts is a file, and where there would be too many pixels.
+void check_paper(const PaperOptions& options);
+
+// A film drawn in parts: the options of `render`, and the script by which a cluster draws and joins them.
+
+// --part, --parts and --slurm. slurm: the number of parts; 0: no script.
+void add_parts(CLI::App& verb, std::optional<PartsWanted>& parts, int& slurm);
+
+// A script that submits itself to Slurm twice: as an array that draws a part in each task, and as a job that
+// waits for the array and joins its parts. words: the command as typed, its program first; where: the folder
+// that it was typed in; film: the file of --out.
+std::string slurm_script(const std::vector<std::string>& words, int parts, const std::filesystem::path& where,
+                         const std::filesystem::path& film);
 
 }  // namespace grainreel

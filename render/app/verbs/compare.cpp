@@ -4,7 +4,6 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "render/app/foreign/run_to_read.hpp"
-#include "render/app/options/camera_file.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"

@@ -9,7 +9,6 @@
 #include "engine/handover/carry.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
-#include "render/app/options/camera_file.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/film_report.hpp"
 #include "render/app/report/record.hpp"

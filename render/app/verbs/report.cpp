@@ -11,7 +11,6 @@
 #include "engine/scene/text/units.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/options/paper_options.hpp"
 #include "render/app/print/run_charts.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/report/share_watcher.hpp"

@@ -16,7 +16,6 @@
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/check_cost.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/options/paper_options.hpp"
 #include "render/app/report/result.hpp"
 #include "render/app/study/file/read_study.hpp"
 #include "render/app/study/members/child.hpp"
