@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
-#include "render/app/print/curve.hpp"
+#include "render/app/print/run_charts.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/table.hpp"
