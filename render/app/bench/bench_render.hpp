@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "render/app/report/reporter.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

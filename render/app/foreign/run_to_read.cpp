@@ -9,7 +9,7 @@
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
-#include "render/app/report/share_watcher.hpp"
+#include "render/app/messages/reporter.hpp"
 
 namespace grainreel {
 

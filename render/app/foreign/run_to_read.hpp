@@ -8,7 +8,7 @@
 #include <CLI/App.hpp>
 
 #include "engine/files/frames/frame_archive.hpp"
-#include "render/app/report/reporter.hpp"
+#include "render/app/messages/reporter.hpp"
 
 namespace grainreel {
 

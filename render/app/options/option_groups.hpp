@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "engine/scene/keys/keys.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/print/paper.hpp"
-#include "render/app/report/reporter.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/page/live/watch.hpp"
 #include "render/scene/film.hpp"

@@ -12,9 +12,9 @@
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/foreign/run_to_read.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/result.hpp"
-#include "render/app/report/share_watcher.hpp"
 #include "render/app/verbs/verb.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 
 #include <CLI/App.hpp>
 
-#include "render/app/report/reporter.hpp"
+#include "render/app/messages/reporter.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "render/app/report/reporter.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/page/live/server.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 
 #include "engine/base/team.hpp"
 #include "engine/run/driver/pace.hpp"
-#include "render/app/report/progress_text.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/film/sources/film_request.hpp"
 
 namespace grainreel {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/run/folder/listener.hpp"
+#include "render/app/report/stop_signal.hpp"
 
 namespace grainreel {
 
@@ -49,6 +50,43 @@ class Reporter final : public RunListener {
     bool line_shown_ = false;
     std::optional<Progress> last_;  // shown
     Watch::time_point last_time_;
+};
+
+// How far a run has come, in words for people and in JSON for programs.
+
+std::string to_string(Progress::Stage stage);
+
+// "vibrating  3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left", cut to `width`
+// columns from its end, whole parts at a time.
+std::string progress_line(const Progress& progress, int width);
+
+// One object, one line, without the line's end.
+std::string progress_json(const Progress& progress);
+
+// Watches what tells its share done: charts and benches. Shows it with the time left, and says whether to go
+// on.
+
+class ShareWatcher {
+  public:
+    ShareWatcher(Reporter& reporter, Progress::Stage stage)
+        : reporter_(reporter), stage_(stage), begin_(std::chrono::steady_clock::now()) {}
+
+    // done: 0 to 1. False after a signal to stop.
+    bool operator()(const std::string& what, double done) const {
+        Progress progress;
+        progress.stage = stage_;
+        progress.what = what;
+        progress.done = done;
+        progress.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        if (done > 0.02) progress.remaining = progress.elapsed * (1 - done) / done;
+        reporter_.progress(progress);
+        return stop_signal() == 0;
+    }
+
+  private:
+    Reporter& reporter_;
+    Progress::Stage stage_;
+    std::chrono::steady_clock::time_point begin_;
 };
 
 }  // namespace grainreel
