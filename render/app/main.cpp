@@ -8,7 +8,7 @@
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/report/result.hpp"
+#include "render/app/messages/result.hpp"
 #include "render/app/report/stop_signal.hpp"
 
 namespace grainreel {

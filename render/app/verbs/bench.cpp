@@ -11,8 +11,8 @@
 #include "render/app/bench/bench_render.hpp"
 #include "render/app/bench/bench_text.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
 #include "render/scene/film.hpp"
 

@@ -10,8 +10,8 @@
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
 
 namespace grainreel {

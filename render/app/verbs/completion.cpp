@@ -4,7 +4,7 @@
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/manual/completion.hpp"
-#include "render/app/report/result.hpp"
+#include "render/app/messages/result.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/read_scene.hpp"
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "render/app/doctor/findings.hpp"
+#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/result.hpp"
 #include "render/app/report/version.hpp"
 #include "render/app/verbs/verb.hpp"
 

@@ -13,8 +13,8 @@
 #include "engine/scene/text/units.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
 
 namespace grainreel {

@@ -1,8 +1,8 @@
 // The verb `join`: the parts of a film that render --part has drawn become one film.
 #include <fmt/format.h>
 
+#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/result.hpp"
 #include "render/app/verbs/verb.hpp"
 #include "render/film/run/film_in_parts.hpp"
 

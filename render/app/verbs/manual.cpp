@@ -12,8 +12,8 @@
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/manual/man_page.hpp"
+#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/result.hpp"
 #include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {

@@ -1,12 +1,10 @@
-#include "render/app/report/result.hpp"
+#include "render/app/messages/result.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
@@ -40,6 +38,13 @@ void close_results() {
     // `inspect ... | head` has read what it wanted.
     if (first_error != 0 && first_error != EPIPE)
         throw RunError(fmt::format("stdout: cannot be written: {}", std::strerror(first_error)));
+}
+
+int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request) {
+    if (ended.folder && request.to_stdout)
+        std::fprintf(stderr, "%s\n", visible(ended.folder->string()).c_str());
+    if (ended.folder && !request.to_stdout) print_exact(ended.folder->string() + "\n");
+    return ended.exit_status;
 }
 
 }  // namespace grainreel

@@ -4,6 +4,9 @@
 
 #include <string_view>
 
+#include "engine/run/folder/folder_run.hpp"
+#include "render/film/sources/film_request.hpp"
+
 namespace grainreel {
 
 // Text of many lines. Control characters that a title or a name brought along are written out (visible).
@@ -16,5 +19,10 @@ void print_exact(std::string_view text);
 // To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader
 // that has closed the pipe wants no more, which is no failure.
 void close_results();
+
+// What the verbs that make films say when they are done.
+
+// Prints where the run's files are, on stdout unless the film went there; gives the exit status.
+int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request);
 
 }  // namespace grainreel
