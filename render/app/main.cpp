@@ -9,7 +9,7 @@
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/result.hpp"
-#include "render/app/report/stop_signal.hpp"
+#include "render/app/messages/stop_signal.hpp"
 
 namespace grainreel {
 namespace {

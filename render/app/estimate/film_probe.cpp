@@ -12,7 +12,7 @@
 #include "engine/base/random.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/scene/bed.hpp"
-#include "render/app/report/stop_signal.hpp"
+#include "render/app/messages/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/scene/filmed_scene.hpp"
 

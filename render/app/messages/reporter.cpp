@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/base/text.hpp"
-#include "render/app/report/stop_signal.hpp"
+#include "render/app/messages/stop_signal.hpp"
 
 namespace grainreel {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/run/folder/listener.hpp"
-#include "render/app/report/stop_signal.hpp"
+#include "render/app/messages/stop_signal.hpp"
 
 namespace grainreel {
 

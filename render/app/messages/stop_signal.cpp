@@ -1,7 +1,6 @@
-#include "render/app/report/stop_signal.hpp"
+#include "render/app/messages/stop_signal.hpp"
 
 #include <unistd.h>
-
 #include <atomic>
 #include <csignal>
 
