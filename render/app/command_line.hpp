@@ -6,7 +6,7 @@
 
 #include <CLI/App.hpp>
 
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {
 

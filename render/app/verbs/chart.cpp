@@ -12,7 +12,7 @@
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {
 namespace {

@@ -8,7 +8,7 @@
 #include "render/app/check/print_plan.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/scene/read_scene.hpp"
 
 namespace grainreel {

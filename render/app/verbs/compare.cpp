@@ -7,7 +7,7 @@
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/record.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/film/compare/compare_run.hpp"
 
 namespace grainreel {

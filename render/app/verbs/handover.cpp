@@ -20,7 +20,7 @@
 #include "render/app/messages/result.hpp"
 #include "render/app/messages/stop_signal.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/sampler.hpp"

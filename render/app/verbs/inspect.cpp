@@ -25,7 +25,7 @@
 #include "render/app/inspect/print_answer.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/film/answers/filmed_record.hpp"
 #include "render/film/answers/pictured_answer.hpp"
 #include "render/film/sampling/held_frames.hpp"

@@ -3,7 +3,7 @@
 
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/film/run/film_in_parts.hpp"
 
 namespace grainreel {

@@ -13,7 +13,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/record.hpp"
 #include "render/app/verbs/page_of_run.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/app/watch/watch_child.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"

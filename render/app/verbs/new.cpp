@@ -11,7 +11,7 @@
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -18,7 +18,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/record.hpp"
 #include "render/app/study/members/child.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/film/run/film_in_parts.hpp"
 #include "render/film/run/follow_run.hpp"
 #include "render/film/run/redraw_run.hpp"

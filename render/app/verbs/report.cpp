@@ -15,7 +15,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/print/run_charts.hpp"
 #include "render/app/verbs/page_of_run.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {
 namespace {

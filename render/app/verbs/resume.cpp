@@ -27,7 +27,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/record.hpp"
 #include "render/app/verbs/page_of_run.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/film/run/movie_run.hpp"

@@ -5,7 +5,7 @@
 
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/messages/result.hpp"
-#include "render/app/verbs/verb.hpp"
+#include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {
 namespace {
