@@ -1,22 +1,23 @@
 // The verb `manual`: man pages, written from what --help knows.
-#include <algorithm>
-#include <filesystem>
-#include <optional>
+#include "render/app/verbs/manual.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include "build_info.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
-#include "render/app/manual/man_page.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {
+
 namespace {
 
 class Manual final : public Verb {
@@ -77,6 +78,119 @@ class Manual final : public Verb {
 
 std::unique_ptr<Verb> manual_verb() {
     return std::make_unique<Manual>();
+}
+
+namespace {
+
+// roff reads a backslash anywhere, and a dot or an apostrophe at the start of a line. A plain "-" becomes a
+// hyphen, which cannot be pasted into a shell.
+std::string roff(const std::string& text) {
+    std::string safe;
+    for (const char letter : text) {
+        if (letter == '\\')
+            safe += "\\e";
+        else if (letter == '-')
+            safe += "\\-";
+        else
+            safe += letter;
+    }
+    if (!safe.empty() && (safe[0] == '.' || safe[0] == '\'')) safe.insert(0, "\\&");
+    return safe;
+}
+
+std::string heading(const std::string& name, const std::string& about, const std::string& version) {
+    std::string upper = name;
+    for (char& letter : upper)
+        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    return fmt::format(".TH {} 1 \"\" \"grainreel {}\" \"grainreel manual\"\n.SH NAME\n{} \\- {}\n",
+                       roff(upper), roff(version), roff(name), roff(about));
+}
+
+std::string bold(const std::string& word) {
+    return "\\fB" + roff(word) + "\\fR";
+}
+
+std::string italic(const std::string& word) {
+    return "\\fI" + roff(word) + "\\fR";
+}
+
+std::string paragraph(const CommandOption& option, bool positional) {
+    std::string head;
+    if (positional) {
+        head = italic(option.names.front());
+    } else {
+        for (const std::string& name : option.names) head += (head.empty() ? "" : ", ") + bold(name);
+        if (!option.flag()) head += " " + italic(option.value);
+    }
+    std::string about = option.about;
+    if (!option.values.empty() && about.find(option.values.front()) == std::string::npos) {
+        about += " (";
+        for (const std::string& word : option.values)
+            about += (word == option.values.front() ? "" : ", ") + word;
+        about += ")";
+    }
+    return ".TP\n" + head + "\n" + roff(about) + "\n";
+}
+
+std::string synopsis(const CommandVerb& verb) {
+    std::string line =
+        ".SH SYNOPSIS\n" + bold("grainreel") + " " + bold(verb.name) + " [" + italic("OPTIONS") + "]";
+    for (const CommandOption& one : verb.positionals) {
+        const std::string name = italic(one.names.front()) + (one.repeated ? " ..." : "");
+        line += one.required ? " " + name : " [" + name + "]";
+    }
+    return line + "\n";
+}
+
+// Lines that --help sets beside each other keep their form.
+std::string notes(const std::vector<std::string>& lines) {
+    if (lines.empty()) return "";
+    std::string text = ".SH NOTES\n.nf\n";
+    for (const std::string& line : lines) text += (line.empty() ? "" : roff(line)) + "\n";
+    return text + ".fi\n";
+}
+
+}  // namespace
+
+std::string program_man_page(const std::vector<CommandVerb>& verbs, const std::string& about,
+                             const std::string& version) {
+    std::string first = about;
+    if (!first.empty() && first.back() == '.') first.pop_back();
+    std::string page = heading("grainreel", first, version);
+    page +=
+        ".SH SYNOPSIS\n" + bold("grainreel") + " " + italic("VERB") + " [" + italic("OPTIONS") + "] ...\n";
+    page += ".SH VERBS\n";
+    for (const CommandVerb& verb : verbs)
+        page += ".TP\n" + bold(verb.name) + "\n" + roff(verb.about) + ". See " +
+                bold("grainreel-" + verb.name) + "(1).\n";
+    page += ".SH ENVIRONMENT\n.TP\n" + bold("GRAINREEL_OUTPUT") +
+            "\nFolder in which runs are made where nothing else is said [output]\n.TP\n" +
+            bold("GRAINREEL_GL") + "\nWhat draws: osmesa or egl [osmesa]\n.TP\n" + bold("XDG_CACHE_HOME") +
+            "\nFolder whose folder grainreel keeps what can be made again [~/.cache]\n";
+    page +=
+        ".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n1\nThe run failed; what it had is kept.\n.TP\n2\nA mistake in "
+        "a file "
+        "or an option; nothing was written.\n.TP\n129, 130, 143\nStopped by SIGHUP, Ctrl\\-C or SIGTERM; "
+        "files "
+        "are whole.\n";
+    page +=
+        ".SH EXAMPLES\n.nf\ngrainreel scenes\ngrainreel movie wedge_segregation\ngrainreel render "
+        "output/wedge_segregation \\-\\-at 2 \\-\\-out still.png\n.fi\n";
+    return page;
+}
+
+std::string verb_man_page(const CommandVerb& verb, const std::string& version) {
+    std::string about = verb.about;
+    std::string page = heading("grainreel-" + verb.name, about, version) + synopsis(verb);
+    if (!verb.positionals.empty()) page += ".SH ARGUMENTS\n";
+    for (const CommandOption& one : verb.positionals) page += paragraph(one, true);
+    std::string group;
+    for (const CommandOption& one : verb.options) {
+        if (one.group.empty()) continue;
+        if (one.group != group) page += fmt::format(".SH \"{}\"\n", roff(group = one.group));
+        page += paragraph(one, false);
+    }
+    return page + notes(verb.notes) + ".SH SEE ALSO\n" + bold("grainreel") + "(1)\n";
 }
 
 }  // namespace grainreel
