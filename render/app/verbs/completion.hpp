@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/scene/keys/keys.hpp"
-#include "render/app/manual/command_table.hpp"
+#include "render/app/verbs/command_table.hpp"
 
 namespace grainreel {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/app/manual/command_table.hpp"
+#include "render/app/verbs/command_table.hpp"
 
 namespace grainreel {
 

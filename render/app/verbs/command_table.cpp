@@ -1,4 +1,4 @@
-#include "render/app/manual/command_table.hpp"
+#include "render/app/verbs/command_table.hpp"
 
 #include <algorithm>
 #include <initializer_list>

@@ -2,10 +2,9 @@
 // it, and it is taken from the parser that --help prints, so the three cannot differ.
 #pragma once
 
+#include <CLI/App.hpp>
 #include <string>
 #include <vector>
-
-#include <CLI/App.hpp>
 
 namespace grainreel {
 
