@@ -1,15 +1,32 @@
 // The verb `doctor`: what this machine has, what is missing, and how to get it.
-#include <algorithm>
+#include "render/app/verbs/doctor.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <thread>
 
-#include "render/app/doctor/findings.hpp"
+#include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
+#include "engine/lab/bench/bench_run.hpp"
+#include "engine/run/driver/packing_cache.hpp"
+#include "engine/run/import/import_run.hpp"
+#include "engine/vector/instructions.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/report/version.hpp"
 #include "render/app/verbs/verbs.hpp"
+#include "render/film/codec/codec.hpp"
+#include "render/picture/gl/context.hpp"
+#include "render/picture/words/missing_letters.hpp"
+#include "render/scene/film.hpp"
 
 namespace grainreel {
+
 namespace {
 
 std::string line_of(const Finding& finding, std::size_t width) {
@@ -52,6 +69,181 @@ class Doctor final : public Verb {
 
 std::unique_ptr<Verb> doctor_verb() {
     return std::make_unique<Doctor>();
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double gigabyte = 1e9;
+constexpr double least_room = 1e9;    // bytes of disk: some films and trajectories
+constexpr double least_memory = 5e8;  // bytes: a bed of 100,000 grains and a picture of 1080 lines
+
+std::string speed_text(int threads) {
+    return fmt::format("{:.0f} M grain-steps/s", 1e-6 * lattice_speed(threads));
+}
+
+Finding opengl(const char* what, gl::Provider provider, const std::string& remedy) {
+    Finding finding{what, "", true, false, remedy};
+    try {
+        finding.state = gl::make_context(provider, 1)->description();
+    } catch (const std::exception& problem) {
+        finding.state = problem.what();
+        finding.good = false;
+    }
+    return finding;
+}
+
+Finding film_format(const std::string& name, FilmFormat format) {
+    const Codec& codec = codec_of(format);
+    Finding finding{fmt::format("film as {}", name), codec.words, true, false,
+                    "install an FFmpeg that has an encoder for " + std::string(codec.standard)};
+    CodecSettings settings;
+    settings.width = settings.height = 64;
+    try {
+        finding.state += ", " + open_codec(codec, settings).description;
+    } catch (const std::exception& problem) {
+        finding.state = problem.what();
+        finding.good = false;
+    }
+    return finding;
+}
+
+std::optional<fs::path> on_the_path(const std::string& program) {
+    const char* path = std::getenv("PATH");
+    std::string folders = path ? path : "";
+    folders += ':';
+    for (std::size_t start = 0, end; (end = folders.find(':', start)) != std::string::npos; start = end + 1) {
+        const fs::path file = fs::path(folders.substr(start, end - start)) / program;
+        if (access(file.c_str(), X_OK) == 0) return file;
+    }
+    return std::nullopt;
+}
+
+// bytes; with what the system would give up of its caches
+double available_memory() {
+    std::ifstream figures("/proc/meminfo");
+    std::string name, unit;
+    double kibibytes = 0;
+    while (figures >> name >> kibibytes) {
+        if (name == "MemAvailable:") return 1024 * kibibytes;
+        std::getline(figures, unit);
+    }
+    return 0;
+}
+
+// The folder itself, or the nearest one above it that is there.
+fs::path existing(fs::path folder) {
+    std::error_code error;
+    folder = fs::absolute(folder, error);
+    while (!fs::is_directory(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+    return folder;
+}
+
+}  // namespace
+
+std::vector<Finding> find_processors() {
+    const int usable = usable_processors();
+    const unsigned all = std::max(1u, std::thread::hardware_concurrency());
+    std::string speed = speed_text(1) + " on one thread";
+    if (usable > 1) speed += fmt::format(", {} on {}", speed_text(usable), usable);
+    return {{"processors", fmt::format("{} usable of {}", usable, all)},
+            {"vectors", vector_instructions()},
+            {"engine's speed", speed + " (a lattice of 1,728 grains)"}};
+}
+
+std::vector<Finding> find_drawing() {
+    std::vector<Finding> found = {
+        opengl("OpenGL by OSMesa", gl::Provider::osmesa, "on Debian: apt-get install libosmesa6"),
+        opengl("OpenGL by EGL", gl::Provider::egl, "on Debian: apt-get install libegl1 libgl1-mesa-dri")};
+    // One of the two is enough.
+    for (Finding& finding : found) finding.needed = !found[0].good && !found[1].good;
+    return found;
+}
+
+std::vector<Finding> find_films() {
+    std::vector<Finding> found;
+    for (const auto& [word, format] : film_format_words) {
+        if (format == FilmFormat::png) continue;  // has no encoder
+        found.push_back(film_format(std::string(word), format));
+        found.back().needed = format == FilmFormat::mp4;
+    }
+    return found;
+}
+
+// Nothing is wrong with a full cache: it makes room by itself.
+std::vector<Finding> find_imports() {
+    constexpr double megabyte = 1e6;
+    const ImportsKept kept = imports_kept();
+    const std::string of = kept.folder.string();
+    if (kept.imports == 0) return {{"imported files", fmt::format("none in {}", of)}};
+    return {{"imported files",
+             fmt::format(
+                 "{} of other programs, {:.1f} MB in {} (at most {:.0f} MB are kept); to empty it: rm -r {}",
+                 kept.imports, static_cast<double>(kept.bytes) / megabyte, of,
+                 static_cast<double>(kept.most_bytes) / megabyte, shell_word(of))}};
+}
+
+std::vector<Finding> find_packings() {
+    constexpr double megabyte = 1e6;
+    const PackingsKept kept = packings_kept();
+    const std::string of = kept.folder.string();
+    if (kept.packings == 0)
+        return {{"packings", of.empty() ? "none: there is no cache folder" : fmt::format("none in {}", of)}};
+    return {{"packings",
+             fmt::format("{} kept for later runs, {:.1f} MB in {} (at most {:.0f} MB are kept); to empty it: "
+                         "rm -r {}",
+                         kept.packings, static_cast<double>(kept.bytes) / megabyte, of,
+                         static_cast<double>(kept.most_bytes) / megabyte, shell_word(of))}};
+}
+
+std::vector<Finding> find_programs() {
+    Finding gnuplot{"gnuplot", "", true, false, "for charts; on Debian: apt-get install gnuplot-nox"};
+    const std::optional<fs::path> file = on_the_path("gnuplot");
+    gnuplot.good = file.has_value();
+    gnuplot.state = file ? file->string() : "is not on the PATH";
+    return {gnuplot};
+}
+
+// Those that words on films have in any case, and all others.
+std::vector<Finding> find_letters() {
+    std::vector<std::string> here, absent, packages;
+    bool usual = true;
+    for (const ScriptSample& sample : script_samples()) {
+        const std::vector<MissingLetters> missing = missing_letters(sample.letters);
+        (missing.empty() ? here : absent).emplace_back(sample.name);
+        if (missing.empty()) continue;
+        std::string package = missing.front().package;
+        const bool of_ours = std::string(sample.name) == "Latin" || std::string(sample.name) == "Greek";
+        if (of_ours) package = "fonts-dejavu-core", usual = false;
+        if (std::find(packages.begin(), packages.end(), package) == packages.end())
+            packages.push_back(std::move(package));
+    }
+    std::vector<Finding> found;
+    found.push_back({"letters", here.empty() ? "no font at all" : fmt::format("{}", fmt::join(here, ", ")),
+                     usual, true, "on Debian: apt-get install fonts-dejavu-core"});
+    if (!absent.empty())
+        found.push_back(
+            {"letters",
+             fmt::format("no font for {}: a film has boxes in their place", fmt::join(absent, ", ")), false,
+             false,
+             fmt::format("for words on films; on Debian: apt-get install {}", fmt::join(packages, " "))});
+    return found;
+}
+
+std::vector<Finding> find_room(const fs::path& out) {
+    const double memory = available_memory();
+    const fs::path folder = existing(out);
+    std::error_code error;
+    const fs::space_info space = fs::space(folder, error);
+    const double free = error ? 0 : static_cast<double>(space.available);
+    const bool writable = access(folder.c_str(), W_OK) == 0;
+    return {{"memory", fmt::format("{:.1f} GB free", memory / gigabyte), memory > least_memory, false,
+             "end other programs, or run smaller beds"},
+            {"disk",
+             fmt::format("{:.1f} GB free in {}{}", free / gigabyte, folder.string(),
+                         writable ? "" : ", which you may not write to"),
+             writable && free > least_room, true, "choose another folder with --out"}};
 }
 
 }  // namespace grainreel
