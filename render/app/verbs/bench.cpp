@@ -11,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/lab/bench/bench_run.hpp"
 #include "engine/vector/instructions.hpp"
-#include "render/app/bench/bench_render.hpp"
+#include "render/app/bench_render.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"

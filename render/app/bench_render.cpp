@@ -1,16 +1,14 @@
-#include "render/app/bench/bench_render.hpp"
+#include "render/app/bench_render.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
@@ -28,6 +26,7 @@
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr int kSignalBase = 128;
