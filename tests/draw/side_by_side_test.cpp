@@ -7,6 +7,7 @@
 #include "engine/measure/measures.hpp"
 #include "engine/plan/reach.hpp"
 #include "render/picture/camera/framing.hpp"
+#include "render/picture/panels/panel_words.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"

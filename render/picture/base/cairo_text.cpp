@@ -26,7 +26,8 @@ struct DestroyConfig {
 };
 using Config = std::unique_ptr<FcConfig, DestroyConfig>;
 
-// The two files that all words are written with, where distributions have them; null when they are not there.
+// The two font files that all words are written with, from the folders where distributions have them. Null
+// when they are not there.
 Config own_fonts() {
     for (const std::string folder :
          {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu-sans-fonts/", "/usr/share/fonts/TTF/",
@@ -42,8 +43,9 @@ Config own_fonts() {
     return nullptr;
 }
 
-// One a thread, as font maps want it; to make one costs more than to write a word with it. `own`: of the
-// fonts by file, so that words do not depend on what else is installed; else of all the system's.
+// Each thread has one context, since font maps are not shared between threads and to make one costs more than
+// to write a word. own: it has the two font files alone, so that words do not depend on what else is
+// installed; otherwise it has all fonts of the system.
 PangoContext* make_context(bool own) {
     const std::unique_ptr<PangoFontMap, Unref> map(
         pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
@@ -90,14 +92,15 @@ Layout layout_in(PangoContext* context, const std::string& text, const TextStyle
 
 constexpr double least_shrink = 0.7;  // of letters, before a word breaks
 
-// The size at which the longest word is no wider than the lines, if that is not much smaller.
+// The size of letters at which the longest word fits the lines, if that is not much smaller than the style's.
 double size_for_words(const std::string& text, const TextStyle& style, double wrap) {
     const double longest = longest_word(text, style);
     if (wrap <= 0 || longest <= wrap || longest * least_shrink > wrap) return style.size;
     return 0.999 * style.size * wrap / longest;
 }
 
-// Letters that the fonts by file lack, as in a title in Chinese, come from the system's.
+// Texts with letters that the two font files lack, such as a title in Chinese, are written with the system's
+// fonts.
 Layout make_layout(const std::string& text, const TextStyle& style, double wrap, int lines) {
     Layout layout = layout_in(own_context(), text, style, wrap, lines);
     if (pango_layout_get_unknown_glyphs_count(layout.get()) == 0) return layout;
@@ -142,10 +145,31 @@ TextSize measure_text(const std::string& text, const TextStyle& style, double wr
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
                    const Colour& colour, double wrap, int lines) {
     const Layout layout = make_wrapped(text, style, wrap, lines);
-    cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
+    set_colour(on, colour);
     cairo_move_to(on, x, y);
     pango_cairo_show_layout(on, layout.get());
     return size_of(layout.get());
+}
+
+namespace {
+
+// A row of pixels: 0xAARRGGBB, multiplied by alpha.
+const std::uint32_t* surface_row(cairo_surface_t* surface, int y) {
+    const unsigned char* pixels = cairo_image_surface_get_data(surface);
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
+    return reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
+}
+
+}  // namespace
+
+void set_colour(cairo_t* on, const Colour& colour, double alpha) {
+    cairo_set_source_rgba(on, colour.red, colour.green, colour.blue, alpha);
+}
+
+void draw_line(cairo_t* on, double x0, double y0, double x1, double y1) {
+    cairo_move_to(on, x0, y0);
+    cairo_line_to(on, x1, y1);
+    cairo_stroke(on);
 }
 
 CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double alpha) {
@@ -157,7 +181,7 @@ CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double a
 
 void fill_surface(cairo_t* on, const Colour& colour, double alpha) {
     cairo_set_operator(on, CAIRO_OPERATOR_SOURCE);
-    cairo_set_source_rgba(on, colour.red, colour.green, colour.blue, alpha);
+    set_colour(on, colour, alpha);
     cairo_paint(on);
     cairo_set_operator(on, CAIRO_OPERATOR_OVER);
 }
@@ -168,11 +192,8 @@ void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture) 
 
 void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture) {
     cairo_surface_flush(from);
-    const unsigned char* pixels = cairo_image_surface_get_data(from);
-    const int stride = cairo_image_surface_get_stride(from);
     for (int j = part.y; j < part.y + part.height; ++j) {
-        const auto* row =
-            reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(j) * stride);
+        const std::uint32_t* row = surface_row(from, j);
         std::uint8_t* out = picture.pixel(x + part.x, y + j);
         for (int i = part.x; i < part.x + part.width; ++i, out += 4) {
             out[0] = static_cast<std::uint8_t>(row[i] >> 16);
@@ -186,7 +207,7 @@ void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Pictu
 
 namespace {
 
-// How strong the halo is at each pixel around one of the words', 0 to 1.
+// How strong the halo of one pixel is at each pixel around it, 0 to 1.
 struct Stamp {
     int reach = 0;
     std::vector<float> strength;  // rows of 2 reach + 1
@@ -204,22 +225,18 @@ Stamp make_stamp(double reach) {
     return stamp;
 }
 
-const std::uint32_t* row_of(cairo_surface_t* surface, int y) {
-    const unsigned char* pixels = cairo_image_surface_get_data(surface);
-    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
-    return reinterpret_cast<const std::uint32_t*>(pixels + static_cast<std::size_t>(y) * stride);
-}
-
-// Over a pixel's own alpha: strokes of small letters are thinner than a pixel and never opaque.
+// The halo is so much stronger than the pixel's own alpha, because strokes of small letters are thinner than
+// a pixel and never opaque.
 constexpr float kGain = 2.2f;
 
-// The halo's alpha, 0 to 255, in the part. Most of a surface is empty: only what is not casts one.
+// The halo's alpha in the part, 0 to 255. Only pixels that are not clear add to it; most of a surface is
+// clear.
 std::vector<float> halo_in(cairo_surface_t* from, const Rectangle& part, const Stamp& stamp) {
     std::vector<float> halo(static_cast<std::size_t>(part.width) * part.height, 0);
     const int r = stamp.reach, wide = cairo_image_surface_get_width(from),
               high = cairo_image_surface_get_height(from);
     for (int y = std::max(0, part.y - r); y < std::min(high, part.y + part.height + r); ++y) {
-        const std::uint32_t* row = row_of(from, y);
+        const std::uint32_t* row = surface_row(from, y);
         for (int x = std::max(0, part.x - r); x < std::min(wide, part.x + part.width + r); ++x) {
             const float alpha = std::min(255.0f, kGain * static_cast<float>(row[x] >> 24));
             if (alpha == 0) continue;
@@ -249,7 +266,7 @@ void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int 
                              static_cast<float>(halo.colour.blue)};
     std::size_t at = 0;
     for (int j = 0; j < part.height; ++j) {
-        const std::uint32_t* row = row_of(from, part.y + j) + part.x;
+        const std::uint32_t* row = surface_row(from, part.y + j) + part.x;
         std::uint8_t* out = picture.pixel(x + part.x, y + part.y + j);
         for (int i = 0; i < part.width; ++i, out += 4) {
             const float left = strength[at++] * (1 - static_cast<float>(row[i] >> 24) / 255);
@@ -260,6 +277,68 @@ void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int 
         }
     }
     divide_by_alpha(picture, {x + part.x, y + part.y, part.width, part.height});
+}
+
+namespace {
+
+void rounded(cairo_t* on, const Rectangle& box, double radius) {
+    constexpr double quarter = 0.5 * std::numbers::pi;
+    cairo_new_sub_path(on);
+    cairo_arc(on, box.x + box.width - radius, box.y + radius, radius, -quarter, 0);
+    cairo_arc(on, box.x + box.width - radius, box.y + box.height - radius, radius, 0, quarter);
+    cairo_arc(on, box.x + radius, box.y + box.height - radius, radius, quarter, 2 * quarter);
+    cairo_arc(on, box.x + radius, box.y + radius, radius, 2 * quarter, 3 * quarter);
+    cairo_close_path(on);
+}
+
+// Lays a pixel over another. The upper one is multiplied by its alpha, the lower one is not.
+void lay_pixel(std::uint32_t upper, std::uint8_t* out) {
+    const unsigned alpha = upper >> 24;
+    if (alpha == 0) return;
+    const double left = out[3] * (255.0 - alpha) / 255, all = alpha + left;
+    for (int c = 0; c < 3; ++c) {
+        const unsigned own = (upper >> (16 - 8 * c)) & 255;
+        out[c] = static_cast<std::uint8_t>(std::min(255.0, (255 * own + out[c] * left) / all + 0.5));
+    }
+    out[3] = static_cast<std::uint8_t>(all + 0.5);
+}
+
+void lay_part(cairo_surface_t* from, const Rectangle& part, const Rectangle& gutter, Picture& picture) {
+    cairo_surface_flush(from);
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        const std::uint32_t* row = surface_row(from, y);
+        for (int x = part.x; x < part.x + part.width; ++x)
+            lay_pixel(row[x], picture.pixel(gutter.x + x, gutter.y + y));
+    }
+}
+
+}  // namespace
+
+std::vector<Rectangle> plates_around(const std::vector<WordBox>& boxes, const TypeScale& type,
+                                     const Rectangle& gutter) {
+    const double room = 0.45 * type.margin;
+    std::vector<Rectangle> plates;
+    for (const WordBox& box : boxes) {
+        if (box.width <= 0 || box.height <= 0) continue;
+        const int left = std::max(0, static_cast<int>(box.x - room)),
+                  top = std::max(0, static_cast<int>(box.y - room)),
+                  right = std::min(gutter.width, static_cast<int>(std::ceil(box.x + box.width + room))),
+                  bottom = std::min(gutter.height, static_cast<int>(std::ceil(box.y + box.height + room)));
+        plates.push_back({left, top, right - left, bottom - top});
+    }
+    return plates;
+}
+
+void paint_plates(cairo_t* on, const std::vector<Rectangle>& plates, const TypeScale& type,
+                  const Palette& palette) {
+    set_colour(on, palette.background, plate_strength(palette));
+    for (const Rectangle& plate : plates) rounded(on, plate, 0.3 * type.main);
+    cairo_fill(on);
+}
+
+void lay_plates(cairo_surface_t* from, const std::vector<Rectangle>& plates, const Rectangle& gutter,
+                Picture& picture) {
+    for (const Rectangle& plate : plates) lay_part(from, plate, gutter, picture);
 }
 
 }  // namespace grainreel

@@ -1,9 +1,12 @@
-// Words and their sizes, through Pango: no hinting, so that letters neither jump nor depend on the screen.
+// Texts on surfaces of Cairo: their sizes, by Pango, and what they stand on where they lie over a picture: a
+// halo or a plate. There is no hinting, so that letters neither jump nor depend on the screen. Only files of
+// render/picture may include this header, since Cairo's are not known elsewhere.
 #pragma once
 
 #include <cairo.h>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
@@ -22,23 +25,22 @@ struct TextStyle {
     bool centred = false;  // lines in the middle of the wrap
 };
 
-// wrap: pixels, where lines break between words (0: nowhere); at most `lines` lines, the last cut short by an
-// ellipsis. A word that is a little too long for its line makes the letters smaller; one that is much too
-// long breaks.
+// wrap: the width in pixels at which lines break between words; with 0 there is one line. There are at most
+// `lines` lines, and an ellipsis ends the last one if there is more text. A word that is a little too long
+// for its line makes the letters smaller; one that is much too long breaks.
 TextSize measure_text(const std::string& text, const TextStyle& style, double wrap = 0, int lines = 1);
 
-// Whether some font here has what it takes to draw the text; else it has boxes in it.
+// Whether the fonts on this machine have all letters of the text. Letters that they lack are drawn as boxes.
 bool has_fonts_for(const std::string& text);
 
-// Pixels, of one line; words end at spaces.
+// Pixels: the width of the longest word. Words end at spaces.
 double longest_word(const std::string& text, const TextStyle& style);
 
-// (x, y): top left corner of the text. Returns its size.
+// Draws a text with its top left corner at (x, y). Returns its size.
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
                    const Colour& colour, double wrap = 0, int lines = 1);
 
-// A part of a picture on which Cairo writes.
-
+// Surfaces and contexts of Cairo that delete themselves.
 struct CairoDestroy {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* context) const { cairo_destroy(context); }
@@ -46,27 +48,47 @@ struct CairoDestroy {
 using CairoSurface = std::unique_ptr<cairo_surface_t, CairoDestroy>;
 using CairoContext = std::unique_ptr<cairo_t, CairoDestroy>;
 
-// As large as the part, all of one colour, or of none with alpha 0.
+void set_colour(cairo_t* on, const Colour& colour, double alpha = 1);
+// A line from (x0, y0) to (x1, y1), as wide as the context's lines are.
+void draw_line(cairo_t* on, double x0, double y0, double x1, double y1);
+
+// A surface as large as the part, all of one colour. With alpha 0 it is clear.
 CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double alpha = 1);
 void fill_surface(cairo_t* on, const Colour& colour, double alpha = 1);
 
-// Puts a surface where `to` lies in the picture; they have the same size.
+// Copies a surface to the place `to` in the picture, which is as large.
 void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);
-// A part of a surface whose corner lies at (x, y) in the picture.
+// Copies a part of a surface whose corner lies at (x, y) in the picture.
 void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture);
 
-// Words without a background, which have to be read on whatever they are laid over: each stands on a halo.
-
+// Words without a background must be read on whatever they are laid over, so they stand on a halo.
 struct Halo {
     Colour colour;
     double reach = 0;  // pixels beyond the words
 };
-// The halo, in the colour that the words are made for.
+// Its colour is the background that the words are made for.
 Halo halo_of(const TypeScale& type, const Palette& palette);
 
-// As copy_part(), with a halo under it: around each pixel as strong as that is, and gone beyond its reach.
-// Words beside the part reach into it too.
+// As copy_part(), with a halo under the words. Around each pixel it is as strong as the pixel, and it ends at
+// its reach. The halo of words beside the part reaches into the part too.
 void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const Halo& halo,
                        Picture& picture);
+
+// A box around words; pixels, from the gutter's corner.
+struct WordBox {
+    double x, y, width, height;
+};
+
+// Plates for words that lie over the picture: whole pixels around each box, inside the gutter.
+std::vector<Rectangle> plates_around(const std::vector<WordBox>& boxes, const TypeScale& type,
+                                     const Rectangle& gutter);
+
+// Paints plates with rounded corners, as strong as the words on them need.
+void paint_plates(cairo_t* on, const std::vector<Rectangle>& plates, const TypeScale& type,
+                  const Palette& palette);
+
+// Lays parts of a gutter's surface over the picture.
+void lay_plates(cairo_surface_t* from, const std::vector<Rectangle>& plates, const Rectangle& gutter,
+                Picture& picture);
 
 }  // namespace grainreel

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace grainreel {
 namespace {
 
-// Upside down, as everything here is drawn: the first row of what OpenGL gives is then the picture's first.
+// Everything here is drawn upside down, so that the first row that OpenGL gives is the picture's first row.
 const char* const vertex_source = R"(#version 330 core
 layout(location = 0) in vec2 position;  // pixels from the top left
 layout(location = 1) in vec2 edge;
@@ -50,9 +51,18 @@ Pixel left_of(const Pixel& from, const Pixel& to) {
     return {-along.y() / length, along.x() / length};
 }
 
-constexpr double inside = 1e6;  // an edge distance that means "far from any edge"
+constexpr double inside = 1e6;  // pixels: stands for "far from any edge"
 
 }  // namespace
+
+std::vector<Pixel> circle_corners(const Pixel& middle, double radius, int corners) {
+    std::vector<Pixel> ring;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / corners;
+        ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
+    }
+    return ring;
+}
 
 void Shapes::polygon(const std::vector<Pixel>& corners, const Paint& paint) {
     for (std::size_t i = 2; i < corners.size(); ++i)

@@ -1,5 +1,5 @@
-// Flat shapes in pixels, painted in the order in which they are added: polygons and lines of constant width
-// with smooth edges. The container is drawn with it, after projection.
+// Flat shapes in pixels: polygons and lines of constant width, with smooth edges, painted in the order in
+// which they are added. Walls and marks are drawn with them after their projection.
 #pragma once
 
 #include <vector>
@@ -16,10 +16,13 @@ struct Paint {
     double alpha = 1;
 };
 
-// A list of shapes, made anew every frame.
+// The corners of a circle.
+std::vector<Pixel> circle_corners(const Pixel& middle, double radius, int corners);
+
+// A list of shapes, made anew for every frame.
 class Shapes {
   public:
-    void polygon(const std::vector<Pixel>& corners, const Paint& paint);  // convex
+    void polygon(const std::vector<Pixel>& corners, const Paint& paint);  // a convex one
     // width: pixels. Corners are mitred, so a translucent line shows no knots.
     void line(const std::vector<Pixel>& points, bool closed, double width, const Paint& paint);
     void append(const Shapes& others) {
@@ -28,8 +31,9 @@ class Shapes {
     void clear() { vertices_.clear(); }
 
     struct Vertex {
-        float x, y;                     // pixels
-        float across, half_width;       // signed distance from the line's middle; half its width
+        float x, y;  // pixels
+        float across,
+            half_width;  // pixels: distance from the line's middle, with its sign; half the line's width
         float red, green, blue, alpha;  // sRGB, not premultiplied
         bool operator==(const Vertex&) const = default;
     };

@@ -49,7 +49,7 @@ int bands_of(const GrainColouring& colouring) {
     }
 }
 
-// "0.4 % of the grains lie above 0.75 m/s, ..."; empty where none lies beyond an end.
+// "0.4 % of the grains lie above 0.75 m/s, ..."; empty where no value lies beyond an end.
 std::string parts_beyond(const ClippedCount& count, const char* of, const std::array<std::string, 2>& ends) {
     std::string parts;
     const auto part = [&](std::int64_t beyond, const char* side, const std::string& end) {
@@ -85,7 +85,7 @@ std::string clipped_words(const GrainColouring& colouring, const ClippedCount& c
                        quantity_words(colouring.by), parts);
 }
 
-// What lies below is what hardly anything touches.
+// Triangles below the range are not told: hardly anything touches them.
 std::string clipped_words(const FilmWalls& walls, const ClippedCount& count) {
     const WallUnit unit = unit_of(walls);
     const std::string parts =
@@ -125,8 +125,9 @@ Colour ColourScale::at_share(double share) const {
 
 namespace {
 
-// Colours in sRGB at even steps from the low end to the high one, straight lines between them. The first two
-// are every 15th of the 256 published, and nowhere farther than 0.02 and 0.04 from the others.
+// The maps are sRGB colours at even steps from the low end to the high one, with straight lines between them.
+// viridis and cividis have every 15th of the 256 published colours; the others are never farther from these
+// lines than 0.02 and 0.04.
 
 // S. van der Walt and N. Smith (2015), bids.github.io/colormap.
 constexpr std::array<Colour, 18> viridis{{
@@ -181,7 +182,7 @@ constexpr std::array<Colour, 11> vik{rgb(0x001261), rgb(0x023a7b), rgb(0x116496)
                                      rgb(0xa7c9da), rgb(0xece5e0), rgb(0xe1b8a0), rgb(0xcd8961),
                                      rgb(0xb75a26), rgb(0x852206), rgb(0x590008)};
 
-// Likewise: bilbao, from a light grey (its 241st of 256 colours) to dark red (its first), every 15th.
+// bilbao, from the same maps: every 15th colour from a light grey (the 241st of 256) to dark red (the first).
 constexpr std::array<Colour, 17> bilbao{{
     {0.896900, 0.896462, 0.894410},
     {0.817076, 0.813079, 0.794420},

@@ -1,4 +1,5 @@
-// From a quantity's value to a colour, and the words and ticks that the colour bar needs.
+// From a quantity's value to a colour: the colour maps, the scale that uses them, and what the colour bar
+// needs of it. A new map is an array of colours in colour_scale.cpp.
 #pragma once
 
 #include <array>
@@ -25,10 +26,11 @@ struct ClippedCount {
     }
 };
 
-// "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where none does. of: "grains".
+// "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where no value lies beyond an end. of:
+// what has the colours, "grains".
 std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of);
 
-// Likewise of meshes: "walls by wear: ...".
+// The same for the triangles of meshes: "walls by wear: ...".
 std::string clipped_words(const FilmWalls& walls, const ClippedCount& count);
 
 class ColourScale {
@@ -36,19 +38,18 @@ class ColourScale {
     explicit ColourScale(const GrainColouring& colouring);
     explicit ColourScale(const FilmWalls& walls);  // whose colour is not plain
 
-    // sRGB; value: SI. Held at the ends beyond the range.
+    // The sRGB colour of a value (SI). Beyond the range it is that of the nearer end.
     Colour at(double value) const { return at_share(share_of(value)); }
-    // Where in the range it is, 0 to 1 between the ends.
+    // Where a value lies in the range: 0 at the low end, 1 at the high end.
     double share_of(double value) const;
-    // The same by where in the range it is, 0 to 1.
     Colour at_share(double share) const;
 
-    // How many bands of one colour each; 0: colours change smoothly.
+    // The number of bands, each of one colour; 0 where colours change smoothly.
     int bands() const { return bands_; }
     bool logarithmic() const { return logarithmic_; }
     double low() const { return range_[0]; }  // SI
     double high() const { return range_[1]; }
-    // Whether there can be values beyond an end, which then stands for all of these.
+    // Whether there can be values beyond an end. The end then also stands for them.
     bool open_below() const { return signed_ || low() > 0; }
     bool open_above() const { return true; }
     double unit_size() const { return unit_size_; }      // SI in one of the unit shown
@@ -63,9 +64,8 @@ class ColourScale {
     std::string title_;
 };
 
-// Colour maps for numbers, safe for the colour-blind.
-
-// sRGB; share: 0 at the map's low end, 1 at its high end, held beyond.
+// A colour of a map, sRGB. share: 0 at the map's low end, 1 at its high end; beyond them the colour stays.
+// All maps are safe for the colour-blind.
 Colour colour_of(ColourMap map, double share);
 
 }  // namespace grainreel

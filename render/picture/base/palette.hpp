@@ -1,4 +1,5 @@
-// Colours of everything that is not a grain, from the background alone, so that they read on light and dark.
+// The colours of everything that is not a grain. They follow from the background alone, so that they can be
+// read on light and dark ones.
 #pragma once
 
 #include <algorithm>
@@ -21,13 +22,13 @@ inline double to_srgb(double linear) {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-// To whole 8-bit steps, so that Cairo and OpenGL, which round differently, write the same bytes.
+// Rounds to 8-bit steps, so that Cairo and OpenGL, which round differently, write the same bytes.
 inline Colour in_bytes(const Colour& colour) {
     const auto step = [](double value) { return std::round(255 * value) / 255; };
     return {step(colour.red), step(colour.green), step(colour.blue)};
 }
 
-// Relative luminance, 0 to 1, and contrast, 1 to 21, of WCAG 2.2.
+// Relative luminance, 0 to 1, and contrast, 1 to 21, as WCAG 2.2 defines them.
 inline double luminance(const Colour& c) {
     return 0.2126 * to_linear(c.red) + 0.7152 * to_linear(c.green) + 0.0722 * to_linear(c.blue);
 }
@@ -47,7 +48,7 @@ inline Palette make_palette(const Colour& background) {
     Palette palette;
     palette.background = in_bytes(background);
     palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};
-    // As faint as reads: on middle tones that is hardly at all.
+    // Ink as faint as can still be read. On middle tones it is hardly fainter.
     double faint = light ? 0.28 : 0.22;
     while (faint > 0 && contrast(mix(palette.ink, background, faint), background) < 4.5) faint -= 0.02;
     palette.faint_ink = mix(palette.ink, background, std::max(0.0, faint));
@@ -58,15 +59,15 @@ inline Palette make_palette(const Colour& background) {
     return palette;
 }
 
-// Without a background no words are faint: on the halo that they stand on, on any paper, grey ones are lost.
+// Without a background no words are faint, because grey words on a halo may be lost on whatever lies below.
 inline Palette palette_of(const Film& film) {
     Palette palette = make_palette(film.background);
     if (film.transparent) palette.faint_ink = palette.ink;
     return palette;
 }
 
-// The least strength of a plate of the background's colour on which all words have a contrast of 4.5,
-// whatever is under it; 1 when there is none.
+// The least strength of a plate of the background's colour at which all words on it have a contrast of 4.5,
+// whatever is under it; 1 when no strength is enough.
 inline double plate_strength(const Palette& palette) {
     for (double strength = 0.7; strength < 1; strength += 0.01) {
         bool reads = true;

@@ -16,7 +16,7 @@ void divide_by_alpha(Picture& picture, const Rectangle& port) {
     }
 }
 
-// By the height, but in very narrow pictures by the width.
+// Sizes go by the picture's height, but in very narrow pictures by its width.
 TypeScale type_scale(const Film& film, double shrink) {
     const double height = film.height, width = film.width;
     TypeScale type{};

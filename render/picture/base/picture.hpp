@@ -1,4 +1,5 @@
-// A drawn frame: 8-bit sRGB pixels, rows from the top.
+// A picture, 8-bit sRGB pixels in rows from the top, and how its space is shared between words and the
+// container. Films include this header: keep it light.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +10,18 @@
 
 namespace grainreel {
 
-// Pixels, from the top left corner of the whole picture.
+// Pixels, counted from the top left corner of the whole picture.
 struct Rectangle {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
 struct Picture {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;  // width * height * 4, no row padding; not multiplied by alpha, which is
-                                     // 255 but in films with a transparent background
-    // Pictures with the same number, other than 0, are alike outside of `moving`, which they share too.
+    // width * height * 4 bytes without padding. Colours are not multiplied by alpha, which is 255 except in
+    // films with a transparent background.
+    std::vector<std::uint8_t> rgba;
+    // Pictures with the same number have the same `moving`, and outside of it the same pixels. 0: nothing is
+    // known.
     std::uint64_t still = 0;
     std::vector<Rectangle> moving;
 
@@ -30,20 +33,18 @@ struct Picture {
     }
 };
 
-// From colours multiplied by their alpha, as layers have them, to plain ones, as pictures have them.
+// Makes plain colours, as pictures have them, of colours multiplied by alpha, as layers have them.
 void divide_by_alpha(Picture& picture, const Rectangle& port);
-
-// Which part of the picture is whose: gutters for words, the rest for the container; and how large letters
-// are.
 
 // Sizes of letters and gaps, pixels.
 struct TypeScale {
     double main, minor, title, gap, margin;
 };
-// Main text at least 2.5 % and minor text 1.8 % of the picture's height; both times `shrink`, but never below
-// 10 pixels.
+// Main text is at least 2.5 % and minor text 1.8 % of the picture's height. Both are multiplied by `shrink`,
+// but stay at least 10 pixels.
 TypeScale type_scale(const Film& film, double shrink = 1);
 
+// Which part of the picture is whose: gutters for words, and the rest for the container.
 struct PictureLayout {
     bool stacked = false;               // gutters above and below instead of left and right
     TypeScale type{};                   // of the words
@@ -53,7 +54,7 @@ struct PictureLayout {
     bool plates = false;                // the port is the whole picture, and words lie over it
     std::vector<std::string> left_out;  // words that there is no room for
 };
-// The container has the whole picture, and there are no words.
+// The layout in which the container has the whole picture and there are no words.
 PictureLayout bare_layout(const Film& film);
 
 }  // namespace grainreel

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
 
-struct Range {
+struct Spread {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
     void take(double value) {
@@ -26,7 +26,7 @@ struct Range {
 // from the origin, c its shift, k the slope of the frustum's side. So c must lie between max(u - k z) - k D
 // and min(u + k z) + k D, which gives the least D and then c.
 struct Side {
-    Range rising, falling;  // of u + k z, u - k z
+    Spread rising, falling;  // of u + k z, u - k z
     double slope;
     void take(double u, double z) {
         rising.take(u + slope * z);
@@ -104,7 +104,7 @@ View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Recta
     const double half_width = std::max(1.0, 0.5 * port.width - margin);
     const double half_height = std::max(1.0, 0.5 * port.height - margin);
     const double focal = focal_length(camera, picture_height);
-    Range across, upward, away;
+    Spread across, upward, away;
     Side sideways{{}, {}, half_width / focal}, vertical{{}, {}, half_height / focal};
     for (const Vec3& point : points) {
         const double x = point.dot(view.right), y = point.dot(view.up), z = point.dot(view.forward);

@@ -1,4 +1,5 @@
-// The camera: from metres to pixels of the part of the picture that shows the container.
+// The camera at one moment: from metres to pixels of the port, the part of the picture that shows the
+// container.
 #pragma once
 
 #include <vector>
@@ -23,7 +24,7 @@ struct View {
         const Vec3 from = point - eye;
         return {from.dot(right), from.dot(up), from.dot(forward)};
     }
-    // Pixels from the top left of the port; meaningful in front of the eye only.
+    // Pixels from the top left of the port. The point must lie in front of the eye.
     Eigen::Vector2d project(const Vec3& point) const {
         const Vec3 v = to_view(point);
         const double scale = orthographic ? focal : focal / v.z();
@@ -41,26 +42,27 @@ struct View {
     }
 };
 
-// Directions only: azimuth and elevation in degrees and the upward direction (unit), as in Camera.
+// A view with directions only. azimuth and elevation (degrees) and up (unit) are those of Camera.
 View looking(double azimuth, double elevation, const Vec3& up = Vec3(0, 0, 1));
 
-// The direction towards the eye at azimuth and elevation 0: along x, or z where up is across that.
+// The direction towards the eye at azimuth and elevation 0: the part of z across `up` where `up` is nearly
+// level, else that of x.
 Vec3 front_of(const Vec3& up);
 
-// Pixels a unit of x/z that the camera's field of view means, zoom left out; 1 for an orthographic camera.
+// Pixels for one unit of x/z at the camera's field of view, without its zoom; 1 for an orthographic camera.
 double focal_length(const Camera& camera, int picture_height);
 
-// What a camera that turns about one point must be able to do: over all views and points taken, how far back
-// from there the eye has to stand so that everything is inside the port, `margin` pixels from its border.
-// Sideways the point stays in the port's middle, or turning would look like swaying; upwards one shift serves
-// all.
+// The distance of a camera that turns about one point. Over all views and points that it takes, it finds how
+// far from that point the eye has to stand so that everything is inside the port, `margin` pixels from its
+// border. Sideways the point stays in the middle of the port, or turning would look like swaying. Upwards all
+// views have one shift.
 class Framing {
   public:
     Framing(const Camera& camera, const Rectangle& port, double margin, int picture_height);
     void take(const View& directions, const Vec3& from_middle);
     double distance() const;  // m
     double shift() const;     // m, of the eye along the picture's upward direction
-    double focal() const;     // as View's, zoom left out
+    double focal() const;     // as in View, without the zoom
 
   private:
     const bool orthographic_;
@@ -69,14 +71,14 @@ class Framing {
     double highest_ = -1e300, lowest_ = 1e300;  // m, of y; of y - k z and y + k z in perspective
 };
 
-// The nearest eye in the camera's direction from which all `points` lie inside the port, `margin` pixels from
-// its border; then magnified by the zoom. picture_height: pixels, what the field of view spans.
+// The view with the nearest eye in the camera's direction from which all `points` lie inside the port,
+// `margin` pixels from its border; the zoom then magnifies it. picture_height: pixels that the field of view
+// spans.
 View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Rectangle& port, double margin,
               int picture_height);
 
-// How far the container has come, for what goes with its shaking and not with its turning.
-
-// m, from its place at rest; of one that turns, of a point on its axis.
+// m: how far the container has come from its place at rest, for what goes with its shaking and not with its
+// turning. Of a container that turns it is the way of a point on the axis.
 inline Vec3 way_of_container(const FilmedScene& scene, const Frame& frame) {
     const std::optional<BodyTurn>& turn = scene.container.turn;
     return turn ? Vec3(frame.container().moved(turn->through) - turn->through) : frame.container().place;

@@ -16,11 +16,12 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
 
-// Half a degree apart the outline of what turns differs by less than 1e-5 of its size from its largest.
+// degrees: between samples so near, the outline of what turns differs from its largest by less than 1e-5 of
+// its size.
 constexpr double sample_angle = 0.5;
 constexpr int key_samples = 720;
 
-// Share of the camera's distance that the container keeps from the eye.
+// The container stays at least this share of the camera's distance away from the eye.
 constexpr double close_by = 0.1;
 
 }  // namespace
@@ -46,8 +47,8 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
     if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
 }
 
-// Leaves out as much as can be of a container that is cut off: what stands high would come close to a camera
-// that looks down.
+// Where a container is cut off, leaves out as much as it can without the walls coming close to a camera that
+// looks down.
 void CameraPath::frame_by_itself(const FilmedScene& scene) {
     FramedPart part = framed_part(scene);
     double scale = frame_part(scene, part);
@@ -74,7 +75,7 @@ double CameraPath::frame_part(const FilmedScene& scene, const FramedPart& part) 
     return still_->pixels_per_metre(target_);
 }
 
-// Where the port's width is what binds, its free height shows more of the container.
+// Where the width of the port limits the scale, the height that is left shows more of the container.
 FramedPart CameraPath::show_more(const FilmedScene& scene, FramedPart part, double scale) {
     double most = scene.container.height;
     for (int i = 0; i < 20; ++i) {
@@ -86,8 +87,8 @@ FramedPart CameraPath::show_more(const FilmedScene& scene, FramedPart part, doub
     return part;
 }
 
-// Whether walls above the framed part are in the picture's height, but not in its width: slanted walls are
-// wider above.
+// Whether walls above the framed part lie within the picture's height but beside its width, as slanted walls
+// may, which are wider above.
 bool CameraPath::leaves_aside(const FilmedScene& scene, const FramedPart& part) const {
     constexpr int heights = 64;
     for (int i = 0; i <= heights; ++i) {
@@ -100,7 +101,7 @@ bool CameraPath::leaves_aside(const FilmedScene& scene, const FramedPart& part) 
     return false;
 }
 
-// Frames as little more as leaves no wall aside. The whole container leaves none.
+// Frames just so much more that no wall lies beside the picture. With the whole container none does.
 void CameraPath::keep_sides(const FilmedScene& scene, FramedPart part) {
     FramedPart most = whole_container(scene);
     most.top = std::min(most.top, scene.container.height);
@@ -112,7 +113,7 @@ void CameraPath::keep_sides(const FilmedScene& scene, FramedPart part) {
     frame_part(scene, most);
 }
 
-// m before the eye, of the nearest point that is seen on the way.
+// m: the depth of the nearest of these points over the whole way of the camera.
 double CameraPath::least_depth(const std::vector<Vec3>& points) const {
     double least = 1e300;
     const auto take = [&](const View& view) {
@@ -130,7 +131,8 @@ double CameraPath::least_depth(const std::vector<Vec3>& points) const {
     return least;
 }
 
-// Through those keys that say something, from `at_first` where the first one does not; none says: no track.
+// The track through the keys that give a value. Where the first key gives none, it begins at `at_first`.
+// There is no track where no key gives a value.
 template <class Value>
 CameraPath::Track CameraPath::track(double at_first, Value value) const {
     std::vector<double> times, values;
@@ -188,7 +190,7 @@ void CameraPath::look_from_position() {
     focal_ = focal_length(camera_, picture_height_);
 }
 
-// Where the camera points in the course of the film, close enough for its framing.
+// Poses of the camera in the course of the film, near enough to each other for its framing.
 std::vector<CameraPath::Pose> CameraPath::samples() const {
     std::vector<Pose> poses;
     const double turn = std::min(std::abs(camera_.orbit), 360.0);
@@ -214,7 +216,7 @@ void CameraPath::keep_distance(const FilmedScene& scene, const FramedPart& part)
     }
     focal_ = framing.focal();
     distance_ = framing.distance();
-    // With a target of its own the camera looks right at it.
+    // A camera with a target of its own looks right at it.
     shift_ = camera_.target || !place_.empty() ? 0 : framing.shift();
 }
 
@@ -259,6 +261,21 @@ double MonotoneCurve::at(double time) const {
     const double h = times_[i + 1] - times_[i], s = (time - times_[i]) / h, r = 1 - s;
     return values_[i] * r * r * (1 + 2 * s) + values_[i + 1] * s * s * (3 - 2 * s) +
            h * s * r * (slopes_[i] * r - slopes_[i + 1] * s);
+}
+
+double framed_scale(const FilmedScene& scene, const PictureLayout& layout) {
+    return frame_container(scene, layout).pixels_per_metre(framed_middle(scene));
+}
+
+double framed_height(const FilmedScene& scene, const PictureLayout& layout) {
+    const View view = frame_container(scene, layout);
+    double top = view.port.height, bottom = 0;
+    for (const Vec3& point : framing_points(scene)) {
+        const double y = view.project(point).y();
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+    }
+    return bottom - top;
 }
 
 }  // namespace grainreel

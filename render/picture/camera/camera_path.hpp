@@ -1,4 +1,5 @@
-// The camera in the course of a film: standing, on an orbit, or on its way from key to key.
+// The camera in the course of a film: it stands, goes round an orbit, or moves from key to key. What it has
+// to show comes from framing.hpp.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,10 @@
 
 namespace grainreel {
 
-// A smooth curve through points that never overshoots them: between two of them it stays between their
-// values.
-
-// Cubic pieces with the slopes of Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300: a weighted
-// harmonic mean of the secants, zero at a turning point. Flat before the first point and after the last, and
-// with slope zero there, so that it sets out and arrives gently.
+// A smooth curve through points that never overshoots: between two points it stays between their values. It
+// is made of cubic pieces with the slopes of Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300: a
+// weighted harmonic mean of the secants, and zero at a turning point. It is flat before the first point and
+// after the last, and begins and ends with slope zero, so that a camera sets out and arrives gently.
 class MonotoneCurve {
   public:
     // times: strictly rising, as many as values, at least one.
@@ -29,21 +28,21 @@ class MonotoneCurve {
     std::vector<double> times_, values_, slopes_;
 };
 
-// An orbit that lasts as long as its film needs the film's length: does nothing where the scene gives its
-// own.
+// Gives an orbit the film's length as its duration, unless the scene gives it a duration of its own.
 void settle_orbit(Camera& camera, double film_seconds);
 
 class CameraPath {
   public:
-    // A camera that moves keeps one distance, the least from which all that is framed is in the port at
-    // every moment of the way, so that the picture does not breathe. An orbit of unknown duration stands
+    // A camera that moves keeps one distance, so that the container does not grow and shrink: the least from
+    // which all that is framed is in the port at every moment of the way. An orbit of unknown duration stands
     // still.
     CameraPath(const FilmedScene& scene, const PictureLayout& layout);
 
-    // film_time: s since the first frame. In the lab's frame; a camera that follows is moved from there.
+    // The view in the lab's frame; a camera that follows is moved from there. film_time: s since the first
+    // frame.
     View at(double film_time) const;
     bool moves() const { return camera_.moves(); }
-    const std::vector<Vec3>& meshes() const { return meshes_; }  // as mesh_reach() has them
+    const std::vector<Vec3>& meshes() const { return meshes_; }  // the points of mesh_reach()
 
   private:
     struct Pose {
@@ -81,17 +80,19 @@ class CameraPath {
 
 // The scene's camera as the film begins.
 View frame_container(const FilmedScene& scene, const PictureLayout& layout);
+// Pixels a metre in the middle of what that camera frames.
+double framed_scale(const FilmedScene& scene, const PictureLayout& layout);
+// Pixels from the highest to the lowest point that has to be seen by that camera.
+double framed_height(const FilmedScene& scene, const PictureLayout& layout);
 
-// The container's motion drawn larger than it is, so that it can be seen.
-
-// Grains go with the container: seen from there every grain is where it is, so none is drawn inside a wall;
-// only against the lab all of it moves `factor` times as far. That is right for a container that moves as a
-// whole, and the scene's reader refuses any other.
+// Draws the container's motion `factor` times as large as it is, so that it can be seen. Grains go with the
+// container: seen from the container every grain stays where it is, so that none is drawn inside a wall. This
+// is right only for a container that moves as a whole; the scene's reader refuses all others.
 class Exaggeration {
   public:
     explicit Exaggeration(double factor) : factor_(factor) {}
 
-    // The frame itself for a factor of 1; else valid until the next call.
+    // The frame as it is drawn. It is valid until the next call.
     const Frame& shown(const Frame& frame) {
         if (factor_ == 1) return frame;
         shown_ = frame;

@@ -16,15 +16,15 @@
 namespace grainreel {
 namespace {
 
-constexpr double almost_all = 0.88;  // of the container's height: so much is not worth a cut
+constexpr double almost_all = 0.88;  // of the container's height: a part so high is not worth a cut
 constexpr double steepest = 60;      // degrees, of a camera that may leave the upper part out
 
 double upward(const FilmedScene& scene) {
     return std::abs(scene.drive.direction.z());
 }
 
-// m, above the rim of an open top, for grains in flight: a grain that meets the rising bed leaves it at up to
-// twice the walls' speed. At most half the container, or the bed would look small.
+// m: room above the rim of an open top for grains in flight. A grain that meets the rising bed leaves it at
+// up to twice the walls' speed. The room is at most half the container, or the bed would look small.
 double room_above(const FilmedScene& scene) {
     const Container& container = scene.container;
     const double gravity = scene.gravity.norm();
@@ -42,7 +42,7 @@ bool looks_steeply(const Camera& camera) {
     });
 }
 
-// m above the floor's rest position, as drawn.
+// m above the floor's rest position: how high the picture should reach, with the motion as it is drawn.
 std::optional<double> wanted_top(const FilmedScene& scene) {
     const Camera& camera = scene.film.camera;
     const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset * upward(scene) : 0;
@@ -55,7 +55,7 @@ std::optional<double> wanted_top(const FilmedScene& scene) {
     return top;
 }
 
-// Corners of a container that turns, all round its axis.
+// The corners of a container that turns, at places all around its axis.
 std::vector<Vec3> turned(const std::vector<Vec3>& corners, const BodyTurn& turn) {
     constexpr int kTurns = 24;
     std::vector<Vec3> all;
@@ -100,7 +100,7 @@ std::vector<Vec3> tray_corners(const FilmedScene& scene) {
     return corners;
 }
 
-// What falls through an outlet, as far as it stays in the run.
+// Adds the stream below an outlet, down to where grains leave the run.
 void add_stream(const Container& container, std::vector<Vec3>& corners) {
     const Outlet& outlet = *container.outlet;
     const double y = outlet.half_width, x = outlet.shape == Outlet::Shape::slot ? 0.5 * container.depth : y;
@@ -108,7 +108,7 @@ void add_stream(const Container& container, std::vector<Vec3>& corners) {
         for (const double end : {-1.0, 1.0}) corners.emplace_back(end * x, side * y, -outlet.exit_depth);
 }
 
-// Boxes that grains come from, as far as they are not far above all else.
+// Adds the boxes that grains come from, unless they lie far above everything else.
 void add_sources(const FilmedScene& scene, std::vector<Vec3>& corners) {
     const bool framed =
         scene.container.shape == Container::Shape::none || scene.container.shape == Container::Shape::mesh;
@@ -124,7 +124,7 @@ void add_sources(const FilmedScene& scene, std::vector<Vec3>& corners) {
     if (scene.start.region) add(scene.start.region->low, scene.start.region->high);
 }
 
-// Down to where grains leave below all meshes, as far as that is not far away.
+// Adds the place where grains leave below all meshes, unless it is far away.
 void add_fall(const FilmedScene& scene, std::vector<Vec3>& corners) {
     const std::optional<double> end = exit_level(scene);
     if (!end || corners.empty()) return;
@@ -176,7 +176,7 @@ std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const
     const Vec3 stroke = drawn_stroke(scene);
     for (const double end : {-1.0, 1.0}) {
         for (const Vec3& corner : corners) {
-            // Where the container runs out of the picture, its stroke does not show.
+            // Where the container is cut off by the picture, its stroke upwards is not seen.
             const bool at_top = part.cut && corner.z() >= part.top;
             points.push_back(corner + end * Vec3(stroke.x(), stroke.y(), at_top ? 0 : stroke.z()));
         }

@@ -1,4 +1,5 @@
-// What the camera's automatic framing has in the picture.
+// What the camera's automatic framing has in the picture: which part of the container, and which points of
+// it.
 #pragma once
 
 #include <vector>
@@ -12,17 +13,17 @@ struct FramedPart {
     double top = 0;    // m above the floor's rest position
     bool cut = false;  // the container is higher, and runs out of the picture there
 };
-// As film.camera.frame has it. What is little lower than the container has all of it; so has a camera that
-// looks steeply down or up, which would come too close to the walls.
+// The part that film.camera.frame asks for. It is the whole container where the part is hardly lower, and for
+// a camera that looks steeply down or up, which would come too close to the walls.
 FramedPart framed_part(const FilmedScene& scene);
 FramedPart whole_container(const FilmedScene& scene);
 
-// The middle of the box that is framed: what a camera turns about, and the depth at which scale bars hold.
+// The middle of the box that is framed. A camera turns about it, and scale bars hold at its depth.
 Vec3 framed_middle(const FilmedScene& scene);
 
-// Every point that has to stay in the picture of a camera at this azimuth (degrees): the drawn container as
-// far as it is framed, at rest and at both ends of its stroke, as drawn, and the marks beside it.
-// meshes: as mesh_reach() finds them, which takes a while.
+// Every point that has to stay in the picture of a camera at this azimuth (degrees): corners of the drawn
+// container as far as it is framed, at rest and at both ends of its stroke as drawn, and the marks beside it.
+// meshes: the points of mesh_reach(), which take a while to find.
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part,
                                  const std::vector<Vec3>& meshes);
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth);

@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-// degrees, also of a camera that looks straight down
+// degrees: the camera's azimuth, also where it looks straight down.
 double azimuth_of(const View& view) {
     return std::atan2(-view.right.x(), view.right.y()) * 180 / std::numbers::pi;
 }
@@ -69,12 +69,13 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);
 }
 
-// Planes of the scene's own: the piece of each that lies in the container, or in the box of what is looked
+// Free walls: of each plane, the piece is drawn that lies in the container, or in the box of what is looked
 // at.
 
 namespace {
 
-// Corners of the plane's cut through the box, in order around it; fewer than three when it misses.
+// The corners of the plane's cut through the box, in order around it; fewer than three where the plane misses
+// the box.
 std::vector<Vec3> cut(const FreeWall& wall, const Vec3& point, const Extent& extent) {
     const std::vector<Vec3> corners = extent_corners(extent);
     std::vector<Vec3> crossings;
@@ -98,7 +99,7 @@ std::vector<Vec3> cut(const FreeWall& wall, const Vec3& point, const Extent& ext
     return crossings;
 }
 
-// What of a convex piece lies where normal . (p - point) >= 0 (Sutherland and Hodgman 1974).
+// The part of a convex piece where normal . (p - point) >= 0 (Sutherland and Hodgman 1974).
 std::vector<Vec3> clipped(const std::vector<Vec3>& piece, const Vec3& point, const Vec3& normal) {
     std::vector<Vec3> left;
     for (std::size_t k = 0; k < piece.size(); ++k) {
@@ -110,7 +111,7 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& piece, const Vec3& point, con
     return left;
 }
 
-// Walls that are not sides of the box of what is looked at.
+// The part of a piece inside those walls of the container that are not sides of the box.
 std::vector<Vec3> inside(std::vector<Vec3> piece, const Container& container) {
     if (container.shape == Container::Shape::wedge && container.half_angle > 0) {
         const double cosine = std::cos(container.half_angle), sine = std::sin(container.half_angle);
@@ -143,12 +144,12 @@ std::vector<Vec3> extent_corners(const Extent& extent) {
 
 void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes) {
-    // The sketch moves what it draws, so the cut is made where the wall is and taken back.
+    // The sketch moves what it draws. So the cut is made where the wall is now, and then moved back.
     std::vector<Vec3> piece = piece_of_plane(wall, scene, sketch.offset());
     if (piece.empty()) return;
     for (Vec3& corner : piece) corner -= sketch.offset();
     WallSide& on = sketch.faces(wall.point, wall.normal) ? shapes.behind : shapes.before;
-    // Solid where the eye is on the grains' side.
+    // The wall is solid where the eye is on the side of the grains.
     const double solid = sketch.solid(wall.point, -wall.normal);
     sketch.polygon(on, piece, blend(sketch.glass_face(), sketch.inner_face(), solid));
     sketch.line(on, piece, true, sketch.pen, blend(sketch.glass_edge(), sketch.far_edge(), solid));
@@ -164,7 +165,7 @@ namespace {
 constexpr double begins_at = 0.5;  // of the way from the floor to where grains leave
 constexpr double least_rows = 4;
 
-// Pixels from the top, of the lowest point that the floor's plate has in the course of the film.
+// The lowest point that the floor's plate reaches in the course of the film; pixels from the top.
 double lowest_of_floor(const FilmedScene& scene, const View& view) {
     const Container& c = scene.container;
     const double thick = 1.4 * drawn_thickness(c);
@@ -178,7 +179,7 @@ double lowest_of_floor(const FilmedScene& scene, const View& view) {
     return lowest;
 }
 
-// From where to where grains fall and leave, m, and the row in which the lowest wall ends.
+// m: where grains begin to fall and where they leave; and the row in which the lowest wall ends.
 struct Fall {
     Vec3 from, to;
     double lowest_row;
@@ -190,7 +191,7 @@ std::optional<Fall> fall_below_outlet(const FilmedScene& scene, const View& view
     return Fall{Vec3(0, 0, 0), Vec3(0, 0, -c.outlet->exit_depth), lowest_of_floor(scene, view)};
 }
 
-// Where they leave below all meshes.
+// The fall of grains that leave below all meshes.
 std::optional<Fall> fall_into_exit(const FilmedScene& scene, const View& view,
                                    const std::vector<Vec3>& meshes) {
     const std::optional<double> end = exit_level(scene);

@@ -1,4 +1,5 @@
-// The cylinder: a glass tube on a plate. Its thickness shows as a cut along the outline that the eye sees.
+// Draws the cylinder: a glass tube on a plate. The thickness of its wall shows as a cut along the outline
+// that the eye sees.
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -29,8 +30,8 @@ std::vector<Vec3> circle(double radius, double z) {
     return points;
 }
 
-// Where the eye is about z, and how far to both sides of there it sees the tube: where lines of sight touch
-// it (cos = R / distance). rad
+// rad: the eye's angle about z, and how far to both sides of it the eye sees the tube, which is up to where
+// lines of sight touch it (cos = R / distance).
 std::pair<double, double> visible_part(double radius, const Sketch& sketch) {
     const Vec3 to_eye = sketch.to_eye();
     const double distance = std::hypot(to_eye.x(), to_eye.y());
@@ -95,7 +96,7 @@ class Cylinder {
         sketch.line(on, {upper.back(), lower.back()}, false, sketch.pen, edge);
     }
 
-    // A disc; the floor's has a hole where its outlet is open.
+    // Fills a disc. The floor's disc has a hole where its outlet is open.
     void fill(WallSide& on, const Sketch& sketch, double wide, double height, double up,
               const Paint& paint) const {
         if (up > 0 || !outlet_) return sketch.polygon(on, circle(wide, height), paint);
@@ -128,7 +129,7 @@ class Cylinder {
         walls.line(shapes_.behind, section, true, walls.pen, walls.edge());
     }
 
-    // An open top: two thin rings, the near halves over the grains.
+    // An open top has two thin rings, with their near halves over the grains.
     void rim() {
         const Sketch& walls = sketches_.walls;
         for (const double radius : {radius_, radius_ + thickness_}) {
@@ -140,7 +141,7 @@ class Cylinder {
         }
     }
 
-    // Marks around both rims, one of them long, that show how it turns.
+    // Marks around both rims show how the cylinder turns. One of them is long.
     void ticks() {
         constexpr int kTicks = 12;
         const Sketch& walls = sketches_.walls;

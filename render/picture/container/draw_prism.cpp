@@ -1,4 +1,4 @@
-// Wedge and box: a cross-section in (y, z), drawn out along x.
+// Draws wedge and box: a cross-section in (y, z) that is drawn out along x.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -25,7 +25,7 @@ Plate floor_plate(const Container& container) {
     return {-half, half, -1.4 * t, 0};
 }
 
-// One, or what an open slot leaves of it.
+// The floor's plate, or the two that an open slot leaves of it.
 std::vector<Plate> floor_plates(const Container& container) {
     const Plate whole = floor_plate(container);
     if (!container.outlet || container.outlet->shape != Outlet::Shape::slot) return {whole};
@@ -39,13 +39,13 @@ Plate lid_plate(const Container& container) {
     return {-half, half, container.height, container.height + t};
 }
 
-// A cross-section at one end of the prism, and how much of it is to be seen: all, but while a moving camera
-// sees near and far change places.
+// The cross-section at one end of the prism, and how much of it is to be seen: all of it, except while near
+// and far change places for a camera that moves.
 struct End {
     double x, weight;
 };
 
-// Those nearest to the eye and those opposite to them.
+// The ends nearest to the eye, and those opposite to them.
 std::pair<std::vector<End>, std::vector<End>> ends(const Container& container, const Sketch& sketch) {
     std::vector<End> near, far;
     const double positive = sketch.positive_end_is_near();
@@ -74,10 +74,12 @@ class Prism {
     }
 
   private:
-    // The back pane, tinted, and the outlines of both; none where the depth is periodic.
+    // Draws the back pane, tinted, and the outlines of both panes. Where the depth is periodic there are
+    // none.
     void panes(const WallProfile& left, const WallProfile& right) {
         if (container_.periodic_depth) return;
-        // Open lines: a lid has edges of its own there, an open top gets the panes' bare rims.
+        // With a lid, which has edges of its own, the lines are open; an open top shows the bare rims of the
+        // panes.
         std::vector<Flat> outline(left.inner.rbegin(), left.inner.rend());
         outline.insert(outline.end(), right.inner.begin(), right.inner.end());
         const Sketch& walls = sketches_.walls;

@@ -12,12 +12,12 @@ namespace grainreel {
 
 namespace {
 
-// The sine of the angle over which a moving camera sees one look become another, to each side.
+// The sine of the angle, to each side, over which one look becomes another for a camera that moves.
 const double fade = std::sin(8 * std::numbers::pi / 180);
 
 }  // namespace
 
-double smooth_step(double value, double half_width) {
+double smooth_rise(double value, double half_width) {
     const double s = std::clamp(0.5 + 0.5 * value / half_width, 0.0, 1.0);
     return s * s * (3 - 2 * s);
 }
@@ -38,18 +38,18 @@ double Sketch::solid(const Vec3& point, const Vec3& normal) const {
     if (turned_) {
         const Vec3 at = views_.now.orthographic ? Vec3(-views_.now.forward)
                                                 : Vec3((views_.now.eye - moved(point)).normalized());
-        return smooth_step(-turned(normal).dot(at) - fade, fade);
+        return smooth_rise(-turned(normal).dot(at) - fade, fade);
     }
     if (!views_.moves) return view.faces(point, normal) ? 0 : 1;
     const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - point).normalized();
-    // Glass by the time the eye is in the plane: there the part changes from behind the grains to before
-    // them.
-    return smooth_step(-normal.dot(to_eye) - fade, fade);
+    // The part is glass by the time the eye is in its plane, where it changes from behind the grains to
+    // before them.
+    return smooth_rise(-normal.dot(to_eye) - fade, fade);
 }
 
 double Sketch::positive_end_is_near() const {
     const double towards = -view().forward.dot(turned(Vec3(1, 0, 0)));
-    return views_.moves || turned_ ? smooth_step(towards, fade) : towards >= 0 ? 1 : 0;
+    return views_.moves || turned_ ? smooth_rise(towards, fade) : towards >= 0 ? 1 : 0;
 }
 
 void Sketch::dashed(Shapes& on, std::vector<Vec3> points, bool closed, double width,
@@ -111,7 +111,7 @@ Vec3 at(double radius, double angle, double height) {
     return {radius * std::cos(angle), radius * std::sin(angle), height};
 }
 
-// reach(angle): m, from the middle to the outline.
+// reach(angle): m, the distance of the outline from the middle.
 template <class Reach>
 Pieces around_hole(const Outlet& outlet, const std::vector<double>& angles, double height,
                    const Reach& reach) {
@@ -157,7 +157,7 @@ Pieces rectangle_around_hole(const Outlet& outlet, double half_depth, double hal
 
 namespace {
 
-// How far the container's floor reaches to the side that a camera at this azimuth has at its right; m.
+// m: how far the container's floor reaches to the right of a camera at this azimuth (rad).
 double reach_aside(const Container& container, double half, double azimuth) {
     if (container.shape == Container::Shape::cylinder) return half;
     return half * std::abs(std::cos(azimuth)) + 0.5 * container.depth * std::abs(std::sin(azimuth));
@@ -179,8 +179,8 @@ std::vector<LabMark> lab_marks(const FilmedScene& scene, double azimuth) {
     if (!has_lab_marks(scene)) return {};
     const Container& container = scene.container;
     const double thickness = drawn_thickness(container), floor_half = outer_floor_half_width(container);
-    // In the plane of the near cross-section; across the line of sight beside a cylinder, or where the camera
-    // moves and near and far change places.
+    // The marks stand in the plane of the near cross-section. Beside a cylinder, or where the camera moves
+    // and near and far change places, they stand across the line of sight.
     azimuth *= std::numbers::pi / 180;
     const bool across = container.shape == Container::Shape::cylinder || scene.film.camera.moves();
     const double eye_side = std::cos(azimuth) >= 0 ? 1 : -1;

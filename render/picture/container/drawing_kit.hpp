@@ -1,4 +1,5 @@
-// What the drawings of wedge, box and cylinder share: pens, paints, and points that are projected on the way.
+// What the drawings of wedge, box, cylinder and free walls share: a sketch that projects points and knows the
+// paints, the shapes of walls and floors, and the scale in the lab. Each container has a file draw_*.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,19 +13,19 @@
 
 namespace grainreel {
 
-// 0 up to -half_width, 1 from half_width on, smoothly in between.
-double smooth_step(double value, double half_width);
+// Rises smoothly from 0 at -half_width to 1 at half_width.
+double smooth_rise(double value, double half_width);
 
 Paint faded(const Paint& paint, double share);
-// As over a background: of one paint, and so much of the other.
+// A mixture of two paints, as it looks over a background.
 Paint blend(const Paint& one, const Paint& other, double share_of_other);
 
-// A wedge or a box. Cylinders are drawn in another way, meshes as their triangles.
+// Whether it is a wedge or a box. Cylinders are drawn in another way, and meshes as their triangles.
 inline bool is_prism(const Container& container) {
     return container.shape == Container::Shape::wedge || container.shape == Container::Shape::box;
 }
 
-// Draws shapes given in metres, in the frame of something that has moved and turned.
+// Draws shapes that are given in metres in the frame of a body that has moved and turned.
 class Sketch {
   public:
     Sketch(const Views& views, const Palette& colours, int picture_height, const BodyPose& pose)
@@ -38,21 +39,21 @@ class Sketch {
     bool faces(const Vec3& point, const Vec3& normal) const {
         return views_.now.faces(moved(point), turned(normal));
     }
-    // From the frame of what is drawn into the lab.
+    // Take a point and a direction from the body's frame into the lab.
     Vec3 moved(const Vec3& point) const { return turned(point) + offset_; }
     Vec3 turned(const Vec3& direction) const { return turned_ ? Vec3(rotation_ * direction) : direction; }
-    // The direction from the middle of what is drawn to the eye, in its own frame.
+    // The direction from the middle of the body to the eye, in the body's frame.
     Vec3 to_eye() const {
         const View& view = views_.now;
         const Vec3 in_lab = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - offset_);
         return turned_ ? Vec3(rotation_.conjugate() * in_lab) : in_lab;
     }
     bool is_turned() const { return turned_; }
-    // How solid a part looks, 0 for glass: by where the eye is when everything is at rest, or a part whose
-    // plane it crosses would blink once a period. What hides what follows the present. A camera that moves
-    // sees glass become solid over some degrees.
+    // How solid a part looks, from 0 for glass to 1. It depends on where the eye is when everything is at
+    // rest, or a part whose plane the eye crosses would blink once a period. What is painted over what
+    // depends on the present. To a camera that moves, glass becomes solid over some degrees.
     double solid(const Vec3& point, const Vec3& normal) const;
-    // By how much the end of what is drawn out along x is the one at positive x that is near to the eye.
+    // How much the end at positive x is the near one: 1, 0, or in between while near and far change places.
     double positive_end_is_near() const;
     const View& view() const { return views_.now; }
     const Vec3& offset() const { return offset_; }
@@ -68,7 +69,8 @@ class Sketch {
     }
     void dashed(Shapes& on, std::vector<Vec3> points, bool closed, double width, const Paint& paint) const;
 
-    // Back: the solid parts behind the grains. Front: glass over them, faint enough to hide nothing.
+    // Paints of the solid parts behind the grains, and of the glass over the grains, which is so faint that
+    // it hides nothing.
     Paint cut() const { return {palette.solid, 1}; }
     Paint inner_face() const { return {mix(palette.background, palette.solid, 0.30), 1}; }
     Paint outer_face() const { return {mix(palette.solid, palette.background, 0.30), 1}; }
@@ -96,7 +98,7 @@ class Sketch {
     const bool turned_;
 };
 
-// Drawings of the moving parts: the walls (with the lid), and the floor.
+// The sketches of what moves, the walls with the lid and the floor, and of what stands in the lab.
 struct Sketches {
     Sketch walls, floor, lab;
 };
@@ -104,30 +106,29 @@ struct Sketches {
 void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 
-// The piece of a plane that lies in the container, or in the box of what is looked at, in the place where the
-// plane is when it has moved by `offset`; m, corners in order around it. Empty when there is none.
+// The piece of a plane that lies in the container, or in the box of what is looked at, when the plane has
+// moved by `offset`: its corners in order, m. Empty when there is no such piece.
 std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset);
 void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes);
 
-// Dashed outlines over the grains: of the container's moving parts, or of a plane that moves, at rest.
+// Draw dashed outlines over the grains where the container's moving parts, or a plane that moves, are at
+// rest.
 void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
 void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
 void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on);
 
-// Half the width of everything drawn, at the height of the floor's top; m.
+// m: half the width of the drawn container at the height of the floor's top.
 double outer_floor_half_width(const Container& container);
 
-// Corners of the drawn container at rest, walls with thickness; of one that is cut off at `top` (m), where it
-// is higher.
+// Corners of the drawn container at rest, walls with their thickness; m. A container that is higher than
+// `top` is cut off there.
 std::vector<Vec3> prism_corners(const Container& container, double top);
 std::vector<Vec3> cylinder_corners(const Container& container, double top);
 std::vector<Vec3> extent_corners(const Extent& extent);
 
-// The cross-section of a wedge's or a box's side wall, as it is drawn.
-
-// From the floor up: the inner line, and the outer one a wall's thickness away; (y, z) in m, as many points
-// each.
+// The drawn cross-section of the side wall of a wedge or a box, from the floor up: points (y, z) of the inner
+// line, and as many of the outer line, a wall's thickness away; m.
 struct WallProfile {
     std::vector<Eigen::Vector2d> inner, outer;
 };
@@ -135,25 +136,23 @@ struct WallProfile {
 // side: +1 for the wall at y > 0, -1 for the other.
 WallProfile wall_profile(const Container& container, double side);
 
-// A floor with a round hole, as flat pieces that are convex each.
-
-// The container as it is at a time (s): without its outlet as long as that is closed.
+// The container as it is at a time (s): without its outlet while that is closed.
 Container container_at(const Container& container, double time);
 
-// Points around the hole, at a height; m.
+// Points around the floor's hole, at a height; m.
 std::vector<Vec3> rim_of_hole(const Outlet& outlet, double height);
 
-// What is left of a disc, or of a rectangle with corners (+-half_depth, +-half_width), around the hole.
+// A floor with a round hole as convex flat pieces: a disc, or a rectangle with corners (+-half_depth,
+// +-half_width).
 using Pieces = std::vector<std::vector<Vec3>>;
 Pieces disc_around_hole(const Outlet& outlet, double radius, double height);
 Pieces rectangle_around_hole(const Outlet& outlet, double half_depth, double half_width, double height);
 
-// A scale fixed in the lab beside the container's floor, and a pointer on it that goes with the floor.
-
-// m, from rest to the end of the stroke, as drawn.
+// m: the way from rest to the end of the stroke, as it is drawn.
 Vec3 drawn_stroke(const FilmedScene& scene);
 
-// A long tick where the floor rests and short ones at both ends of its stroke.
+// A scale that is fixed in the lab beside the container's floor, and a pointer on it that goes with the
+// floor. The scale has a long tick where the floor rests and short ticks at both ends of its stroke.
 struct LabMark {
     Vec3 foot;    // m, where the long tick begins, at rest
     Vec3 along;   // m, its direction and length

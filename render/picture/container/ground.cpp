@@ -23,7 +23,7 @@ double floor_reach(const Container& container) {
     return std::hypot(outer_floor_half_width(container), half_depth) + drawn_thickness(container);
 }
 
-// Means of five rows of kSide numbers, added one after the other.
+// The means of five rows of kSide numbers, which are added one after the other.
 void mean_of_five(const std::array<const float*, 5>& of, float* out) {
     const auto [a, b, c, d, e] = of;
     for (int i = 0; i < ShadowMap::kSide; ++i) out[i] = (a[i] + b[i] + c[i] + d[i] + e[i]) / 5;
@@ -54,7 +54,7 @@ Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
     return (at - low_) * (kSide / side_);
 }
 
-// Around the foot and as far as the container's whole height throws.
+// The map lies around the foot and reaches as far as the shadow of the container's whole height.
 void ShadowMap::place(const Vec3& to_key) {
     low_ = {0, 0};
     side_ = kSide;  // one cell a metre: fall() then is in metres
@@ -83,7 +83,7 @@ void ShadowMap::place_around_extent(const Vec3& to_key) {
     low_ = middle.array() - 0.5 * side_;
 }
 
-// The floor's plate, dense at its foot; that of a tray where there is one.
+// Adds the floor's plate, or that of the tray where there is one. It is dense at its foot.
 void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
     const double half = outer_floor_half_width(foot_), cell = side_ / kSide;
     const bool round = foot_.shape == Container::Shape::cylinder;
@@ -103,7 +103,7 @@ void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
     }
 }
 
-// Each grain as what its disc covers, shared between four cells; optical depths add up.
+// Adds what the disc of each grain covers, shared between four cells. Optical depths add up.
 void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
     const double per_area = std::pow(kSide / side_, 2);
     for (std::size_t g = 0; g < frame.size(); ++g)
@@ -111,7 +111,7 @@ void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
                   std::numbers::pi * frame.radius[g] * frame.radius[g] * per_area);
 }
 
-// Each patch of a mesh as what it covers of the light.
+// Adds what each patch of a mesh covers of the light.
 void ShadowMap::add_meshes(const Frame& frame, const Vec3& to_key) {
     const double per_area = std::pow(kSide / side_, 2) / std::max(to_key.z(), kLeastRise);
     meshes_.visit(frame, to_key, [&](const Vec3& at, double area) {
@@ -130,7 +130,7 @@ void ShadowMap::add_depth(const Eigen::Vector2d& at, double depth) {
     cell[kSide + 1] += static_cast<float>(depth * share.x() * share.y());
 }
 
-// Three box filters after each other, along both axes; beyond the map there is no shadow.
+// Three box filters after each other, along both axes. Beyond the map there is no shadow.
 void ShadowMap::soften() {
     constexpr int kTimes = 3;
     constexpr auto side = static_cast<std::size_t>(kSide);
@@ -170,7 +170,8 @@ float rim(int cell) {
     return t * t * (3 - 2 * t);
 }
 
-// A twelfth of the height from the rim on all is seen, so that no line shows where the picture ends.
+// The shadow is whole from a twelfth of the height inside the rim on, so that no line shows where the picture
+// ends.
 float margin(int pixel, int size, int height) {
     const float inside = std::min(static_cast<float>(pixel) + 0.5f, static_cast<float>(size - pixel) - 0.5f);
     return std::min(12 * inside / static_cast<float>(height), 1.0f);
@@ -216,7 +217,7 @@ Vec3 Ground::on_ground(double u, double v) const {
     return {map_.low().x() + u * map_.side(), map_.low().y() + v * map_.side(), map_.height()};
 }
 
-// From below there is no ground, nor where a corner of the map lies behind the eye.
+// The ground is not seen from below, nor where a corner of the map lies behind the eye.
 bool Ground::is_seen() const {
     if (view_.eye.z() < map_.height()) return false;
     for (int corner = 0; corner < 4 && !view_.orthographic; ++corner)
@@ -243,7 +244,7 @@ Rectangle Ground::where() const {
     return {from.x(), from.y(), std::max(0, to.x() - from.x()), std::max(0, to.y() - from.y())};
 }
 
-// What a pixel's line of sight meets of the ground: (u, v, w), linear in x and y, of the cell u/w, v/w.
+// Where a pixel's line of sight meets the ground: (u, v, w), linear in x and y, for the cell u/w, v/w.
 Vec3 Ground::seen_at(double x, double y) const {
     const Vec3 beside = ((x - 0.5 * width_) * view_.right + (0.5 * height_ - y) * view_.up) / view_.focal;
     const Vec3 from = view_.orthographic ? Vec3(view_.eye + beside) : view_.eye;
@@ -256,7 +257,8 @@ Vec3 Ground::seen_at(double x, double y) const {
 void Ground::shade(int y, std::uint32_t* pixels) const {
     if (y < part_.y || y >= part_.y + part_.height) return;
     const Vec3 first = seen_at(part_.x + 0.5, y + 0.5), step = seen_at(part_.x + 1.5, y + 0.5) - first;
-    // The middle of the first cell lies half a cell from the map's corner, and one from that of `dark_`.
+    // The middle of the first cell lies half a cell from the corner of the map, and one and a half cells from
+    // that of `dark_`.
     const Vec3 shifted = first + 0.5 * first.z() * Vec3(1, 1, 0),
                shifted_step = step + 0.5 * step.z() * Vec3(1, 1, 0);
     shade_row({dark_.data(), kStride}, {shifted.cast<float>(), shifted_step.cast<float>()},

@@ -1,4 +1,5 @@
-// The shadow that container and grains throw on a ground under them.
+// The ground under the container, which shows nothing but the shadow of container and grains, and the map of
+// that shadow.
 #pragma once
 
 #include <array>
@@ -13,16 +14,17 @@
 
 namespace grainreel {
 
-// A map of the ground, in the lab: how much of the key light is taken, 0 to 1. Soft, since the lamp is wide.
+// A map of the ground, in the lab: the share of the key light that does not arrive, 0 to 1. Shadows are soft,
+// since the lamp is wide.
 class ShadowMap {
   public:
     static constexpr int kSide = 192;  // cells
 
-    // The ground lies under the lowest point that the container reaches. Only for scenes with a container
-    // that grains do not leave below.
+    // The ground lies under the lowest point that the container reaches. The scene must have a container that
+    // grains do not leave below.
     explicit ShadowMap(const FilmedScene& scene);
 
-    // to_key: unit, in the lab.
+    // to_key: unit vector towards the key light, in the lab.
     void cast(const Frame& frame, const Vec3& to_key);
 
     const std::vector<float>& cells() const { return cells_; }  // rows along y, x fastest
@@ -38,7 +40,7 @@ class ShadowMap {
     void add_meshes(const Frame& frame, const Vec3& to_key);
     void add_depth(const Eigen::Vector2d& at, double depth);
     void soften();
-    // Where the light that passes `point` meets the ground, in cells.
+    // Where light that passes `point` meets the ground, in cells.
     Eigen::Vector2d fall(const Vec3& point, const Vec3& to_key) const;
 
     const Container container_;
@@ -51,16 +53,16 @@ class ShadowMap {
     std::vector<float> cells_, before_;
 };
 
-// The ground under the container, which shows nothing but a shadow, and fades towards the rim of the picture.
+// The shadow on the ground as it is seen. It fades towards the rim of the picture.
 
 class Ground {
   public:
-    // As wide and high as the port. Only for scenes with a container.
+    // The scene must have a container.
     Ground(const FilmedScene& scene, const Rectangle& port);
 
     void update(const Frame& frame, const View& view);
 
-    // Darkens a row of the port, counted from the top. Threads may share the rows.
+    // Darkens row y of the port, counted from the top. Several threads may work on different rows.
     void shade(int y, std::uint32_t* pixels) const;
 
   private:

@@ -86,7 +86,7 @@ MeshShadows::MeshShadows(const FilmedScene& scene) {
     for (const Vec3& point : reach) lowest_ = std::min(lowest_, point.z());
 }
 
-// As `along` x `along` equal ones, half of them upside down.
+// Cuts a triangle into `along` x `along` equal ones, half of them upside down.
 void MeshShadows::add(const Surface& surface, std::int32_t t, double wanted, double share, std::size_t body) {
     const int along = std::clamp(static_cast<int>(std::lround(wanted)), 1, kMostAlong);
     const Vec3 &a = surface.corner(t, 0), u = surface.corner(t, 1) - a, v = surface.corner(t, 2) - a;

@@ -1,4 +1,4 @@
-// The outermost points that meshes come to in the course of a run.
+// How far meshes reach in the course of a run, and what they take of the light that falls on the ground.
 #pragma once
 
 #include <cmath>
@@ -10,19 +10,18 @@
 
 namespace grainreel {
 
-// m: of all meshes together, the farthest points along many directions, at rest and wherever their turns and
+// m: the outermost points of all meshes together along many directions, at rest and wherever their turns and
 // paths bring them. Steady velocities, which have no end, and the drive are left out. Empty without meshes.
 std::vector<Vec3> mesh_reach(const FilmedScene& scene);
 
-// What meshes take of the light that falls on the ground.
-
-// Their surfaces as small patches. A vessel lets most of the light through, as all walls do.
+// The surfaces of meshes as small patches that throw shadows. A vessel lets most of the light through, as all
+// walls do.
 class MeshShadows {
   public:
     explicit MeshShadows(const FilmedScene& scene);
 
     bool any() const { return !patches_.empty(); }
-    double lowest() const { return lowest_; }  // m, z that any of them reaches but for the drive; 0 without
+    double lowest() const { return lowest_; }  // m, lowest z of any mesh without the drive; 0 without meshes
 
     // Calls visit(place, area that is taken from light which comes from `to_light`) for each patch; m, m2.
     template <class Visit>

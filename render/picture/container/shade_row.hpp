@@ -1,4 +1,5 @@
-// Pixels darkened by what a map says of the places that they show.
+// Darkens a row of pixels by what a map says of the places that they show. The loop is compiled for each
+// instruction set.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +13,13 @@ struct ShadeMap {
     int side;
 };
 
-// (u, v, w) of the first pixel, and what it grows by from each to the next: u/w, v/w is the place on the map,
-// in cells from the middle of the first one. What lies beside the map is not darkened.
+// (u, v, w) of the first pixel, and its step from each pixel to the next. u/w, v/w is the place on the map,
+// in cells from the middle of the first one. Places beside the map are not darkened.
 struct MapWalk {
     Eigen::Vector3f first, step;
 };
 
-// pixels[i] = over(black of strength map * across[i] * all, pixels[i]); between cells strengths are
+// pixels[i] = over(black of strength map * across[i] * all, pixels[i]). Between cells strengths are
 // interpolated along both axes.
 void shade_row(const ShadeMap& map, const MapWalk& walk, const float* across, float all,
                std::uint32_t* pixels, int count);

@@ -51,7 +51,8 @@ const Layer& SideLayer::draw(const ShapePainter& painter, const Shapes& shapes) 
     return layer_;
 }
 
-// A target for a part of the port; no larger, because to clear it takes as long as to draw.
+// Binds a target for a part of the port. It is no larger than need be, because to clear it takes as long as
+// to draw.
 void SideLayer::bind(const Rectangle& part) {
     constexpr int kStep = 64;  // pixels, so that shapes that grow slowly do not want a new one each time
     if (!target_ || part.width > target_->width() || part.height > target_->height()) {
@@ -66,7 +67,7 @@ void SideLayer::bind(const Rectangle& part) {
     gl_.Viewport(-part.x, -part.y, width_, height_);
 }
 
-// What was drawn before goes where nothing will be drawn now.
+// Clears what was drawn before where nothing will be drawn now.
 void SideLayer::forget_beside(const Rectangle& part) {
     for (int y = 0; y < height_; ++y) {
         Layer::Span& span = layer_.spans[static_cast<std::size_t>(y)];

@@ -1,4 +1,5 @@
-// What OpenGL draws on one side of the grains: drawn again, and read again, only when it has changed.
+// The layer that OpenGL draws on one side of the grains. It is drawn and read again only when its shapes have
+// changed.
 #pragma once
 
 #include <optional>
@@ -12,10 +13,10 @@ namespace grainreel {
 
 class SideLayer {
   public:
-    // As large as the port.
+    // The layer is as large as the port.
     SideLayer(const gl::Functions& gl, const Rectangle& port);
 
-    // What is changed in the layer stays until it is drawn again.
+    // Draws the layer. What others change in it stays until the shapes change.
     const Layer& draw(const ShapePainter& painter, const Shapes& shapes);
     Layer& layer() { return layer_; }
 

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/palette.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -42,14 +43,12 @@ double Quantities::start_height_of(std::int32_t id) const {
     return start_height_[static_cast<std::size_t>(at - start_id_.begin())];
 }
 
-// Ids rise along a frame, but some may be missing.
+// Contacts may name grains that the frame lacks.
 void Quantities::count_touches(const Frame& frame, bool forces) {
     values_.assign(frame.size(), 0);
     const auto add = [&](std::int32_t id, double force) {
         if (id < 0) return;  // a wall
-        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        if (at != frame.id.end() && *at == id)
-            values_[static_cast<std::size_t>(at - frame.id.begin())] += forces ? force : 1;
+        if (const auto grain = find_grain(frame, id)) values_[*grain] += forces ? force : 1;
     };
     for (const Touch& touch : frame.touches) {
         add(touch.first, touch.force);

@@ -1,8 +1,9 @@
 #include "render/picture/grains/shown_grains.hpp"
-#include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>
 #include <utility>
+
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -16,10 +17,16 @@ void keep(std::vector<T>& values, const std::vector<std::size_t>& kept) {
 
 }  // namespace
 
+std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
+    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
+    if (found == frame.id.end() || *found != id) return std::nullopt;
+    return static_cast<std::size_t>(found - frame.id.begin());
+}
+
 std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame) {
     if (!cut.present) return {};
     const Vec3& normal = cut.normal;
-    // It goes with a floor that shakes, not with one that turns.
+    // The cut goes with a floor that shakes, not with one that turns.
     const bool turns = !frame.floor().rotation.isApprox(Quaternion::Identity());
     const double at = cut.at + (turns ? 0 : normal.dot(frame.floor().place));
     std::vector<HalfSpace> kept{{-normal, -at}};

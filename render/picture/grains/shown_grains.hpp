@@ -1,6 +1,8 @@
-// A frame without grains that are not shown.
+// Which grains of a frame are shown, and where a grain stands in a frame.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/frame.hpp"
@@ -8,21 +10,24 @@
 
 namespace grainreel {
 
+// The place of a grain in the frame, whose ids rise; none when the grain is not there.
+std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id);
+
 // The points p that are kept: normal . p >= distance.
 struct HalfSpace {
     Vec3 normal;
     double distance;  // m
 };
-// What the film's cut keeps of the bed at the frame's moment, since the cut goes with the floor: nothing
-// without a cut, one half-space, or the two of a slab.
+// What the film's cut keeps of the bed: one half-space, or the two of a slab; empty without a cut. The cut
+// goes with the floor, so it depends on the frame.
 std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame);
 
 class ShownGrains {
   public:
-    // left_out: species, indices into scene.species. Their grains are as if they were not there: they are not
-    // lit, cast nothing and are not counted in fields.
+    // left_out: indices into scene.species. The grains of these species are as if they were not there: they
+    // are not lit, cast no shadow and are not counted in fields.
     ShownGrains(const FilmedScene& scene, const std::vector<std::size_t>& left_out);
-    // Leaves out all but these; ids rise.
+    // Leaves out all grains but these; ids rise.
     static ShownGrains only(const FilmedScene& scene, std::vector<std::int32_t> ids);
     // Leaves out the grains that the film's cut takes away whole.
     static ShownGrains beside_cut(const FilmedScene& scene);

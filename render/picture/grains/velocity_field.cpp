@@ -12,27 +12,27 @@
 namespace grainreel {
 namespace {
 
-constexpr double least_grains = 3;    // fewer are no mean
+constexpr double least_grains = 3;    // fewer make no mean
 constexpr double most_cells = 20000;  // of the picture
 constexpr double pi = std::numbers::pi;
 
-// Hz: one over how long the drive's last period was.
+// Hz: the inverse of the drive's last period.
 double periods_a_second(const FilmedScene& scene, const Frame& frame) {
     if (!scene.drive.changes()) return scene.drive.frequency;
     const DriveSchedule schedule(scene.drive);
     return 1 / (schedule.times().time(frame.cycles) - schedule.times().time(frame.cycles - 1));
 }
 
-FieldOutput resolution(const FilmedScene& scene, double width) {
+}  // namespace
+
+FieldOutput picture_fields(const FilmedScene& scene, double width, double finest) {
     FieldOutput fields;
     const Vec3 size = extent_of(scene).size();
     fields.grid = FieldOutput::Grid::yz;
     fields.width = width;
-    fields.cell = std::max(0.5 * width, std::sqrt(size.y() * size.z() / most_cells));
+    fields.cell = std::max(finest, std::sqrt(size.y() * size.z() / most_cells));
     return fields;
 }
-
-}  // namespace
 
 FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period) {
     FieldState state;
@@ -51,7 +51,10 @@ FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool per
 }
 
 VelocityField::VelocityField(const FilmedScene& scene, double width, bool period)
-    : scene_(scene), width_(width), period_(period), sums_(scene, resolution(scene, width), 1) {}
+    : scene_(scene),
+      width_(width),
+      period_(period),
+      sums_(scene, picture_fields(scene, width, 0.5 * width), 1) {}
 
 void VelocityField::take(const Frame& frame) {
     sums_.clear();
@@ -59,8 +62,8 @@ void VelocityField::take(const Frame& frame) {
     fields_ = sums_.mean();
 }
 
-// The kernel weighs as many grains as lie in 4 pi w^2 of the plane: the inverse of the integral of its
-// square.
+// The kernel weighs as many grains as lie in an area of 4 pi w^2 of the plane, which is the inverse of the
+// integral of its square.
 bool VelocityField::is_filled(std::size_t cell) const {
     if (std::isnan(fields_.velocity[0][cell])) return false;
     double grains = 0;  // a cubic metre

@@ -11,6 +11,10 @@
 
 namespace grainreel {
 
+// Fields of a picture: in the y-z plane, with a kernel of this width (standard deviation, m) and cells as
+// fine as `finest` (m), but not more cells than a picture has use for.
+FieldOutput picture_fields(const FilmedScene& scene, double width, double finest);
+
 // What coarse-graining takes of a frame: places from where the container is, velocities of the room. period:
 // displacements over a period in place of velocities; grains that were not there a period before are left
 // out, and all are while the frame has no displacements.

@@ -13,19 +13,14 @@ namespace grainreel {
 
 namespace {
 
-constexpr double strength = 0.8;      // of the layer; the grains are seen through it
-constexpr double full_from = 0.3;     // solid fraction from which on it is as strong as that
-constexpr double most_cells = 20000;  // of the picture
+constexpr double strength = 0.8;   // of the layer; the grains are seen through it
+constexpr double full_from = 0.3;  // solid fraction from which on it is as strong as that
 
-// Wider than fields in files are by default, since this one is of a single moment; finer cells for the eye.
+// The kernel is wider than that of fields in files, since this field is of a single moment. The cells are
+// finer, for the eye.
 FieldOutput resolution(const FilmedScene& scene) {
-    FieldOutput fields;
     const double diameter = mean_diameter(scene);
-    const Vec3 size = extent_of(scene).size();
-    fields.grid = FieldOutput::Grid::yz;
-    fields.width = 0.75 * diameter;
-    fields.cell = std::max(0.25 * diameter, std::sqrt(size.y() * size.z() / most_cells));
-    return fields;
+    return picture_fields(scene, 0.75 * diameter, 0.25 * diameter);
 }
 
 }  // namespace
@@ -78,17 +73,17 @@ void FieldLayer::draw(const View& view, const Frame& frame, Shapes& on) {
 
 namespace {
 
-using Place = Eigen::Vector2d;
+using PlanePoint = Eigen::Vector2d;
 
 // Unit vector of the flow; none where it stands still.
-std::optional<Place> direction(const PlaneVelocity& velocity, const Place& at) {
-    const std::optional<Place> here = velocity(at);
+std::optional<PlanePoint> direction(const PlaneVelocity& velocity, const PlanePoint& at) {
+    const std::optional<PlanePoint> here = velocity(at);
     if (!here || here->norm() == 0) return std::nullopt;
     return *here / here->norm();
 }
 
 // A step along the flow, or against it when it is negative.
-std::optional<Place> next(const PlaneVelocity& velocity, const Place& at, double step) {
+std::optional<PlanePoint> next(const PlaneVelocity& velocity, const PlanePoint& at, double step) {
     const auto a = direction(velocity, at);
     if (!a) return std::nullopt;
     const auto b = direction(velocity, at + 0.5 * step * *a);
@@ -102,17 +97,17 @@ std::optional<Place> next(const PlaneVelocity& velocity, const Place& at, double
 
 }  // namespace
 
-std::vector<StreamPoint> streamline(const PlaneVelocity& velocity, const Place& seed, double reach,
+std::vector<StreamPoint> streamline(const PlaneVelocity& velocity, const PlanePoint& seed, double reach,
                                     double step) {
     std::vector<StreamPoint> line;
     const auto first = velocity(seed);
     if (!first || first->norm() == 0) return line;
     const auto walk = [&](double along) {
-        Place at = seed;
+        PlanePoint at = seed;
         const auto steps = static_cast<int>(std::lround(reach / step));
         for (int k = 0; k < steps; ++k) {
-            const std::optional<Place> ahead = next(velocity, at, along);
-            const std::optional<Place> there = ahead ? velocity(*ahead) : std::nullopt;
+            const std::optional<PlanePoint> ahead = next(velocity, at, along);
+            const std::optional<PlanePoint> there = ahead ? velocity(*ahead) : std::nullopt;
             if (!there) return;
             at = *ahead;
             line.push_back({at, there->norm()});

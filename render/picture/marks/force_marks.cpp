@@ -30,13 +30,7 @@ Pixel moved_outwards(const View& view, const PointForce& force, double pen) {
 }
 
 std::vector<Pixel> circle(const Pixel& middle, double radius) {
-    constexpr int corners = 24;
-    std::vector<Pixel> ring;
-    for (int k = 0; k < corners; ++k) {
-        const double angle = 2 * std::numbers::pi * k / corners;
-        ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
-    }
-    return ring;
+    return circle_corners(middle, radius, 24);
 }
 
 void draw_along_sight(const ForceArrow& arrow, const Pixel& middle, const Palette& palette, double pen,

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/scene/text/units.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -64,13 +65,6 @@ std::vector<std::vector<Trails::Point>> Trails::paths() const {
 namespace {
 
 constexpr double weakest_force = 0.02;  // of the widest; weaker ones are left out
-
-// Place of a grain in the frame, whose ids rise; none when it is not there.
-std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
-    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-    if (found == frame.id.end() || *found != id) return std::nullopt;
-    return static_cast<std::size_t>(found - frame.id.begin());
-}
 
 }  // namespace
 
@@ -176,12 +170,7 @@ void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, dou
     constexpr int corners = 48;
     const Pixel middle = view.project(at);
     const double radius = grain_radius * view.pixels_per_metre(at) + 2.5 * pen_;
-    std::vector<Pixel> ring;
-    for (int k = 0; k < corners; ++k) {
-        const double angle = 2 * std::numbers::pi * k / corners;
-        ring.push_back(middle + radius * Pixel(std::cos(angle), std::sin(angle)));
-    }
-    outlined(on, ring, true, 2 * pen_, palette_.accent, strength);
+    outlined(on, circle_corners(middle, radius, corners), true, 2 * pen_, palette_.accent, strength);
 }
 
 // What the marks over the grains mean.
@@ -215,7 +204,7 @@ class MarksLegend {
     }
     void ring(const Colour& colour, const std::string& words) {
         entry(icon_, words, [&](double middle) {
-            cairo_set_source_rgb(writer_.on, colour.red, colour.green, colour.blue);
+            set_colour(writer_.on, colour);
             cairo_set_line_width(writer_.on, 1.4 * pen_);
             cairo_arc(writer_.on, x_ + 0.5 * icon_, middle, 0.5 * writer_.type.main, 0, 2 * std::numbers::pi);
             cairo_stroke(writer_.on);
@@ -253,11 +242,9 @@ class MarksLegend {
         height_ += row + gap_;
     }
     void draw_line(const Colour& colour, double reach, double width, double middle) const {
-        cairo_set_source_rgb(writer_.on, colour.red, colour.green, colour.blue);
+        set_colour(writer_.on, colour);
         cairo_set_line_width(writer_.on, width);
-        cairo_move_to(writer_.on, x_, middle);
-        cairo_line_to(writer_.on, x_ + reach, middle);
-        cairo_stroke(writer_.on);
+        grainreel::draw_line(writer_.on, x_, middle, x_ + reach, middle);
     }
 
     const Writer& writer_;

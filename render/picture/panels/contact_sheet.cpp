@@ -13,7 +13,8 @@ namespace grainreel {
 namespace {
 
 constexpr int page_width = 1920, gap = 16;  // pixels
-// Tiles kept for each one shown: a page is then even to an eighth of its spacing.
+// So many tiles are kept for each one shown. Their times on the page are then even to an eighth of their
+// distance.
 constexpr std::size_t kept_for_one = 8;
 
 using Canvas = std::shared_ptr<cairo_surface_t>;
@@ -22,12 +23,7 @@ Canvas make_surface(int width, int height) {
     return {cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height), cairo_surface_destroy};
 }
 
-struct Destroy {
-    void operator()(cairo_t* context) const { cairo_destroy(context); }
-};
-using Context = std::unique_ptr<cairo_t, Destroy>;
-
-// Cairo wants 0xAARRGGBB with the colours multiplied by alpha.
+// Cairo wants pixels as 0xAARRGGBB, with colours multiplied by alpha.
 Canvas surface_of(const Picture& picture) {
     Canvas surface = make_surface(picture.width, picture.height);
     unsigned char* pixels = cairo_image_surface_get_data(surface.get());
@@ -45,7 +41,7 @@ Canvas surface_of(const Picture& picture) {
     return surface;
 }
 
-// The picture on an opaque surface.
+// The picture that an opaque surface has.
 Picture picture_of(cairo_surface_t* surface) {
     cairo_surface_flush(surface);
     const unsigned char* pixels = cairo_image_surface_get_data(surface);
@@ -65,10 +61,6 @@ Picture picture_of(cairo_surface_t* surface) {
     return picture;
 }
 
-void set_colour(cairo_t* on, const Colour& colour) {
-    cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
-}
-
 }  // namespace
 
 ContactSheet::ContactSheet(const Film& film)
@@ -85,7 +77,7 @@ ContactSheet::ContactSheet(const Film& film)
 ContactSheet::Tile ContactSheet::tile(const Picture& picture, double time) const {
     const Canvas full = surface_of(picture);
     Canvas small = make_surface(width_, height_);
-    const Context on(cairo_create(small.get()));
+    const CairoContext on(cairo_create(small.get()));
     set_colour(on.get(), background_);
     cairo_paint(on.get());
     cairo_scale(on.get(), static_cast<double>(width_) / picture.width,
@@ -112,7 +104,8 @@ void ContactSheet::add(const Picture& picture, double time) {
     kept_ = std::move(left);
 }
 
-// The kept tiles nearest to the even times, each of them once, the first and the last frame among them.
+// Chooses the kept tiles nearest to evenly spaced times, each of them once. The first and the last frame are
+// among them.
 std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const {
     std::vector<Tile> tiles = kept_;
     if (tiles.empty()) return tiles;
@@ -134,11 +127,12 @@ std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const 
 
 Picture ContactSheet::draw(const Picture& last) const {
     const Canvas page = make_surface(columns_ * (width_ + gap) + gap, rows_ * (height_ + label_ + gap) + gap);
-    const Context on(cairo_create(page.get()));
+    const CairoContext on(cairo_create(page.get()));
     set_colour(on.get(), background_);
     cairo_paint(on.get());
     const std::vector<Tile> tiles = chosen(last);
-    // So many that neighbours differ, and those at the mean distance in two figures.
+    // So many decimals that the times of neighbours differ, by two figures where they lie at the mean
+    // distance.
     double between = tiles.size() > 1
                          ? (tiles.back().time - tiles.front().time) / static_cast<double>(tiles.size() - 1)
                          : 1;
@@ -155,8 +149,8 @@ void ContactSheet::draw_tile(cairo_t* on, const Tile& tile, std::size_t place, i
     const double x = gap + column * (width_ + gap), y = gap + row * (height_ + label_ + gap);
     cairo_set_source_surface(on, tile.picture.get(), x, y);
     cairo_paint(on);
-    // A hair line, for films whose background is the page's.
-    cairo_set_source_rgba(on, ink_.red, ink_.green, ink_.blue, 0.25);
+    // A thin line around the tile, for films whose background is that of the page.
+    set_colour(on, ink_, 0.25);
     cairo_set_line_width(on, 1);
     cairo_rectangle(on, x - 0.5, y - 0.5, width_ + 1, height_ + 1);
     cairo_stroke(on);

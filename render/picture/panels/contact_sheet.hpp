@@ -1,4 +1,5 @@
-// A page of small pictures, frames spread evenly over the time that a film shows, each with its time.
+// A page of small pictures: frames spread evenly over the time that a film shows, each with its time. The
+// header includes nothing of Cairo, since films include it.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +16,16 @@ namespace grainreel {
 
 class ContactSheet {
   public:
-    // Columns and rows are film.sheet's; the page is 1920 pixels wide at most.
+    // film.sheet gives columns and rows. The page is at most 1920 pixels wide.
     explicit ContactSheet(const Film& film);
 
-    // Every frame of the film in order, since nobody knows how many will come: a run may be stopped. time: s,
-    // simulated, which slow motion passes slowly. Of frames of one time the first is shown.
+    // Takes every frame of the film in order, since a run may be stopped and nobody knows how many frames
+    // will come. time: simulated s, which slow motion passes slowly. Of frames with the same time the first
+    // is shown.
     void add(const Picture& picture, double time);
 
-    // The page as of now. last: the frame that was added last, which ends the page whatever was kept.
+    // Draws the page of the frames up to now. last: the frame that was added last, which is always the last
+    // on the page.
     Picture draw(const Picture& last) const;
 
   private:
@@ -39,8 +42,8 @@ class ContactSheet {
     double letters_;      // pixels
     int label_;           // pixels of the times under the tiles; 0 without them
     Colour background_, ink_;
-    std::vector<Tile> kept_;  // by rising time, some times more than there is room for ...
-    double apart_ = 0;        // ... and no two nearer than this, s
+    std::vector<Tile> kept_;  // by rising time; several times as many as the page has room for
+    double apart_ = 0;        // s: no two kept tiles are nearer than this
     double last_time_ = 0;
 };
 

@@ -137,7 +137,7 @@ double own_scale(const Panel& panel, const PanelLayout::Place& place) {
     FilmedScene scene = panel.scene;
     scene.film.width = place.port.width;
     scene.film.height = place.port.height;
-    return frame_container(scene, bare_layout(scene.film)).pixels_per_metre(framed_middle(scene));
+    return framed_scale(scene, bare_layout(scene.film));
 }
 
 // Gives all panels one scale where they can have one; returns what the grid is worth.
@@ -163,14 +163,7 @@ double seen_height(const Panel& panel, const PanelLayout::Place& place) {
     scene.film.width = place.port.width;
     scene.film.height = place.port.height;
     scene.film.camera.zoom = place.zoom;
-    const View view = frame_container(scene, bare_layout(scene.film));
-    double top = place.port.height, bottom = 0;
-    for (const Vec3& point : framing_points(scene)) {
-        const double y = view.project(point).y();
-        top = std::min(top, y);
-        bottom = std::max(bottom, y);
-    }
-    return bottom - top;
+    return framed_height(scene, bare_layout(scene.film));
 }
 
 // Where panels are narrow, the room above and below their containers goes out of the ports: to plots below,

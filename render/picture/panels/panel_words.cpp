@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/measure/columns.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -33,8 +34,7 @@ TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Comm
     }
     TextSize size;
     for (const std::string& line : lines) {
-        const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
-        size = {std::max(size.width, part.width), size.height + part.height};
+        writer.write_below(size, x, y, line, writer.main(), writer.palette.ink);
     }
     return size;
 }
@@ -211,14 +211,11 @@ TextSize write_in_middle(const Writer& writer, const std::string& text, const Te
 
 TextSize caption_block(const Writer& writer, const std::string& caption, double width) {
     TextSize size;
-    for (std::size_t from = 0; from <= caption.size();) {
-        const std::size_t to = std::min(caption.find('\n', from), caption.size());
-        const std::string line = caption.substr(from, to - from);
-        const TextStyle style = from == 0 ? writer.strong() : writer.main();
-        const TextSize part =
-            writer.write(0, size.height, line, {style.size, style.bold, true}, writer.palette.ink, width, 3);
-        size = {std::max(size.width, part.width), size.height + part.height};
-        from = to + 1;
+    TextStyle style = writer.strong();
+    style.centred = true;
+    for (const std::string& line : lines_of(caption)) {
+        writer.write_below(size, 0, 0, line, style, writer.palette.ink, width, 3);
+        style = {writer.main().size, writer.main().bold, true};
     }
     return size;
 }
@@ -267,6 +264,63 @@ void draw_foot(const Writer& writer, const Panel& panel, const Common& common, d
     if (scales) scale_block(writer, scale, x + both - length.width, y, longest);
     y += std::max(legend.height, length.height);
     marks_block(writer, marked_by(panel.scene, own_marks_of(common, bar ? 0 : 1)), scale, 0, y, width);
+}
+
+namespace {
+
+// The same text for plots whose values can be compared.
+std::string quantity_of(const FilmPlot& plot) {
+    return plot.is_profile() ? std::to_string(static_cast<int>(plot.profile)) + (plot.period ? "p" : "")
+                             : plot.column;
+}
+
+// SI: the largest value that any panel expects, so that all of them tell the quantity in one unit.
+double expected_of(const std::vector<Panel>& panels, const std::string& quantity) {
+    double largest = 0;
+    for (const Panel& panel : panels)
+        for (const FilmPlot& plot : panel.scene.film.shows.plots)
+            if (!plot.is_profile() && quantity_of(plot) == quantity)
+                largest = std::max(largest, axis_of_column(panel.scene, plot.column).expected);
+    return largest;
+}
+
+}  // namespace
+
+PanelPlots::PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layout, const TypeScale& type,
+                       const Palette& palette) {
+    TypeScale small = type;
+    small.main = type.minor;
+    double end = 0;
+    for (const Panel& panel : panels) end = std::max(end, panel.scene.run.duration);
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        const std::vector<Rectangle>& places = layout.places[i].plots;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const FilmedScene& scene = panels[i].scene;
+            const FilmPlot& plot = scene.film.shows.plots[k];
+            plots_.push_back({make_side_plot(scene, plot, places[k], end, small, palette,
+                                             expected_of(panels, quantity_of(plot))),
+                              quantity_of(plot), places[k], i});
+        }
+    }
+}
+
+bool PanelPlots::take(const std::vector<FramePtr>& frames) {
+    bool changed = false;
+    for (Placed& placed : plots_) changed |= placed.plot->take(*frames[placed.panel]);
+    if (changed) share_limits();
+    return changed;
+}
+
+void PanelPlots::share_limits() {
+    for (Placed& placed : plots_) {
+        std::optional<std::array<double, 2>> all;
+        for (const Placed& other : plots_) {
+            const auto own = other.plot->limits();
+            if (other.quantity != placed.quantity || !own) continue;
+            all = all ? std::array{std::min((*all)[0], (*own)[0]), std::max((*all)[1], (*own)[1])} : *own;
+        }
+        if (all) placed.plot->show(*all);
+    }
 }
 
 }  // namespace grainreel

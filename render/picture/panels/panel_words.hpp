@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/frame.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/panels/panels.hpp"
+#include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
 
 namespace grainreel {
@@ -50,5 +52,28 @@ double foot_height(const Writer& measure, const std::vector<Panel>& panels, cons
 // scale: pixels a metre in the panel. bar: with a scale bar.
 void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, bool bar,
                double width);
+
+// The plots of panels that stand side by side. Plots of one quantity have one span of values and of time, so
+// that their curves can be compared.
+class PanelPlots {
+  public:
+    // Makes as many plots as the layout has places for.
+    PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layout, const TypeScale& type,
+               const Palette& palette);
+
+    // Takes one frame for each panel. Returns whether anything changed.
+    bool take(const std::vector<FramePtr>& frames);
+    struct Placed {
+        std::unique_ptr<SidePlot> plot;
+        std::string quantity;
+        Rectangle place;    // in the picture
+        std::size_t panel;  // number of the panel that it belongs to
+    };
+    std::vector<Placed>& all() { return plots_; }
+
+  private:
+    void share_limits();
+    std::vector<Placed> plots_;
+};
 
 }  // namespace grainreel

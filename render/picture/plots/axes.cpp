@@ -73,4 +73,29 @@ std::string tick_text(double value, double distance) {
     return (shown < 0 ? "−" : "") + fmt::format("{:.{}f}", std::abs(shown), decimals);
 }
 
+AxisTicks upright_ticks(const PlotBox& box, const TypeScale& type, double low, double high) {
+    const int fit =
+        std::clamp(static_cast<int>((box.bottom - box.top) / (1.6 * type.minor)), 2, most_axis_ticks);
+    return axis_ticks(low, high, fit, most_axis_ticks + 1);
+}
+
+void draw_upright_axis(cairo_t* on, const PlotBox& box, const AxisTicks& ticks,
+                       const std::function<double(double tick)>& height_of, const TypeScale& type,
+                       const Palette& palette) {
+    const TextStyle minor{type.minor, false};
+    const double pen = std::max(1.0, type.main / 20), tick = 0.3 * type.minor;
+    for (const double value : ticks.at) {
+        const double y = height_of(value);
+        cairo_set_line_width(on, 0.7 * pen);
+        set_colour(on, palette.ink, 0.15);
+        draw_line(on, box.left, y, box.right, y);
+        const std::string text = tick_text(value, ticks.distance);
+        const TextSize words = measure_text(text, minor);
+        draw_text(on, box.left - tick - words.width, y - 0.5 * words.height, text, minor, palette.faint_ink);
+    }
+    set_colour(on, palette.faint_ink);
+    cairo_set_line_width(on, pen);
+    draw_line(on, box.left, box.top, box.left, box.bottom);
+}
+
 }  // namespace grainreel

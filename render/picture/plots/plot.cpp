@@ -32,7 +32,6 @@ std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlo
 
 namespace {
 
-constexpr int most_ticks = 4;
 constexpr double least_room = 1e-12;  // above and below values that are all alike
 
 }  // namespace
@@ -78,7 +77,8 @@ Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette
 
 std::vector<Plot::TimeTick> Plot::time_ticks() const {
     const double unit = short_run() ? 1e-3 : 1;
-    const std::vector<double> times = round_ticks(frame_.time[0] / unit, frame_.time[1] / unit, most_ticks);
+    const std::vector<double> times =
+        round_ticks(frame_.time[0] / unit, frame_.time[1] / unit, most_axis_ticks);
     std::vector<TimeTick> ticks;
     for (const double time : times)
         ticks.push_back({time * unit, tick_text(time, times.size() > 1 ? times[1] - times[0] : 1)});
@@ -126,7 +126,8 @@ bool Plot::take(const Frame& frame) {
     return true;
 }
 
-// Mean of this row and those since a period ago, without the one of then. None before a period has passed.
+// The mean of this row and those since a period ago; the row of a period ago is not counted. Has no value
+// before a period has passed.
 double Plot::mean_of_period(double cycles, double value) {
     constexpr double hair = 1e-3;  // of a period: rows are whole steps
     period_.push_back({cycles, value});
@@ -155,10 +156,10 @@ void Plot::widen(double value) {
     if (any_ && value >= limits_[0] && value <= limits_[1]) return;
     const double low = any_ ? std::min(limits_[0], value) : value;
     const double high = any_ ? std::max(limits_[1], value) : value;
-    // The first value alone: room for a change by a tenth.
+    // The first value alone gets room for a change by a tenth.
     const double room = any_ ? 0 : std::max(0.1 * std::abs(value), least_room);
     const std::array<double, 2> wide =
-        round_limits(frame_.from_zero ? 0 : low - room, high + room, most_ticks + 1);
+        round_limits(frame_.from_zero ? 0 : low - room, high + room, most_axis_ticks + 1);
     limits_ = {any_ ? std::min(limits_[0], wide[0]) : wide[0],
                any_ ? std::max(limits_[1], wide[1]) : wide[1]};
 }
@@ -167,7 +168,7 @@ void Plot::draw_axes() {
     const CairoContext on(cairo_create(axes_.get()));
     fill_surface(on.get(), palette_.background, 0);
     const TextStyle minor{type_.minor, false};
-    const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
+    const double tick = 0.3 * type_.minor;
     const auto& [low, high] = span();
     const double largest = std::max({std::abs(low), std::abs(high), frame_.expected});
     const std::string unit = fitting_unit(largest, frame_.dimension);
@@ -175,25 +176,12 @@ void Plot::draw_axes() {
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
     draw_title(on.get(), title, frame_.width, frame_.height, type_, palette_.ink);
 
-    // As many as stand above each other.
-    const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
     // Zeros alone span nothing that has a unit.
     const bool zeros = high - low < 10 * least_room && low <= 0 && high >= 0;
-    const AxisTicks ticks =
-        zeros ? AxisTicks{{0}, 1} : axis_ticks(low / size, high / size, fit, most_ticks + 1);
-    for (const double value : ticks.at) {
-        const double y = y_of(value * size);
-        cairo_set_line_width(on.get(), 0.7 * pen);
-        cairo_set_source_rgba(on.get(), palette_.ink.red, palette_.ink.green, palette_.ink.blue, 0.15);
-        draw_line(on.get(), left_, y, right_, y);
-        const std::string text = tick_text(value, ticks.distance);
-        const TextSize words = measure_text(text, minor);
-        draw_text(on.get(), left_ - tick - words.width, y - 0.5 * words.height, text, minor,
-                  palette_.faint_ink);
-    }
-    set_colour(on.get(), palette_.faint_ink);
-    cairo_set_line_width(on.get(), pen);
-    draw_line(on.get(), left_, top_, left_, bottom_);
+    const PlotBox box{left_, right_, top_, bottom_};
+    const AxisTicks ticks = zeros ? AxisTicks{{0}, 1} : upright_ticks(box, type_, low / size, high / size);
+    draw_upright_axis(
+        on.get(), box, ticks, [&](double value) { return y_of(value * size); }, type_, palette_);
     draw_line(on.get(), left_, bottom_, right_, bottom_);
     double below = 0;
     for (const TimeTick& at : time_ticks()) {

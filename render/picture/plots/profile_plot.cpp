@@ -15,20 +15,14 @@
 namespace grainreel {
 namespace {
 
-constexpr int most_ticks = 4;
-constexpr double most_cells = 20000;
-
-// As fields.nc has it by default.
+// Width and cells are those that fields.nc has by default.
 FieldOutput resolution(const FilmedScene& scene) {
-    FieldOutput fields;
-    const Vec3 size = extent_of(scene).size();
-    fields.grid = FieldOutput::Grid::yz;
-    fields.width = 0.5 * mean_diameter(scene);
-    fields.cell = std::max(fields.width, std::sqrt(size.y() * size.z() / most_cells));
-    return fields;
+    const double width = 0.5 * mean_diameter(scene);
+    return picture_fields(scene, width, width);
 }
 
-// m: as high as the picture shows the grains, or as wide as the container is.
+// m: the span of the axis of places, which is as high as the picture shows the grains, or as wide as the
+// container.
 std::array<double, 2> places_of(const FilmedScene& scene, bool across) {
     const Extent extent = extent_of(scene);
     if (across) return {extent.low.y(), extent.high.y()};
@@ -110,7 +104,7 @@ void ProfilePlot::draw(cairo_t* on, int x, int y) {
     else
         draw_text(on, 0, top_ - line_height(type_.minor) - 0.3 * type_.minor, places.name, minor,
                   palette_.faint_ink);
-    draw_upright_axis(on, plot_.across ? values : places);
+    draw_standing_axis(on, plot_.across ? values : places);
     draw_lying_axis(on, plot_.across ? places : values);
     const bool by_species = curves_.size() == scene_.species.size() && !plot_.of_velocity();
     for (std::size_t c = 0; c < curves_.size(); ++c)
@@ -118,33 +112,22 @@ void ProfilePlot::draw(cairo_t* on, int x, int y) {
     cairo_restore(on);
 }
 
-void ProfilePlot::draw_upright_axis(cairo_t* on, const Axis& axis) const {
-    const TextStyle minor{type_.minor, false};
-    const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
-    const int fit = std::clamp(static_cast<int>((bottom_ - top_) / (1.6 * type_.minor)), 2, most_ticks);
-    const AxisTicks ticks =
-        axis_ticks(axis.span[0] / axis.unit, axis.span[1] / axis.unit, fit, most_ticks + 1);
-    for (const double value : ticks.at) {
+void ProfilePlot::draw_standing_axis(cairo_t* on, const Axis& axis) const {
+    const PlotBox box{left_, right_, top_, bottom_};
+    const AxisTicks ticks = upright_ticks(box, type_, axis.span[0] / axis.unit, axis.span[1] / axis.unit);
+    const auto height_of = [&](double value) {
         const double share = (value * axis.unit - axis.span[0]) / (axis.span[1] - axis.span[0]);
-        const double y = bottom_ - share * (bottom_ - top_);
-        cairo_set_line_width(on, 0.7 * pen);
-        set_colour(on, palette_.ink, 0.15);
-        draw_line(on, left_, y, right_, y);
-        const std::string text = tick_text(value, ticks.distance);
-        const TextSize words = measure_text(text, minor);
-        draw_text(on, left_ - tick - words.width, y - 0.5 * words.height, text, minor, palette_.faint_ink);
-    }
-    set_colour(on, palette_.faint_ink);
-    cairo_set_line_width(on, pen);
-    draw_line(on, left_, top_, left_, bottom_);
+        return bottom_ - share * (bottom_ - top_);
+    };
+    draw_upright_axis(on, box, ticks, height_of, type_, palette_);
 }
 
 void ProfilePlot::draw_lying_axis(cairo_t* on, const Axis& axis) const {
     const TextStyle minor{type_.minor, false};
     const double pen = std::max(1.0, type_.main / 20), tick = 0.3 * type_.minor;
-    const int fit = std::clamp(static_cast<int>((right_ - left_) / (4 * type_.minor)), 2, most_ticks);
+    const int fit = std::clamp(static_cast<int>((right_ - left_) / (4 * type_.minor)), 2, most_axis_ticks);
     const AxisTicks ticks =
-        axis_ticks(axis.span[0] / axis.unit, axis.span[1] / axis.unit, fit, most_ticks + 1);
+        axis_ticks(axis.span[0] / axis.unit, axis.span[1] / axis.unit, fit, most_axis_ticks + 1);
     for (const double value : ticks.at) {
         const double share = (value * axis.unit - axis.span[0]) / (axis.span[1] - axis.span[0]);
         const double x = left_ + share * (right_ - left_);
@@ -162,7 +145,7 @@ void ProfilePlot::draw_lying_axis(cairo_t* on, const Axis& axis) const {
     draw_line(on, left_, bottom_, right_, bottom_);
 }
 
-// Broken where there is no value, and cut off at the edges of the box.
+// The curve is broken where there is no value, and cut off at the edges of the box.
 void ProfilePlot::draw_curve(cairo_t* on, const std::vector<double>& values, const Colour& colour) const {
     const GridAxis& axis = sums_.grid().axes[plot_.across ? 1 : 2];
     const double width = std::max(1.2, type_.main / 10);

@@ -1,5 +1,6 @@
-// A profile of the picture's moment, beside the grains: over the height, which then is the upright axis, or
-// over the width. By species, each in its colour, or a mean velocity.
+// A plot beside the grains of a profile at the picture's moment, over the height or over the width. The
+// height is then the upright axis. Profiles of species have the species' colours; others are of a mean
+// velocity.
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ class ProfilePlot final : public SidePlot {
     void show(const std::array<double, 2>& limits) override { range_ = limits; }
     void draw(cairo_t* on, int x, int y) override;
 
-    // Pixels from the plot's corner, of a value at a place (m).
+    // Where a value at a place (m) lies; pixels from the plot's corner.
     std::array<double, 2> pixel_of(double value, double place) const;
 
   private:
@@ -38,7 +39,7 @@ class ProfilePlot final : public SidePlot {
     };
     Axis place_axis() const;
     Axis value_axis() const;
-    void draw_upright_axis(cairo_t* on, const Axis& axis) const;
+    void draw_standing_axis(cairo_t* on, const Axis& axis) const;
     void draw_lying_axis(cairo_t* on, const Axis& axis) const;
     void draw_curve(cairo_t* on, const std::vector<double>& values, const Colour& colour) const;
 
@@ -51,7 +52,7 @@ class ProfilePlot final : public SidePlot {
     std::array<double, 2> range_;         // SI, of the axis of values
     double left_, right_, top_, bottom_;  // of the box, pixels
     CoarseGraining sums_;
-    std::vector<std::vector<double>> curves_;  // a value a place
+    std::vector<std::vector<double>> curves_;  // one value for each place
 };
 
 }  // namespace grainreel

@@ -15,15 +15,9 @@ namespace grainreel {
 
 namespace {
 
-void set_colour(const Writer& writer, const Colour& colour) {
-    cairo_set_source_rgb(writer.on, colour.red, colour.green, colour.blue);
-}
-
 void stroke_line(const Writer& writer, double x0, double y0, double x1, double y1, double width) {
     cairo_set_line_width(writer.on, width);
-    cairo_move_to(writer.on, x0, y0);
-    cairo_line_to(writer.on, x1, y1);
-    cairo_stroke(writer.on);
+    draw_line(writer.on, x0, y0, x1, y1);
 }
 
 void dot(const Writer& writer, double x, double y, double radius) {
@@ -56,12 +50,12 @@ void arrow(const Writer& writer, double x, double y, double dx, double dy, bool 
 // As draw_lab_marks() has it beside the floor.
 void lab_mark_sample(const Writer& writer, double x, double y, double reach) {
     const double pen = std::max(1.0, writer.type.main / 16), bar = x, low = 0.8 * reach;
-    set_colour(writer, writer.palette.faint_ink);
+    set_colour(writer.on, writer.palette.faint_ink);
     stroke_line(writer, bar, y - low, bar, y + low, pen);
     for (const double level : {-1.0, 0.0, 1.0})
         stroke_line(writer, bar - (level == 0 ? 0.9 : 0.5) * reach, y + level * low, bar, y + level * low,
                     pen);
-    set_colour(writer, writer.palette.accent);
+    set_colour(writer.on, writer.palette.accent);
     cairo_move_to(writer.on, bar, y);
     cairo_line_to(writer.on, bar + 0.85 * reach, y - 0.4 * reach);
     cairo_line_to(writer.on, bar + 0.85 * reach, y + 0.4 * reach);
@@ -84,6 +78,16 @@ void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
 
 }  // namespace
 
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t to = std::min(text.find('\n', from), text.size());
+        lines.push_back(text.substr(from, to - from));
+        from = to + 1;
+    }
+    return lines;
+}
+
 TextSize title_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap) {
     const std::string title = shown_title(scene.film);
     if (title.empty()) return {};
@@ -94,7 +98,7 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
     const double length = round_length(longest / scale), pixels = length * scale;
     const double tick = 0.35 * writer.type.main, width = std::max(1.5, writer.type.main / 11);
     if (writer.on) {
-        set_colour(writer, writer.palette.ink);
+        set_colour(writer.on, writer.palette.ink);
         stroke_line(writer, x, y + 0.5 * tick, x + pixels, y + 0.5 * tick, width);
         for (const double end : {x + 0.5 * width, x + pixels - 0.5 * width})
             stroke_line(writer, end, y, end, y + tick, width);
@@ -121,7 +125,7 @@ TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View
     };
     const auto direction = [&](const Vec3& along, bool both) {
         return [&, along, both](double at_x, double at_y) {
-            set_colour(writer, both ? writer.palette.accent : writer.palette.ink);
+            set_colour(writer.on, both ? writer.palette.accent : writer.palette.ink);
             const double across = along.dot(view->right), up = along.dot(view->up);
             if (std::hypot(across, up) < 0.2)
                 arrow_on_end(writer, at_x, at_y, both || along.dot(view->forward) < 0);
@@ -151,7 +155,7 @@ TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* 
     });
     for (const auto& [axis, name] : axes) {
         const double dx = axis.dot(view->right), dy = -axis.dot(view->up);
-        set_colour(writer,
+        set_colour(writer.on,
                    mix(writer.palette.ink, writer.palette.background, 0.25 * (1 + axis.dot(view->forward))));
         stroke_line(writer, cx, cy, cx + reach * dx, cy + reach * dy, 1.6 * pen);
         dot(writer, cx + reach * dx, cy + reach * dy, 2 * pen);
@@ -170,9 +174,7 @@ TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame
     std::vector<std::string> lines;
     if (scene.film.word_kinds.drive) lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
     for (const std::string& line : lines) {
-        const TextSize part = writer.write(x, y + size.height, line, writer.main(), writer.palette.ink);
-        size.width = std::max(size.width, part.width);
-        size.height += part.height;
+        writer.write_below(size, x, y, line, writer.main(), writer.palette.ink);
     }
     if (scene.film.exaggerate == 1) return size;
     if (!lines.empty()) size.height += 0.5 * writer.type.gap;
@@ -185,9 +187,7 @@ TextSize exaggeration_block(const Writer& writer, const Film& film, double x, do
     if (film.exaggerate == 1) return size;
     for (const std::string& line :
          {std::string("wall motion"), fmt::format("drawn {:.3g}×", film.exaggerate)}) {
-        const TextSize part =
-            writer.write(x, y + size.height, line, {writer.type.minor, true}, writer.palette.accent);
-        size = {std::max(size.width, part.width), size.height + part.height};
+        writer.write_below(size, x, y, line, {writer.type.minor, true}, writer.palette.accent);
     }
     return size;
 }
@@ -229,9 +229,8 @@ TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame
     TextSize size;
     for (const std::string& line : clock_lines(scene, frame)) {
         const bool time = size.height == 0 && scene.film.word_kinds.time && !std::isnan(frame.time);
-        const TextSize part = writer.write(x, y + size.height, line, time ? writer.strong() : writer.minor(),
-                                           time ? writer.palette.ink : writer.palette.faint_ink);
-        size = {std::max(size.width, part.width), size.height + part.height};
+        writer.write_below(size, x, y, line, time ? writer.strong() : writer.minor(),
+                           time ? writer.palette.ink : writer.palette.faint_ink);
     }
     return size;
 }
@@ -239,15 +238,9 @@ TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame
 TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap,
                     int most) {
     TextSize size;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t to = std::min(text.find('\n', from), text.size());
-        const std::string line = to > from ? text.substr(from, to - from) : " ";
-        const TextSize one =
-            writer.write(x, y + size.height, line, writer.main(), writer.palette.ink, wrap, most);
-        size.width = std::max(size.width, one.width);
-        size.height += one.height;
-        from = to + 1;
-    }
+    for (const std::string& line : lines_of(text))
+        writer.write_below(size, x, y, line.empty() ? " " : line, writer.main(), writer.palette.ink, wrap,
+                           most);
     return size;
 }
 
@@ -303,12 +296,11 @@ class Pen {
     Pen(const Writer& writer, double x, double y) : on_(writer.on), corner_(x, y) {
         cairo_new_path(on_);  // text leaves a current point behind
     }
-    void colour(const Colour& c) const { cairo_set_source_rgb(on_, c.red, c.green, c.blue); }
+    void colour(const Colour& c) const { set_colour(on_, c); }
     void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width) const {
         cairo_set_line_width(on_, width);
-        cairo_move_to(on_, corner_.x() + from.x(), corner_.y() + from.y());
-        cairo_line_to(on_, corner_.x() + to.x(), corner_.y() + to.y());
-        cairo_stroke(on_);
+        draw_line(on_, corner_.x() + from.x(), corner_.y() + from.y(), corner_.x() + to.x(),
+                  corner_.y() + to.y());
     }
     void dot(const Eigen::Vector2d& at, double radius) const {
         cairo_arc(on_, corner_.x() + at.x(), corner_.y() + at.y(), radius, 0, 2 * std::numbers::pi);
@@ -321,7 +313,7 @@ class Pen {
     }
     // From where the hand is at phase 0 to where it is at `phase`.
     void sector(const Dial& dial, double phase, const Colour& c, double alpha) const {
-        cairo_set_source_rgba(on_, c.red, c.green, c.blue, alpha);
+        set_colour(on_, c, alpha);
         cairo_move_to(on_, corner_.x() + dial.middle().x(), corner_.y() + dial.middle().y());
         const int steps = std::max(2, static_cast<int>(std::ceil(128 * phase)));
         for (int i = 0; i <= steps; ++i) {

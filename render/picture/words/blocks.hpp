@@ -31,7 +31,16 @@ struct Writer {
         return on ? draw_text(on, x, y, text, style, colour, wrap, lines)
                   : measure_text(text, style, wrap, lines);
     }
+    // Writes a line below those that `size` has already, which begin at (x, y), and adds it to the size.
+    void write_below(TextSize& size, double x, double y, const std::string& line, const TextStyle& style,
+                     const Colour& colour, double wrap = 0, int lines = 1) const {
+        const TextSize part = write(x, y + size.height, line, style, colour, wrap, lines);
+        size = {std::max(size.width, part.width), size.height + part.height};
+    }
 };
+
+// The lines of a text, which "\n" separates.
+std::vector<std::string> lines_of(const std::string& text);
 
 // Each draws itself with its top left corner at (x, y), pixels, and returns its size.
 TextSize title_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap);

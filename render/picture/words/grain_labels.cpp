@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/picture/base/cairo_text.hpp"
-#include "render/picture/words/layout.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 
 namespace grainreel {
 
@@ -24,15 +24,9 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
     return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-std::optional<std::size_t> row_of(const Frame& frame, std::int32_t id) {
-    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-    if (found == frame.id.end() || *found != id) return std::nullopt;
-    return static_cast<std::size_t>(found - frame.id.begin());
-}
-
 std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const View& view,
                              const TextStyle& style, double gap) {
-    const std::optional<std::size_t> row = row_of(frame, label.id);
+    const std::optional<std::size_t> row = find_grain(frame, label.id);
     if (!row) return std::nullopt;
     const Vec3& at = frame.position[*row];
     if (!view.orthographic && view.to_view(at).z() <= 0) return std::nullopt;
@@ -64,7 +58,7 @@ void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View&
     found.resize(scene.film.labels.size());
     for (std::size_t k = 0; k < scene.film.labels.size(); ++k) {
         const FilmLabel& label = scene.film.labels[k];
-        if (row_of(frame, label.id)) found[k] = 1;
+        if (find_grain(frame, label.id)) found[k] = 1;
         std::optional<Placed> one = placed(label, frame, view, style, 0.6 * type.main);
         if (!one) continue;
         for (const Placed& other : all)
@@ -91,7 +85,7 @@ void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View&
             cairo_move_to(on.get(), one.x + rim * (end_x - one.x), one.y + rim * (end_y - one.y));
             cairo_line_to(on.get(), end_x, end_y);
         }
-        cairo_set_source_rgb(on.get(), palette.ink.red, palette.ink.green, palette.ink.blue);
+        set_colour(on.get(), palette.ink);
         cairo_set_line_width(on.get(), std::max(1.0, type.main / 14));
         cairo_stroke(on.get());
         paint_plates(on.get(), laid, type, palette);

@@ -25,7 +25,7 @@ namespace grainreel {
 
 namespace {
 
-// The same formula as light_as() in light-inl.hpp, seen straight on and with nothing around.
+// The formula of light_as() in light-inl.hpp, for a ball that is seen straight on and has nothing around it.
 Colour lit(const Vec3& normal, const Colour& albedo) {
     const Lamp lamp;
     const Vec3 key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]), eye(0, 0, -1);
@@ -74,7 +74,7 @@ void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour&
 
 constexpr std::size_t most_species = 12;  // more are summed up in a last line
 
-// The entries of a legend of which the first `shown` species have one each, and the others one together.
+// The entries of a legend: the first `shown` species have one each, and the others have one together.
 class Entries {
   public:
     Entries(const Writer& writer, const FilmedScene& scene, double wrap)
@@ -82,7 +82,7 @@ class Entries {
 
     std::size_t count(std::size_t shown) const { return shown + (shown < scene_.species.size() ? 1 : 0); }
 
-    // In as many columns as there is room for.
+    // Draws the entries in as many columns as there is room for.
     TextSize draw(std::size_t shown, double x, double y) const {
         const double gap = writer_.type.gap;
         double widest = 1;
@@ -107,8 +107,8 @@ class Entries {
     Entries measured() const { return {{nullptr, writer_.type, writer_.palette}, scene_, wrap_}; }
 
   private:
-    // Where the number changes, how many there are at the start, and how many are fed in the course of the
-    // run. A species may be there for the walls alone.
+    // The lines that say how many grains a species has: where the number changes, how many there are at the
+    // start and how many are fed in the course of the run. A species may be there for the walls alone.
     std::vector<std::string> numbers_of(const Species& species) const {
         const std::string wide = diameter_text(species.diameter);
         if (species.all() == 0) return {fmt::format("{}, glued to walls", wide)};
@@ -172,21 +172,21 @@ TextSize legend_block(const Writer& writer, const FilmedScene& scene, double x, 
 
 namespace {
 
-// Its ends have the colours of the range's ends, so that it can be read off a picture.
+// The bar's ends have the colours of the range's ends, so that values can be read off a picture.
 void paint_bar(cairo_t* on, const ColourScale& scale, int x, int y, int width, int height) {
     cairo_save(on);
     cairo_set_antialias(on, CAIRO_ANTIALIAS_NONE);
     for (int i = 0; i < width; ++i) {
         const double share = scale.bands() > 0 ? (i + 0.5) / width : i / (width - 1.0);
         const Colour colour = in_bytes(scale.at_share(share));
-        cairo_set_source_rgb(on, colour.red, colour.green, colour.blue);
+        set_colour(on, colour);
         cairo_rectangle(on, x + i, y, 1, height);
         cairo_fill(on);
     }
     cairo_restore(on);
 }
 
-// An arrow of the end's colour, beyond an end that stands for all values beyond it, too.
+// Paints an arrow of the end's colour beyond an end that also stands for all values beyond it.
 void paint_tip(cairo_t* on, const Colour& colour, const Colour& edge, double x, double tip, double y,
                int height) {
     const Colour own = in_bytes(colour);
@@ -194,9 +194,9 @@ void paint_tip(cairo_t* on, const Colour& colour, const Colour& edge, double x, 
     cairo_line_to(on, tip, y + 0.5 * height);
     cairo_line_to(on, x, y + height);
     cairo_close_path(on);
-    cairo_set_source_rgb(on, own.red, own.green, own.blue);
+    set_colour(on, own);
     cairo_fill_preserve(on);
-    cairo_set_source_rgb(on, edge.red, edge.green, edge.blue);  // light tips are lost on a light background
+    set_colour(on, edge);  // light tips are lost on a light background
     cairo_set_line_width(on, std::max(1.0, 0.06 * height));
     cairo_stroke(on);
 }
@@ -215,7 +215,7 @@ struct BarTick {
     std::string words;
 };
 
-// Room for the words decides how many.
+// The room for their words decides how many ticks there are.
 std::vector<BarTick> ticks_of(const ColourScale& scale, const TextStyle& style, double width) {
     const double low = scale.low() / scale.unit_size(), high = scale.high() / scale.unit_size();
     const auto most = [&](double nearest_low, double nearest_high) {
@@ -246,8 +246,7 @@ TextSize bar_block(const Writer& writer, const ColourScale& scale, double x, dou
     if (writer.on) {
         paint_bar(writer.on, scale, bar.x, bar.y, bar.width, bar.height);
         paint_tips(writer, scale, bar);
-        const Colour& ink = writer.palette.ink;
-        cairo_set_source_rgb(writer.on, ink.red, ink.green, ink.blue);
+        set_colour(writer.on, writer.palette.ink);
         cairo_set_line_width(writer.on, std::max(1.0, type.main / 16));
     }
     double deepest = 0;
@@ -256,11 +255,8 @@ TextSize bar_block(const Writer& writer, const ColourScale& scale, double x, dou
         const TextSize size = measure_text(one.words, writer.minor());
         const double left = std::clamp(at - 0.5 * size.width, x, std::max(x, x + width - size.width));
         if (writer.on) {
-            const Colour& ink = writer.palette.ink;
-            cairo_set_source_rgb(writer.on, ink.red, ink.green, ink.blue);
-            cairo_move_to(writer.on, at, below);
-            cairo_line_to(writer.on, at, below + tick);
-            cairo_stroke(writer.on);
+            set_colour(writer.on, writer.palette.ink);
+            draw_line(writer.on, at, below, at, below + tick);
         }
         writer.write(left, below + 1.2 * tick, one.words, writer.minor(), writer.palette.faint_ink);
         deepest = std::max(deepest, size.height);

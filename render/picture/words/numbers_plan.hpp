@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "render/picture/words/blocks.hpp"
-#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
