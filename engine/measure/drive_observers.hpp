@@ -17,7 +17,7 @@ class Times final : public Observer {
                  "the drive's phase, `drive.phase` included; 0 without a drive"},
                 {{{"cycles", "periods"}}, "periods", "since the drive started; 0 without a drive"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         row.insert(row.end(), {static_cast<double>(m.step), m.clock.time(m.step), m.clock.phase(m.step),
                                m.clock.cycles(m.step)});
     }
@@ -41,7 +41,7 @@ class DriveNow final : public Observer {
                  "of the stage that is on, of the moment while the drive grows; 0 at rest and without a "
                  "drive, NaN without gravity"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         const Drive& drive = m.scene.drive;
         double frequency = 0, g_level = 0;
         const double cycles = m.clock.cycles(m.step);
@@ -69,7 +69,7 @@ class FloorPosition final : public Observer {
                  "m",
                  "displacement of what the drive moves, along `drive.direction`"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         row.push_back(m.pose.offset.dot(m.scene.drive.direction));
     }
 };

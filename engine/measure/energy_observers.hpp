@@ -26,9 +26,9 @@ class Energies final : public Observer {
              "the rest of the balance: energy at the start + `wall_work_J` - the four energies above"}};
     }
     bool needs_contacts() const override { return true; }
-    void begin(const Moment&) override { elastic_ = 0; }
-    void contact(const Moment&, const ContactView& c) override { elastic_ += c.stored_energy; }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void begin(const ObservedState&) override { elastic_ = 0; }
+    void contact(const ObservedState&, const ContactView& c) override { elastic_ += c.stored_energy; }
+    void look(const ObservedState& m, std::vector<double>& row) override {
         const Kinetic kinetic = kinetic_energy(m.grains);
         const double high = gravitational_energy(m.grains, m.gravity);
         const double work = wall_work(m.grains) + m.traffic.work_out;
@@ -67,20 +67,20 @@ class EnergyShares final : public Observer {
     }
 
     std::int64_t gathers_after(std::int64_t step) const override { return step + 1; }
-    void start(const Moment& m) override { begin_balance(m); }
-    void gather(const Moment& m) override { balance_->note(m.step); }
-    void look(const Moment&, std::vector<double>& row) override {
+    void start(const ObservedState& m) override { begin_balance(m); }
+    void gather(const ObservedState& m) override { balance_->note(m.step); }
+    void look(const ObservedState&, std::vector<double>& row) override {
         const EnergyTerms& terms = balance_->terms();
         row.insert(row.end(), {terms.latching, terms.friction, terms.damping, balance_->residual()});
     }
     void save(std::ostream& out) const override { balance_->save(out); }
-    void load(const Moment& m, Bytes& in) override {
+    void load(const ObservedState& m, Bytes& in) override {
         begin_balance(m);
         balance_->load(in);
     }
 
   private:
-    void begin_balance(const Moment& m) {
+    void begin_balance(const ObservedState& m) {
         balance_.emplace(*m.around, m.grains, *m.loop, m.step, m.clock.step);
     }
 

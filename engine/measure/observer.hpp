@@ -39,7 +39,7 @@ struct Surroundings;
 class StepLoop;
 
 // The state that an observer may look at.
-struct Moment {
+struct ObservedState {
     const Scene& scene;
     const Clock& clock;
     const Grains& grains;
@@ -68,31 +68,31 @@ class Observer {
     // Whether contact() is called. The contacts are visited once a moment, for all who want them.
     virtual bool needs_contacts() const { return false; }
     // Before the first contact of a moment.
-    virtual void begin(const Moment&) {}
-    virtual void contact(const Moment&, const ContactView&) {}
+    virtual void begin(const ObservedState&) {}
+    virtual void contact(const ObservedState&, const ContactView&) {}
     // After the last contact: adds a value for each of its columns to `row`.
-    virtual void look(const Moment& moment, std::vector<double>& row) = 0;
+    virtual void look(const ObservedState& moment, std::vector<double>& row) = 0;
 
     // On grids: what it gives, which stays the same for the whole run, and the values of a moment, which are
     // asked for in place of look() and after the same calls.
     virtual const FieldSet* fields() const { return nullptr; }
-    virtual FieldValues look_at_fields(const Moment&) { return {}; }
+    virtual FieldValues look_at_fields(const ObservedState&) { return {}; }
 
     // An observer that gathers says here the first step after `step` at which gather() is called: every step,
     // every row, some phases. It depends on nothing that was gathered, so that it does not matter where a run
     // was broken off and taken up again. gather() comes after the same calls as look(), and before it.
     static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
     virtual std::int64_t gathers_after(std::int64_t) const { return kNever; }
-    // Whether Moment::wall_sums is there.
+    // Whether ObservedState::wall_sums is there.
     virtual bool needs_wall_sums() const { return false; }
     // Once, before all gathering: when the drive starts, or where a run goes on from a checkpoint that has
     // nothing of this observer.
-    virtual void start(const Moment&) {}
-    virtual void gather(const Moment&) {}
+    virtual void start(const ObservedState&) {}
+    virtual void gather(const ObservedState&) {}
     // Everything it has gathered, bit by bit, for the checkpoint. load() takes the place of start() and makes
     // the reading fail where save() could not have written what is read.
     virtual void save(std::ostream&) const {}
-    virtual void load(const Moment&, Bytes&) {}
+    virtual void load(const ObservedState&, Bytes&) {}
 };
 
 // What is known of an observer before one is made.

@@ -44,7 +44,7 @@ Observers::Observers(const std::vector<ObserverEntry>& table, const Scene& scene
 
 // begin(), contacts and `call` for the entries that are wanted.
 template <class Wanted, class Call>
-void Observers::visit(const Moment& moment, const ShowContacts& show_contacts, const Wanted& wanted,
+void Observers::visit(const ObservedState& moment, const ShowContacts& show_contacts, const Wanted& wanted,
                       const Call& call) {
     std::vector<Entry*> chosen;
     std::vector<Observer*> of_contacts;
@@ -61,7 +61,7 @@ void Observers::visit(const Moment& moment, const ShowContacts& show_contacts, c
     for (Entry* const entry : chosen) call(*entry);
 }
 
-Measures Observers::look(const Moment& moment, const ShowContacts& show_contacts) {
+Measures Observers::look(const ObservedState& moment, const ShowContacts& show_contacts) {
     std::vector<double> row;
     row.reserve(names_->size());
     visit(
@@ -70,7 +70,8 @@ Measures Observers::look(const Moment& moment, const ShowContacts& show_contacts
     return {names_, std::move(row)};
 }
 
-double Observers::look(const Moment& moment, const ShowContacts& show_contacts, const std::string& column) {
+double Observers::look(const ObservedState& moment, const ShowContacts& show_contacts,
+                       const std::string& column) {
     std::vector<double> row;
     std::size_t index = 0;
     const auto gives_it = [&](const Entry& entry) {
@@ -91,7 +92,8 @@ std::vector<const FieldSet*> Observers::fields() const {
     return sets;
 }
 
-std::vector<FieldValues> Observers::look_at_fields(const Moment& moment, const ShowContacts& show_contacts) {
+std::vector<FieldValues> Observers::look_at_fields(const ObservedState& moment,
+                                                   const ShowContacts& show_contacts) {
     std::vector<FieldValues> values;
     visit(
         moment, show_contacts, [](const Entry& entry) { return entry.observer->fields() != nullptr; },
@@ -104,7 +106,7 @@ bool Observers::need_wall_sums() const {
                        [](const Entry& entry) { return entry.observer->needs_wall_sums(); });
 }
 
-void Observers::start(const Moment& moment, const ShowContacts& show_contacts) {
+void Observers::start(const ObservedState& moment, const ShowContacts& show_contacts) {
     visit(
         moment, show_contacts, [](const Entry& entry) { return !entry.started && gathers(*entry.observer); },
         [&](Entry& entry) {
@@ -119,7 +121,7 @@ std::int64_t Observers::gathers_after(std::int64_t step) const {
     return next;
 }
 
-void Observers::gather(const Moment& moment, const ShowContacts& show_contacts) {
+void Observers::gather(const ObservedState& moment, const ShowContacts& show_contacts) {
     visit(
         moment, show_contacts,
         [&](const Entry& entry) { return entry.observer->gathers_after(moment.step - 1) == moment.step; },
@@ -137,7 +139,7 @@ void Observers::save(std::ostream& out) const {
     }
 }
 
-void Observers::load(const Moment& moment, Bytes& in) {
+void Observers::load(const ObservedState& moment, Bytes& in) {
     while (in.left() > 0 && !in.failed()) {
         std::vector<char> name, bytes;
         read_vector(in, name);

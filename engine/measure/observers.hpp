@@ -25,27 +25,27 @@ class Observers {
 
     const std::vector<std::string>& names() const { return *names_; }
     // A value for each name. Calls show_contacts once where an observer needs contacts, else not at all.
-    Measures look(const Moment& moment, const ShowContacts& show_contacts);
+    Measures look(const ObservedState& moment, const ShowContacts& show_contacts);
     // One of them. Asks the observer alone that gives it. The column must be there.
-    double look(const Moment& moment, const ShowContacts& show_contacts, const std::string& column);
+    double look(const ObservedState& moment, const ShowContacts& show_contacts, const std::string& column);
 
     // On grids, observer by observer: what they give, and the values of a moment in the same order.
     std::vector<const FieldSet*> fields() const;
-    std::vector<FieldValues> look_at_fields(const Moment& moment, const ShowContacts& show_contacts);
+    std::vector<FieldValues> look_at_fields(const ObservedState& moment, const ShowContacts& show_contacts);
 
-    // Whether somebody needs Moment::wall_sums.
+    // Whether somebody needs ObservedState::wall_sums.
     bool need_wall_sums() const;
     // When the drive starts, or for those that load() has found nothing of.
-    void start(const Moment& moment, const ShowContacts& show_contacts);
+    void start(const ObservedState& moment, const ShowContacts& show_contacts);
     // The first step after `step` at which somebody gathers; Observer::kNever.
     std::int64_t gathers_after(std::int64_t step) const;
     // Calls those that gather at this step.
-    void gather(const Moment& moment, const ShowContacts& show_contacts);
+    void gather(const ObservedState& moment, const ShowContacts& show_contacts);
 
     // What they have gathered, for the checkpoint. The reading fails where save() could not have written what
     // is read. What is there of observers that are not is passed over.
     void save(std::ostream& out) const;
-    void load(const Moment& moment, Bytes& in);
+    void load(const ObservedState& moment, Bytes& in);
 
   private:
     struct Entry {
@@ -55,7 +55,7 @@ class Observers {
         bool started = false;
     };
     template <class Wanted, class Call>
-    void visit(const Moment& moment, const ShowContacts& show_contacts, const Wanted& wanted,
+    void visit(const ObservedState& moment, const ShowContacts& show_contacts, const Wanted& wanted,
                const Call& call);
 
     Measures::Names names_;

@@ -27,7 +27,7 @@ class BedShape final : public Observer {
              "1",
              "volume of the grains up to `bed_top_m` over that of the container between floor and there"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (m.grains.size() == 0) return add_no_values(row, 2);
         std::vector<double> heights = heights_above(m.grains, m.floor_height());
         const double height = bed_height(heights), top = m.floor_height() + height;
@@ -68,15 +68,15 @@ class BedMotion final : public Observer {
         if (!shaken_) return step < 0 ? 0 : kNever;  // the bed at rest is wanted all the same
         return (step + every_) / every_ * every_;
     }
-    void start(const Moment& m) override {
+    void start(const ObservedState& m) override {
         rest_height_ = height_of(m);
         note(m);
     }
-    void gather(const Moment& m) override {
+    void gather(const ObservedState& m) override {
         if (has_floor(m) && m.step > step_) flight_.add(step_, carried(m));
         note(m);
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         row.push_back(rest_height_ > 0 ? height_of(m) / rest_height_ : kNoValue);
         const std::optional<Flight::Times> last = flight_.last();
         if (!last) return add_no_values(row, 3);
@@ -87,7 +87,7 @@ class BedMotion final : public Observer {
         const Writing each{out};
         each(rest_height_), each(step_), each(floor_), each(flight_.state());
     }
-    void load(const Moment& m, Bytes& in) override {
+    void load(const ObservedState& m, Bytes& in) override {
         const Reading each{in};
         Flight::State state;
         each(rest_height_), each(step_), each(floor_), each(state);
@@ -101,25 +101,25 @@ class BedMotion final : public Observer {
   private:
     static constexpr std::int64_t kLooks = 128;  // a period
 
-    static bool has_floor(const Moment& m) {
+    static bool has_floor(const ObservedState& m) {
         return m.scene.container.shape != Container::Shape::none && m.wall_sums != nullptr;
     }
     // A vessel that is a mesh has no floor of its own and carries the grains as a whole.
-    static const FaceSums& floor_of(const Moment& m) {
+    static const FaceSums& floor_of(const ObservedState& m) {
         const std::optional<std::size_t> vessel = vessel_of(m.scene);
         return m.wall_sums->faces.at(vessel ? m.faces.size() + *vessel : 0);
     }
-    static double height_of(const Moment& m) {
+    static double height_of(const ObservedState& m) {
         std::vector<double> heights = heights_above(m.grains, m.floor_height());
         return bed_height(heights);
     }
-    void note(const Moment& m) {
+    void note(const ObservedState& m) {
         step_ = m.step;
         if (has_floor(m)) floor_ = floor_of(m);
     }
     // Mean force of the grains on the floor along gravity since the step before, over their weight. The sums
     // are those of walls/wall_forces.hpp.
-    double carried(const Moment& m) const {
+    double carried(const ObservedState& m) const {
         const FaceSums& now = floor_of(m);
         double counts = 0, mass = 0;  // counts times m/s2
         for (int a = 0; a < 3; ++a)
@@ -163,22 +163,22 @@ class BedPeriods final : public Observer {
     std::int64_t gathers_after(std::int64_t step) const override {
         return is_shaken() ? looks().next(step + 1, clock_) : kNever;
     }
-    void start(const Moment& m) override {
+    void start(const ObservedState& m) override {
         if (is_shaken() && looks().next(m.step, clock_) == m.step) gather(m);
     }
-    void gather(const Moment& m) override {
+    void gather(const ObservedState& m) override {
         multiple_.add(std::llround(clock_.cycles(m.step) * PeriodMultiple::kPhases), centre_height(m));
     }
-    void look(const Moment&, std::vector<double>& row) override {
+    void look(const ObservedState&, std::vector<double>& row) override {
         row.insert(row.end(),
                    {is_shaken() ? static_cast<double>(multiple_.value()) : 0.0, multiple_.difference()});
     }
     void save(std::ostream& out) const override { multiple_.save(out); }
-    void load(const Moment&, Bytes& in) override { multiple_.load(in); }
+    void load(const ObservedState&, Bytes& in) override { multiple_.load(in); }
 
   private:
     // m, of the centre of mass above the floor where that is now.
-    static double centre_height(const Moment& m) {
+    static double centre_height(const ObservedState& m) {
         double moment = 0, mass = 0;
         for (std::size_t i = 0; i < m.grains.size(); ++i) {
             moment += m.grains.mass(i) * m.grains.place[i].position.z();
@@ -212,7 +212,7 @@ class CentreOfMass final : public Observer {
                  "m",
                  "centre of mass of all grains"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         Vec3 centre = Vec3::Zero();
         double mass = 0;
         for (std::size_t i = 0; i < m.grains.size(); ++i) {
@@ -248,7 +248,7 @@ class SpeciesPlaces final : public Observer {
         }
         return groups;
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         const std::size_t species = m.scene.species.size();
         std::vector<Vec3> centre(species, Vec3::Zero());
         std::vector<double> count(species, 0);
@@ -279,11 +279,11 @@ class ContactNumber final : public Observer {
                  "force-carrying contacts a grain, walls included"}};
     }
     bool needs_contacts() const override { return true; }
-    void begin(const Moment&) override { carrying_ = 0; }
-    void contact(const Moment&, const ContactView& c) override {
+    void begin(const ObservedState&) override { carrying_ = 0; }
+    void contact(const ObservedState&, const ContactView& c) override {
         if (c.normal_force > 0) carrying_ += c.second >= 0 ? 2 : 1;
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         row.push_back(carrying_ / static_cast<double>(m.grains.size()));
     }
 
@@ -306,11 +306,11 @@ class LargestOverlap final : public Observer {
                  "diameter)"}};
     }
     bool needs_contacts() const override { return true; }
-    void begin(const Moment&) override { largest_ = 0; }
-    void contact(const Moment&, const ContactView& c) override {
+    void begin(const ObservedState&) override { largest_ = 0; }
+    void contact(const ObservedState&, const ContactView& c) override {
         largest_ = std::max(largest_, c.overlap / c.smaller_radius);
     }
-    void look(const Moment&, std::vector<double>& row) override { row.push_back(largest_); }
+    void look(const ObservedState&, std::vector<double>& row) override { row.push_back(largest_); }
 
   private:
     double largest_ = 0;
@@ -336,11 +336,11 @@ class ContactFabric final : public Observer {
              "upright"}};
     }
     bool needs_contacts() const override { return true; }
-    void begin(const Moment&) override { fabric_ = {}; }
-    void contact(const Moment&, const ContactView& c) override {
+    void begin(const ObservedState&) override { fabric_ = {}; }
+    void contact(const ObservedState&, const ContactView& c) override {
         if (c.normal_force > 0 && c.second >= 0) fabric_.add(c.normal);
     }
-    void look(const Moment&, std::vector<double>& row) override {
+    void look(const ObservedState&, std::vector<double>& row) override {
         row.insert(row.end(), {fabric_.anisotropy(), fabric_.vertical()});
     }
 
@@ -371,21 +371,21 @@ class Intruder final : public Observer {
     Intruder(const Scene&, const Plan& plan) : rows_(plan) {}
 
     std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
-    void start(const Moment& m) override { gather(m); }
-    void gather(const Moment& m) override {
+    void start(const ObservedState& m) override { gather(m); }
+    void gather(const ObservedState& m) override {
         if (std::isnan(rise_time_) && height_at(m) >= 1) rise_time_ = m.clock.time(m.step);
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         row.insert(row.end(), {height_at(m), rise_time_});
     }
     void save(std::ostream& out) const override { write_value(out, rise_time_); }
-    void load(const Moment& m, Bytes& in) override {
+    void load(const ObservedState& m, Bytes& in) override {
         read_value(in, rise_time_);
         if (rise_time_ < 0 || rise_time_ > m.clock.time(m.step)) in.fail();
     }
 
   private:
-    static double height_at(const Moment& m) {
+    static double height_at(const ObservedState& m) {
         const std::optional<std::size_t> intruder = find_intruder(m.scene, m.grains);
         return intruder ? intruder_height(m.scene, m.grains, *intruder, m.floor_height()) : kNoValue;
     }

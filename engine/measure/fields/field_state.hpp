@@ -36,17 +36,17 @@ struct FieldState {
 
 // Places and velocities are seen from the container where the drive moves it, and from the lab where it moves
 // the floor alone.
-inline Pose seen_from(const Moment& moment) {
+inline Pose seen_from(const ObservedState& moment) {
     return moment.scene.drive.moves == Drive::Moves::container ? moment.pose : Pose();
 }
 
-inline Vec3 field_place(const Moment& moment, std::size_t grain) {
+inline Vec3 field_place(const ObservedState& moment, std::size_t grain) {
     Vec3 place = moment.grains.place[grain].position;
     place.x() = nearest_image(place.x(), moment.period);
     return place - seen_from(moment).offset;
 }
 
-inline FieldGrain field_grain(const Moment& moment, std::size_t grain) {
+inline FieldGrain field_grain(const ObservedState& moment, std::size_t grain) {
     const std::int32_t species = moment.grains.species[grain];
     const double mass = moment.grains.mass(grain);
     return {field_place(moment, grain),
@@ -58,7 +58,7 @@ inline FieldGrain field_grain(const Moment& moment, std::size_t grain) {
 }
 
 // At a wall the branch ends on the wall's face.
-inline FieldContact field_contact(const Moment& moment, const ContactView& contact) {
+inline FieldContact field_contact(const ObservedState& moment, const ContactView& contact) {
     const auto first = static_cast<std::size_t>(contact.first);
     const bool pair = contact.second >= 0;
     const double radius = moment.grains.place[first].radius;

@@ -176,13 +176,13 @@ class Convection final : public Observer {
     std::int64_t gathers_after(std::int64_t step) const override {
         return shaken_ ? windows_.next(step + 1, clock_) : kNever;
     }
-    void start(const Moment& m) override {
+    void start(const ObservedState& m) override {
         if (windows_.next(m.step, clock_) == m.step) gather(m);
     }
-    void gather(const Moment& m) override {
+    void gather(const ObservedState& m) override {
         drift_.note(std::llround(clock_.cycles(m.step)), m.grains, m.pose);
     }
-    void look(const Moment&, std::vector<double>& row) override {
+    void look(const ObservedState&, std::vector<double>& row) override {
         for (const auto zone : {Drift::at_left_wall, Drift::in_middle, Drift::at_right_wall})
             add(row, drift_.rise(zone));
         for (const Side half : {Side::left, Side::right}) add(row, drift_.roll(half));
@@ -193,7 +193,7 @@ class Convection final : public Observer {
     }
 
     void save(std::ostream& out) const override { drift_.save(out); }
-    void load(const Moment&, Bytes& in) override { drift_.load(in); }
+    void load(const ObservedState&, Bytes& in) override { drift_.load(in); }
 
   private:
     static void add(std::vector<double>& row, const Estimate& estimate) {

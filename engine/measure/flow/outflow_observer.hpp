@@ -74,7 +74,7 @@ class Outflow final : public Observer {
     Outflow(const Scene& scene, const Plan& plan) : rows_(plan), fed_(scene) {}
 
     std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
-    void start(const Moment& m) override {
+    void start(const ObservedState& m) override {
         double largest = largest_mass(m.scene);
         for (std::size_t i = 0; i < m.grains.size(); ++i) largest = std::max(largest, m.grains.mass(i));
         quantum_ = mass_quantum(largest);
@@ -84,14 +84,14 @@ class Outflow final : public Observer {
         most_ = total(inside(m));
         before_ = last_ = {m.step, 0};
     }
-    void gather(const Moment& m) override {
+    void gather(const ObservedState& m) override {
         before_ = last_;
         last_ = {m.step, total(gone(m))};
         const WideInt now = total(inside(m));
         most_ = std::max(most_, now);
         if (std::isnan(emptied_) && most_ > 0 && 100 * now < most_) emptied_ = m.clock.time(m.step);
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         const std::int64_t fed = std::accumulate(m.fed.begin(), m.fed.end(), std::int64_t{0});
         if (m.traffic.came > fed) return add_no_values(row, 3 + m.scene.species.size());
         const Noted& from = last_.step < m.step ? last_ : before_;
@@ -103,7 +103,7 @@ class Outflow final : public Observer {
         row.push_back(emptied_);
     }
     void save(std::ostream& out) const override { name_all(*this, Writing{out}); }
-    void load(const Moment& m, Bytes& in) override {
+    void load(const ObservedState& m, Bytes& in) override {
         name_all(*this, Reading{in});
         if (at_start_.size() != m.scene.species.size() || before_.step > last_.step || last_.step > m.step ||
             before_.step < 0 || !(quantum_ > 0 && std::isfinite(quantum_)) || !are_sound(at_start_) ||
@@ -123,20 +123,20 @@ class Outflow final : public Observer {
         for (auto* noted : {&self.before_, &self.last_}) each(noted->step), each(noted->gone);
     }
 
-    MassCounts inside(const Moment& m) const {
+    MassCounts inside(const ObservedState& m) const {
         MassCounts sums(m.scene.species.size(), 0);
         for (std::size_t i = 0; i < m.grains.size(); ++i)
             if (!is_in_tray(m, i))
                 sums[static_cast<std::size_t>(m.grains.species[i])] += mass_count(m.grains.mass(i), quantum_);
         return sums;
     }
-    MassCounts gone(const Moment& m) {
+    MassCounts gone(const ObservedState& m) {
         const MassCounts now = inside(m), &came = fed_.of(m.fed, quantum_);
         MassCounts left = at_start_;
         for (std::size_t s = 0; s < left.size(); ++s) left[s] += came[s] - now[s];
         return left;
     }
-    static bool is_in_tray(const Moment& m, std::size_t i) {
+    static bool is_in_tray(const ObservedState& m, std::size_t i) {
         return m.scene.container.tray && m.grains.place[i].position.z() < m.floor_height();
     }
 

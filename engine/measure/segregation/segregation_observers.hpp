@@ -20,7 +20,7 @@ class HeightDifference final : public Observer {
                  "over the height above the floor below which 95 % of all centres lie; of species all equal "
                  "in size, the first minus the second"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         const std::vector<double> mean = mean_heights(m.grains, m.scene.species.size(), m.floor_height());
@@ -43,7 +43,7 @@ class BigAboveSmall final : public Observer {
                  "probability that a grain of the largest species lies above one of the smallest: 0 all "
                  "below, 1/2 mixed, 1 all above"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         std::vector<double> big = heights_above(m.grains, m.floor_height(), kinds.big);
@@ -67,7 +67,7 @@ class BigInQuarters final : public Observer {
              "share of the largest species' grains whose centres lie above 3/4 of the bed's height"},
             {{{"big_in_bottom_quarter", "big grains in bottom quarter"}}, "1", "the same below 1/4 of it"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 2);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         const std::vector<double> big = heights_above(m.grains, m.floor_height(), kinds.big);
@@ -96,7 +96,7 @@ class BigAtWalls final : public Observer {
     }
     BigAtWalls(const Scene& scene, const Plan&) : walls_(scene) {}
 
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds() || !walls_.any()) return add_no_values(row, 1);
         const auto big = static_cast<std::int32_t>(big_and_small(m.scene.species).big);
         double beside = 0, all = 0;
@@ -128,7 +128,7 @@ class Mixing final : public Observer {
              "intensity of segregation by Danckwerts, from the samples of `lacey`: 1 segregated, about "
              "1/32 randomly mixed"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 2);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         const Grains& grains = m.grains;
@@ -160,7 +160,7 @@ class Unlike final : public Observer {
                  "pairs of neighbours of different species over what chance would give: 0 segregated, 1 "
                  "randomly mixed"}};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
         const double gap = kNeighbourGap * m.scene.species[kinds.small].diameter.mean;

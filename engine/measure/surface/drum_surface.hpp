@@ -70,7 +70,7 @@ class Drum final : public Observer {
     }
     Drum(const Scene& scene, const Plan&) : drum_(turning_body(scene)), diameter_(mean_diameter(scene)) {}
 
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!drum_) return add_no_values(row, 3);
         const BodyTurn& turn = drum_->turn;
         const auto axes = drum_axes(turn, m.gravity);

@@ -44,14 +44,14 @@ class BedSurface final : public Observer {
     BedSurface(const Scene& scene, const Plan& plan) : rows_(plan), frame_(surface_frame(scene)) {}
 
     std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
-    void start(const Moment& m) override { gather(m); }
+    void start(const ObservedState& m) override { gather(m); }
     // The surfaces of all rows of the last periods.
-    void gather(const Moment& m) override {
+    void gather(const ObservedState& m) override {
         if (m.clock.steps_per_period == 0 || !has_surface(m)) return;
         earlier_.push_back({m.step, surface_at(m).height});
         while (periods_since(m, earlier_.front()) >= kComparedPeriods - kHair) earlier_.pop_front();
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         if (!has_surface(m)) return add_no_values(row, 8);
         const BedOutline surface = surface_at(m);
         if (!spectrum_) spectrum_.emplace(surface.height.size());
@@ -68,7 +68,7 @@ class BedSurface final : public Observer {
             write_vector(out, earlier.height);
         }
     }
-    void load(const Moment& m, Bytes& in) override {
+    void load(const ObservedState& m, Bytes& in) override {
         std::uint64_t count = 0;
         read_value(in, count);
         std::int64_t last = -1;
@@ -93,18 +93,20 @@ class BedSurface final : public Observer {
 
     static constexpr double kHair = 1e-3;  // of a period: rows are whole steps
 
-    static double periods_since(const Moment& m, const Earlier& earlier) {
+    static double periods_since(const ObservedState& m, const Earlier& earlier) {
         return m.clock.cycles(m.step) - m.clock.cycles(earlier.step);
     }
-    bool has_surface(const Moment& m) const { return frame_.right > frame_.left && m.grains.size() > 0; }
-    BedOutline surface_at(const Moment& m) const {
+    bool has_surface(const ObservedState& m) const {
+        return frame_.right > frame_.left && m.grains.size() > 0;
+    }
+    BedOutline surface_at(const ObservedState& m) const {
         SurfaceFrame frame = frame_;
         frame.left += m.pose.offset.y(), frame.right += m.pose.offset.y();
         frame.back += m.pose.offset.x(), frame.front += m.pose.offset.x();
         return surface_of(m.grains.place, frame);
     }
     // NaN until as many periods have been seen at this phase, and where rows do not come whole periods apart.
-    Subharmonics compare_with_earlier(const Moment& m, const std::vector<double>& height) const {
+    Subharmonics compare_with_earlier(const ObservedState& m, const std::vector<double>& height) const {
         if (m.clock.steps_per_period == 0) return {kNoValue, kNoValue};
         std::vector<const std::vector<double>*> same_phase;
         for (const Earlier& earlier : earlier_) {

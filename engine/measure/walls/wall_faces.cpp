@@ -149,7 +149,7 @@ std::int64_t WallWork::gathers_after(std::int64_t step) const {
     return every_ > 0 ? (step + every_) / every_ * every_ : Observer::kNever;
 }
 
-void WallWork::start(const Moment& m) {
+void WallWork::start(const ObservedState& m) {
     if (!any_) return;
     work_.assign(walls_.size(), 0);
     step_ = m.step;
@@ -158,14 +158,14 @@ void WallWork::start(const Moment& m) {
     turned_ = angles_at(bodies_, m.pose.time);
 }
 
-void WallWork::gather(const Moment& m) {
+void WallWork::gather(const ObservedState& m) {
     if (!any_ || m.step <= step_) return;
     std::vector<double> work = until(m);
     start(m);
     work_ = std::move(work);
 }
 
-std::vector<double> WallWork::until(const Moment& m) const {
+std::vector<double> WallWork::until(const ObservedState& m) const {
     std::vector<double> work = work_;
     if (!any_ || m.step <= step_) return work;
     const std::vector<double> turned = angles_at(bodies_, m.pose.time);
@@ -189,7 +189,7 @@ void WallWork::save(std::ostream& out) const {
     each(step_), each(sums_), each(work_);
 }
 
-void WallWork::load(const Moment& m, Bytes& in) {
+void WallWork::load(const ObservedState& m, Bytes& in) {
     if (!any_) return;
     const Reading each{in};
     each(step_), each(sums_), each(work_);

@@ -60,14 +60,14 @@ class WallWork {
     bool any() const { return any_; }  // walls that move by themselves
     // The first step after `step` at which gather() is wanted; Observer::kNever.
     std::int64_t gathers_after(std::int64_t step) const;
-    void start(const Moment& m);
-    void gather(const Moment& m);
+    void start(const ObservedState& m);
+    void gather(const ObservedState& m);
     // J, given to the grains by each wall since start(), until this moment. Empty where none moves by itself.
-    std::vector<double> until(const Moment& m) const;
+    std::vector<double> until(const ObservedState& m) const;
 
     // Nothing is written where no wall moves by itself.
     void save(std::ostream& out) const;
-    void load(const Moment& m, Bytes& in);
+    void load(const ObservedState& m, Bytes& in);
 
   private:
     std::vector<WallBody> walls_;

@@ -70,14 +70,14 @@ class WallForces final : public Observer {
     }
 
     // Where a run goes on without what was gathered before, a record has no pressures from its middle on.
-    void start(const Moment& m) override {
+    void start(const ObservedState& m) override {
         work_.start(m);
         last_ = before_ = {m.step, m.wall_sums->faces, work_.until(m)};
         record_ = {m.step, {}};
         if (m.step == 0 || records_.ends_record(m.step)) record_.slices = m.wall_sums->slices;
         record_before_ = {m.step, {}};
     }
-    void gather(const Moment& m) override {
+    void gather(const ObservedState& m) override {
         work_.gather(m);
         if (rows_.after(m.step - 1) == m.step) {
             before_ = std::move(last_);
@@ -87,7 +87,7 @@ class WallForces final : public Observer {
         record_before_ = std::move(record_);
         record_ = {m.step, m.wall_sums->slices};
     }
-    void look(const Moment& m, std::vector<double>& row) override {
+    void look(const ObservedState& m, std::vector<double>& row) override {
         const Noted& from = last_.step < m.step ? last_ : before_;
         const auto steps = static_cast<double>(m.step - from.step);
         const double weight = mass_of(m.grains) * m.gravity.squaredNorm();
@@ -106,7 +106,7 @@ class WallForces final : public Observer {
             if (!wall.fixed) row.push_back((work[f] - from.work.at(f)) / (steps * m.clock.step));
         }
     }
-    FieldValues look_at_fields(const Moment& m) override {
+    FieldValues look_at_fields(const ObservedState& m) override {
         const Record& from = record_.step < m.step ? record_ : record_before_;
         std::vector<double> normal(m.wall_sums->slices.size(), kNoValue);
         const double per_step = m.wall_sums->scale.force / static_cast<double>(m.step - from.step);
@@ -119,7 +119,7 @@ class WallForces final : public Observer {
         name_all(*this, Writing{out});
         work_.save(out);
     }
-    void load(const Moment& m, Bytes& in) override {
+    void load(const ObservedState& m, Bytes& in) override {
         name_all(*this, Reading{in});
         work_.load(m, in);
         const std::size_t walls = m.wall_sums->faces.size(), works = work_.any() ? walls : 0;

@@ -16,7 +16,7 @@ WearTally::WearTally(const Scene& scene)
     }
 }
 
-void WearTally::contact(const Moment& m, const ContactView& c) {
+void WearTally::contact(const ObservedState& m, const ContactView& c) {
     const std::int64_t mesh =
         -1 - static_cast<std::int64_t>(c.second) - static_cast<std::int64_t>(m.faces.size());
     if (c.second >= 0 || c.triangle < 0 || mesh < 0) return;

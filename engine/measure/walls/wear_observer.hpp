@@ -40,7 +40,7 @@ class WearTally {
     explicit WearTally(const Scene& scene);
 
     void begin() { seen_.clear(); }
-    void contact(const Moment& m, const ContactView& c);
+    void contact(const ObservedState& m, const ContactView& c);
     // Adds what was seen since begin(), for so long (s). The same bits in whatever order it was seen.
     void add(double time);
 
@@ -89,30 +89,30 @@ class Wear final : public Observer {
     }
 
     bool needs_contacts() const override { return true; }
-    void begin(const Moment&) override { tally_.begin(); }
-    void contact(const Moment& m, const ContactView& c) override { tally_.contact(m, c); }
+    void begin(const ObservedState&) override { tally_.begin(); }
+    void contact(const ObservedState& m, const ContactView& c) override { tally_.contact(m, c); }
     const FieldSet* fields() const override { return areas_.empty() ? nullptr : &set_; }
     std::int64_t gathers_after(std::int64_t step) const override {
         return std::min((step + kLookSteps) / kLookSteps * kLookSteps, records_.next_end(step + 1));
     }
-    void start(const Moment& m) override {
+    void start(const ObservedState& m) override {
         step_ = m.step;
         record_ = {m.step, presses()};
         record_before_ = {m.step, {}};
     }
-    void gather(const Moment& m) override {
+    void gather(const ObservedState& m) override {
         tally_.add(m.clock.step * static_cast<double>(m.step - step_));
         step_ = m.step;
         if (!records_.ends_record(m.step)) return;
         record_before_ = std::move(record_);
         record_ = {m.step, presses()};
     }
-    void look(const Moment&, std::vector<double>& row) override {
+    void look(const ObservedState&, std::vector<double>& row) override {
         for (const WearSums& mesh : tally_.sums())
             row.insert(row.end(), {std::accumulate(mesh.impact.begin(), mesh.impact.end(), 0.0),
                                    std::accumulate(mesh.shear.begin(), mesh.shear.end(), 0.0)});
     }
-    FieldValues look_at_fields(const Moment& m) override {
+    FieldValues look_at_fields(const ObservedState& m) override {
         const Record& from = record_.step < m.step ? record_ : record_before_;
         const double time = m.clock.step * static_cast<double>(m.step - from.step);
         FieldValues values;
@@ -131,7 +131,7 @@ class Wear final : public Observer {
     }
 
     void save(std::ostream& out) const override { name_all(*this, Writing{out}); }
-    void load(const Moment& m, Bytes& in) override {
+    void load(const ObservedState& m, Bytes& in) override {
         record_.press.resize(areas_.size());
         record_before_.press.resize(areas_.size());
         name_all(*this, Reading{in});

@@ -135,7 +135,7 @@ Frame Simulation::frame() const {
     return f;
 }
 
-Moment Simulation::Impl::moment() {
+ObservedState Simulation::Impl::moment() {
     if (observers.need_wall_sums()) wall_sums = loop->wall_sums();
     return {scene,
             plan.clock,

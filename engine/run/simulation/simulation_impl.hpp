@@ -109,7 +109,7 @@ struct Simulation::Impl {
     void begin_drive();
     void open_when_due();
     void look_at_health();
-    Moment moment();
+    ObservedState moment();
     void take_gathered(const std::string& bytes);
     void take_wall_sums(Bytes& in);
     void save_wall_sums(std::ostream& out) const;

@@ -32,9 +32,9 @@ struct Counting final : Observer {
     }
     Counting() { ++calls.made; }
     bool needs_contacts() const override { return of_contacts; }
-    void begin(const Moment&) override { ++calls.begun; }
-    void contact(const Moment&, const ContactView&) override { ++calls.contacts; }
-    void look(const Moment&, std::vector<double>& row) override {
+    void begin(const ObservedState&) override { ++calls.begun; }
+    void contact(const ObservedState&, const ContactView&) override { ++calls.contacts; }
+    void look(const ObservedState&, std::vector<double>& row) override {
         ++calls.looks;
         row.push_back(number);
     }
@@ -74,7 +74,7 @@ struct Bed {
         grains.wall_work[0] = 7;
         traffic.work_out = 3, traffic.energy_in = 20, traffic.energy_out = 5;
     }
-    Moment moment(std::int64_t step = 2500) const {
+    ObservedState moment(std::int64_t step = 2500) const {
         return {scene, clock, grains, step, {0, 0, -10}, 0, {{0, 0, 0.5}, {0, 0, 0}, 0}, 100, traffic};
     }
 };
@@ -111,11 +111,13 @@ struct Gathering final : Observer {
         return {{{{"sum_m", "sum", Dimension::length}, {"moments", "moments"}}, "m, 1", "of a test"}};
     }
     std::int64_t gathers_after(std::int64_t step) const override { return (step / 3 + 1) * 3; }
-    void start(const Moment& m) override { sum = 1000 + static_cast<double>(m.step), moments = 0; }
-    void gather(const Moment& m) override { sum += m.floor_height(), moments += 1; }
-    void look(const Moment&, std::vector<double>& row) override { row.insert(row.end(), {sum, moments}); }
+    void start(const ObservedState& m) override { sum = 1000 + static_cast<double>(m.step), moments = 0; }
+    void gather(const ObservedState& m) override { sum += m.floor_height(), moments += 1; }
+    void look(const ObservedState&, std::vector<double>& row) override {
+        row.insert(row.end(), {sum, moments});
+    }
     void save(std::ostream& out) const override { write_value(out, sum), write_value(out, moments); }
-    void load(const Moment&, Bytes& in) override {
+    void load(const ObservedState&, Bytes& in) override {
         read_value(in, sum), read_value(in, moments);
         if (!(moments >= 0)) in.fail();
     }

@@ -26,7 +26,7 @@ struct MovedBox {
         grains.add(1, 0, {1.9, 0.5, 1.4}, 0.5, 3);
         grains.motion[0].velocity = {1, 2, 3};
     }
-    Moment moment() const { return {scene, plan.clock, grains, 0, {0, 0, -10}, 4, pose, 0, traffic}; }
+    ObservedState moment() const { return {scene, plan.clock, grains, 0, {0, 0, -10}, 4, pose, 0, traffic}; }
 };
 
 TEST(FieldState, PlacesAndVelocitiesAreAgainstTheContainer) {
@@ -107,7 +107,7 @@ TEST(FieldRecords, HaveTheContactsWithWalls) {
     box.plan.fields = two_phases();
     observers::CoarseGrainedFields observer(box.scene, box.plan);
     for (const std::int64_t step : {0, 20, 40, 60, 80}) {
-        Moment moment = box.moment();
+        ObservedState moment = box.moment();
         moment.step = step;
         observer.begin(moment);
         observer.contact(moment, touch(1, {0, 0, 1}, 0.1));

@@ -49,7 +49,7 @@ struct BedByHand {
             for (int i = 0; i < 4; ++i)
                 for (double z = top(j - 19.5) - 0.5; z > 0; z -= 1) add(0, {i - 1.5, j - 19.5, z}, 0.5);
     }
-    Moment moment(std::int64_t step) const {
+    ObservedState moment(std::int64_t step) const {
         return {scene,
                 plan.clock,
                 grains,
