@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* made_names[] = {"measures.csv", "outflow.csv", "final.csv", "trajectory.nc"};
 
-// A folder that is gone afterwards.
+// A folder that is removed at the end.
 struct PassingFolder {
     explicit PassingFolder(const fs::path& folder) : path(folder / ".returning") {
         std::error_code failed;
@@ -89,7 +89,7 @@ namespace {
 
 TrajectoryInfo info_of(const Scene& scene, const Plan& plan, const std::string& version) {
     TrajectoryInfo info = trajectory_info(scene, plan, version);
-    info.contact_numbers = false;  // a dump has none
+    info.contact_numbers = false;  // a dump does not have them
     info.orientation = false;
     return info;
 }
@@ -113,7 +113,7 @@ struct ReturnedRun::Impl {
         if (scene.container.outlet && !scene.container.tray) outflow.emplace(folder / "outflow.csv");
     }
 
-    // Ours count from 0; glued grains come behind those of the start there, and are not dumped.
+    // Our ids count from 0. In the engine glued grains follow those of the start, and they are not dumped.
     std::int32_t id_of(std::int64_t there) const {
         const std::int64_t id = there <= facts.grains ? there - 1 : there - 1 - facts.glued;
         if (id < 0 || id > std::numeric_limits<std::int32_t>::max())
@@ -190,7 +190,7 @@ bool ReturnedRun::take_next() {
     Impl& m = *impl_;
     const std::optional<DumpRows> rows = m.dump.next();
     if (!rows) return false;
-    // A run that went on from the engine's restart file writes its first moment again.
+    // A run that continued from the engine's restart file writes its first moment once more.
     if (m.last && rows->step - m.facts.shift <= m.last->step) return true;
     Frame frame = m.frame_of(*rows);
     const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);

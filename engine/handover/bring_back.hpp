@@ -1,5 +1,5 @@
-// The folder of a hand-over whose engine has run, or still runs, becomes the folder of a run: what the dump
-// says so far, with the container's motion where the run was in its frame.
+// Turns the folder of a hand-over, whose engine has run or still runs, into the folder of a run of ours. The
+// dump is read as far as it is written, and the container's motion is added where the run was in its frame.
 #pragma once
 
 #include <cstdint>
@@ -20,38 +20,36 @@ namespace grainreel {
 
 struct BroughtBack {
     std::int64_t frames = 0;
-    double until = 0;               // s, of the last frame
-    bool whole = false;             // the run has come to its end
+    double until = 0;               // s, time of the last frame
+    bool whole = false;             // whether the run has come to its end
     std::vector<std::string> news;  // a line each
 };
 
-// Writes trajectory.nc, measures.csv and final.csv beside the dump, unless they are there and newer than it.
-// watcher: told the share that is done; false stops, and nothing is changed. Throws UserError where there is
-// no dump, or that of another run, and RunError for grains that were lost.
+// Writes trajectory.nc, measures.csv and final.csv beside the dump, unless they exist and are newer. watcher:
+// called with the share that is done; if it returns false, nothing is changed. Throws UserError where there
+// is no dump or it is of another run, and RunError for grains that were lost.
 BroughtBack bring_back(const std::filesystem::path& folder, const std::string& version,
                        const std::function<bool(double)>& watcher);
 
-// Makes the files of a run of ours from the dump of an engine that a scene was handed over to: trajectory.nc,
-// measures.csv, outflow.csv, final.csv. As the dump grows, or at once.
-
+// Makes the files of a run of ours (trajectory.nc, measures.csv, outflow.csv, final.csv) from the dump of
+// another engine, while it grows or at once.
 class ReturnedRun {
   public:
-    // folder: of the run, with its scene.toml. scene, plan: those that the engine had; they must outlive
-    // this. version: of our program. Throws RunError where files cannot be written.
+    // folder: of the run, with its scene.toml. scene, plan: those that were handed over; they must outlive
+    // this object. version: of our program. Throws RunError where files cannot be written.
     ReturnedRun(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                 const HandoverFacts& facts, const std::string& version);
     ~ReturnedRun();
 
-    // Writes what the next whole frame of the dump says; false where there is none so far. Throws UserError
-    // for a dump that is not the deck's, RunError for grains that were lost.
+    // Writes the next whole frame of the dump; false where there is none so far. Throws UserError for a dump
+    // that does not fit the deck, and RunError for grains that were lost.
     bool take_next();
-    // final.csv, of the last frame.
+    // Writes final.csv of the last frame, and what run.json says about the files.
     void close(RunJson& record);
 
     std::int64_t frames() const;
-    const Frame* last() const;  // null before the first
-    // The scene's walls and grains of an engine's rows, in the lab.
-    static constexpr const char* kFolder = "handover";  // of deck and dump, in the run's folder
+    const Frame* last() const;                          // null before the first
+    static constexpr const char* kFolder = "handover";  // folder of deck and dump in the run's folder
 
   private:
     struct Impl;

@@ -39,7 +39,7 @@ CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& req
     carried.scene = with_choices(scene, plan);
     carry_laws(request, plan, carried);
     if (!carried.refusals.empty()) {
-        // The rest is looked at all the same, so that everything is said at once.
+        // The rest is checked nevertheless, so that all refusals come at once.
         carried.plan = plan;
         carry_walls(carried);
         carry_run(request, carried);
@@ -74,8 +74,6 @@ std::vector<DumpStretch> dump_stretches(const std::vector<std::int64_t>& steps) 
     return all;
 }
 
-// What comes and goes, how the grains begin, what is kept, and how ranks share the room.
-
 namespace {
 
 constexpr std::int64_t most_dumps = 10'000'000;
@@ -100,7 +98,8 @@ void choose_dumps(const CarryRequest& request, CarriedScene& carried) {
     std::erase_if(dumps, [&](std::int64_t step) { return step < 0 || step > carried.plan.steps; });
 }
 
-// s: the fall through a lattice as high as the grains need, at the drag's end speed, and the time to rest.
+// The time of packing in s: the fall through the lattice at the drag's terminal speed, and the time to come
+// to rest.
 void choose_packing(const CarryRequest& request, CarriedScene& carried) {
     const Scene& scene = carried.scene;
     carried.packs = scene.start.packs() && scene.grains_at_start() > request.packs_above;
@@ -108,7 +107,7 @@ void choose_packing(const CarryRequest& request, CarriedScene& carried) {
     const double gravity = scene.gravity.norm();
     double largest = 0;
     for (const Species& one : scene.species) largest = std::max(largest, one.diameter.largest);
-    // The drag of settling, which also ends the bouncing.
+    // The same drag as in settling. It also stops grains from bouncing.
     carried.packing_drag = scene.start.settle_damping;
     const double end_speed = carried.packing_drag > 0 ? gravity / carried.packing_drag : 1e9;
     const double fall = carried.plan.bed_height;
@@ -140,7 +139,7 @@ void choose_grid(CarriedScene& carried) {
     double smallest = INFINITY;
     for (const Species& one : scene.species) smallest = std::min(smallest, one.diameter.smallest);
     carried.skin = 0.2 * smallest;
-    // Cut along z, one rank has nearly all grains.
+    // If the box were cut along z, one rank would have nearly all grains.
     carried.grid = {0, 0, scene.gravity.z() != 0 ? 1 : 0};
     carried.balances = carried.ranks > 2 &&
                        (scene.container.shape != Container::Shape::box || scene.container.outlet.has_value());
@@ -178,7 +177,7 @@ void check_traffic(CarriedScene& carried) {
     }
 }
 
-// Files of ours that a dump has not.
+// Lists our files that cannot be made from a dump.
 void say_output(CarriedScene& carried) {
     const Scene& scene = carried.scene;
     if (scene.keeps_orientations())
@@ -212,16 +211,14 @@ void carry_run(const CarryRequest& request, CarriedScene& carried) {
     say_output(carried);
 }
 
-// Walls, the frame that the run is in, and the drive.
-
 namespace {
 
 bool is_driven(const Scene& scene) {
     return scene.drive.present && scene.drive.largest_amplitude() > 0;
 }
 
-// What keeps the run out of the container's frame: something that does not move with the container. Empty:
-// nothing does.
+// The thing that does not move with the container, so that the run cannot be in its frame. Empty where there
+// is none.
 std::string stays_behind(const Scene& scene) {
     if (scene.drive.moves == Drive::Moves::floor) return "the floor alone moves";
     if (scene.container.turn) return "the container turns";

@@ -1,4 +1,6 @@
-// From a scene and its plan to what another engine is told.
+// carry() makes a CarriedScene from a scene and its plan: which laws, contacts, walls, drive and times the
+// other engine gets, and what is changed or refused. carry.cpp has the run and the walls, carry_contacts.cpp
+// the laws and contacts.
 #pragma once
 
 #include <cstdint>
@@ -13,47 +15,44 @@ namespace grainreel {
 struct CarryRequest {
     PeerEngine engine = PeerEngine::lammps;
     int ranks = 1;
-    bool accept_law = false;  // a law that the engine has not may become the nearest that it has
-    bool edinburgh = false;   // LIGGGHTS on one rank: Walton-Braun as it is
-    // Above so many grains the deck packs by itself.
+    bool accept_law = false;  // a law that the engine does not have may become the nearest one that it has
+    bool edinburgh = false;   // for LIGGGHTS on one rank: Walton-Braun stays as it is
+    // With more grains than this the deck packs them itself.
     std::int64_t packs_above = 1'000'000;
-    // Steps of the pictures, in our count; those of the trajectory where there are none.
+    // Steps of the pictures, as we count; if there are none, those of the trajectory.
     std::vector<std::int64_t> dumps{};
 };
 
-// Never throws for what cannot be carried: all of it stands in `refusals`, and then only changes, engine and
-// scene are of use. Throws UserError where the scene with its new law makes no plan.
+// What cannot be carried is listed in `refusals`; then only changes, engine and scene can be used. Throws
+// UserError only where the scene with its new law has no plan.
 CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& request);
 
-// "file:line:column: what is wrong".
+// The text of a refusal: "file:line:column: what is wrong".
 std::string refusal_text(const CarryNote& note);
-// Throws UserError with all refusals, one a line; none: returns.
+// Throws UserError with all refusals, a line for each. Returns if there are none.
 void throw_refusals(const CarriedScene& carried);
 
-// Parts of carry(), for the files that make it up.
+// The parts of carry(). Only its two sources call them.
 
 void add_change(CarriedScene& carried, const std::string& where, const std::string& what,
                 const std::string& why);
 void add_refusal(CarriedScene& carried, const std::string& where, const std::string& what);
 
-// The laws of carried.scene become those that the engine has; says what that changes, or that it is not
-// asked for. `plan` is that of the scene before.
+// Replaces the laws of carried.scene by those that the engine has, and lists what that changes, or refuses it
+// if it was not asked for. plan: of the scene before.
 void carry_laws(const CarryRequest& request, const Plan& plan, CarriedScene& carried);
-// The numbers of all contacts, from carried.plan.
+// Takes the numbers of all contacts from carried.plan.
 void carry_contacts(const CarryRequest& request, CarriedScene& carried);
-// Walls, frame and drive.
+// Sets walls, frame and drive.
 void carry_walls(CarriedScene& carried);
-// What comes and goes, how the grains begin, and what is kept of the run.
+// Sets which grains come and go, how grains begin, and what is written.
 void carry_run(const CarryRequest& request, CarriedScene& carried);
 
-// How LAMMPS' own formulas must be told a dashpot of ours. engine/plan/damping.hpp solves for the
-// restitution.
-
-// LAMMPS' `damping tsuji` takes a restitution e and makes the damping
+// The restitution e that LAMMPS must be told for our Hertz dashpot. Its `damping tsuji` computes
 //   alpha = 1.2728 - 4.2783 e + 11.087 e^2 - 22.348 e^3 + 27.467 e^4 - 18.022 e^5 + 4.8218 e^6
-// of it (manual, pair_style granular), for N_d = alpha sqrt(m_eff k a) v. That is our Hertz dashpot with d =
-// alpha. The e that gives this alpha; none where it would lie outside [-0.5, 1].
+// (manual, pair_style granular) and N_d = alpha sqrt(m_eff k a) v, which is our dashpot with d = alpha. This
+// is the e that gives alpha; none where it would lie outside [-0.5, 1].
 std::optional<double> tsuji_restitution(double alpha);
-double tsuji_damping(double restitution);  // that polynomial
+double tsuji_damping(double restitution);  // the polynomial
 
 }  // namespace grainreel

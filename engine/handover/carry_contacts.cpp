@@ -1,4 +1,5 @@
-// The numbers of each kind of contact, as the plan has them.
+// Which contact laws the other engine gets, and the numbers of each kind of contact. Formulas of the engines
+// are in their manuals; our own numbers come from the plan.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -25,7 +26,7 @@ CarriedLaw law_of(const CarryRequest& request, const PairPlan& plan) {
     }
 }
 
-// `all` are the sizes that may meet.
+// all: the sizes that may meet.
 CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touching>& all) {
     const Touching& mean = all[all.size() / 2];
     CarriedPair pair;
@@ -45,7 +46,7 @@ CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touc
         pair.stiffness = 4.0 / 3.0 * plan.modulus;
         pair.tangential = 2 * plan.tangential_ratio * plan.modulus;  // 8 G*: ratio = 4 G* / E*
         pair.damping = plan.hertz_damping;
-        pair.tangential_damping = std::sqrt(plan.tangential_ratio);  // over the normal one
+        pair.tangential_damping = std::sqrt(plan.tangential_ratio);  // divided by the normal one
     } else if (law == CarriedLaw::spring_dashpot) {
         pair.damping = plan.damping_rate(mean.effective_mass);
         pair.tangential_damping = plan.tangential_damping_rate(mean.effective_mass);
@@ -72,7 +73,7 @@ void add_types(CarriedScene& carried) {
         add(carried.scene.species[carried.scene.container.wall_grains->species], "glued", true);
 }
 
-// One damping for all sizes of two species: what that makes of the restitution.
+// The engine has one damping for all sizes of two species. This finds the range of restitution that results.
 void say_spread(CarriedScene& carried) {
     double lowest = 1, highest = 0, wanted = 0;
     std::string who;
@@ -123,7 +124,7 @@ void carry_contacts(const CarryRequest& request, CarriedScene& carried) {
         glued.density = std::numeric_limits<double>::infinity();
         carried.pairs[a * types + count] = carried.pairs[count * types + a] = table(plan.glued[a], a, &glued);
     }
-    // Two glued grains and a glued grain and a wall never touch. They take numbers that are there.
+    // Two glued grains, or a glued grain and a wall, never touch. They get the numbers of other contacts.
     const auto never = [](CarriedPair pair) {
         pair.touches = false;
         return pair;
@@ -142,18 +143,16 @@ void carry_contacts(const CarryRequest& request, CarriedScene& carried) {
     say_spread(carried);
 }
 
-// Which law each contact has there.
-
 namespace {
 
-// What happens to the contacts of a scene, each told once.
+// What happens to the contacts of a scene. Each change is reported once.
 struct LawChanges {
     bool latch = false;           // Walton-Braun becomes a spring with a dashpot
     bool slip = false;            // incremental slip becomes a linear spring
     bool fixed_speed = false;     // a restitution by speed becomes one number
-    bool shares_modulus = false;  // Hertz, where moduli belong to materials
-    bool mixed = false;           // Hertz and a linear tangential spring, or the other way round
-    bool table = false;           // a table of restitutions, which no engine has
+    bool shares_modulus = false;  // Hertz in an engine where moduli belong to materials
+    bool mixed = false;           // Hertz with a linear tangential spring, or the opposite
+    bool table = false;           // a table of restitutions, which neither engine has
     bool luding = false, edinburgh = false;
 };
 
@@ -285,7 +284,7 @@ double tsuji_damping(double e) {
     return 1.2728 + e * (-4.2783 + e * (11.087 + e * (-22.348 + e * (27.467 + e * (-18.022 + e * 4.8218)))));
 }
 
-// The polynomial falls all the way.
+// The polynomial falls everywhere, so halving the interval finds the root.
 std::optional<double> tsuji_restitution(double alpha) {
     double low = -0.5, high = 1;
     if (alpha > tsuji_damping(low)) return std::nullopt;

@@ -46,7 +46,7 @@ std::vector<std::string> variable_lines(const CarriedScene& carried) {
     const std::size_t count = carried.drive.variables.size();
     for (std::size_t i = 0; i < count; ++i) {
         const PeerVariable& one = carried.drive.variables[i];
-        // Nothing moves while the grains are packed.
+        // Walls stand still while the grains are packed.
         const bool result = i + 3 >= count;
         add(one.name,
             shift > 0 && result ? fmt::format("(step>={})*({})", shift, one.expression) : one.expression);
@@ -71,15 +71,16 @@ std::vector<std::string> gravity_lines(const CarriedScene& carried) {
 
 namespace {
 
-// How many of its dumps the pace gives as the engine will compute it, from the first one on.
+// How many of these steps, from the first one on, the series gives when the engine computes it.
 std::int64_t right_ones(const DumpPace& pace, const std::int64_t* steps) {
     for (std::int64_t k = 0; k < pace.count; ++k)
         if (pace.at(k) != steps[k] || pace.next(steps[k]) != steps[k + 1]) return k;
     return pace.count;
 }
 
-// The longest pace from the first of `count` steps: all that leave some distance possible,
-// (d_k - 1/2) / k <= every < (d_k + 1/2) / k for d_k steps from the first to the k-th.
+// The longest series from the first of `count` steps. It goes on as long as some distance `every` is
+// possible: (d_k - 1/2) / k <= every < (d_k + 1/2) / k, where d_k is the number of steps from the first to
+// the k-th.
 DumpPace longest(const std::int64_t* steps, std::int64_t count) {
     DumpPace pace{*steps, static_cast<double>(steps[1] - steps[0]), 1};
     double low = 0, high = INFINITY;

@@ -1,4 +1,6 @@
-// Lines of decks that LAMMPS and LIGGGHTS have alike.
+// The decks (input scripts) of both engines: what they have in common, at which steps they dump, and the
+// parts that are different. decks.cpp has what is common; lammps_deck.cpp, liggghts_deck.cpp and
+// liggghts_law.cpp have the rest.
 #pragma once
 
 #include <cstddef>
@@ -10,89 +12,84 @@
 
 namespace grainreel {
 
-// Names of files in a hand-over's folder.
+// Names of files in the folder of a hand-over.
 inline constexpr const char* data_name = "grains.data";
 inline constexpr const char* end_name = "end.restart";
-std::string deck_name(PeerEngine engine);     // "in.lammps"
-std::string dump_name(PeerEngine engine);     // "lammps.dump"
-std::string restart_name(PeerEngine engine);  // "lammps.restart"; a point and the engine's step follow
-// "restart 1000 lammps.restart.*": some ten of them.
+std::string deck_name(PeerEngine engine);  // "in.lammps"
+std::string dump_name(PeerEngine engine);  // "lammps.dump"
+std::string restart_name(
+    PeerEngine engine);  // "lammps.restart", to which a point and the engine's step are added
+// "restart 1000 lammps.restart.*", so that about ten are written.
 std::string restart_line(const CarriedScene& carried);
 
-// "processors 1 * *", or none where the engine chooses.
+// "processors 1 * *"; empty where the engine chooses.
 std::string processors_line(const CarriedScene& carried);
-// v_t, the drive's variables, and those of turning faces (v_angle0, v_rate0, ...).
+// Variables: v_t, those of the drive, and those of turning faces (v_angle0, v_rate0, ...).
 std::vector<std::string> variable_lines(const CarriedScene& carried);
-// fix gravity, and fix ride in the container's frame.
+// The command fix gravity and, in the container's frame, fix ride.
 std::vector<std::string> gravity_lines(const CarriedScene& carried);
-// Numbers with all digits, with blanks between.
+// Three numbers with all their digits and blanks between them.
 std::string three(const Vec3& v);
 
-// At which steps an engine dumps. `dump ... N` knows multiples of N alone, and pictures lie at the steps
-// nearest to even times; so a variable says the next step, and few runs serve thousands of pictures.
-
-// Dumps at from + floor(k every + 1/2), k = 0 ... count.
+// A series of dumps at from + floor(k every + 1/2), k = 0 ... count. `dump ... N` only knows multiples of N,
+// but pictures are at the steps nearest to equally spaced times. So a variable of the deck computes the next
+// step, and a few series are enough for thousands of pictures.
 struct DumpPace {
     std::int64_t from = 0;
     double every = 1;  // steps, at least 1
     std::int64_t count = 0;
     std::int64_t at(std::int64_t k) const;
     std::int64_t end() const { return at(count); }
-    // The step of the first dump behind `step`, as the deck's variable computes it.
+    // The step of the first dump after `step`, as the deck's variable computes it.
     std::int64_t next(std::int64_t step) const;
-    // That formula, for engines that count `shift` more steps.
+    // The text of that formula for an engine whose steps are ours plus `shift`.
     std::string next_text(std::int64_t shift) const;
 };
 
-// As few as go through rising steps, each beginning where the one before ends; none for less than two steps.
+// As few series as possible that go through all of these rising steps, each beginning where the one before
+// ends. None for less than two steps.
 std::vector<DumpPace> dump_paces(const std::vector<std::int64_t>& steps);
 
-// The input script of LAMMPS for a scene. Written for the version of 29 Sep 2021.
-
-// Reads grains.data; writes lammps.dump, end.restart.
+// The deck of LAMMPS, for the version of 29 Sep 2021. It reads grains.data and writes lammps.dump and
+// end.restart.
 std::string lammps_deck(const CarriedScene& carried);
 
-// The input script of LIGGGHTS for a scene. Written for LIGGGHTS-PUBLIC 3.8.0.
-
-// Atom types of its data file: those of grains, and one for each surface that they touch.
+// Number of atom types in the data file of LIGGGHTS: those of grains, and one for each surface.
 std::size_t liggghts_types(const CarriedScene& carried);
 
-// Reads grains.data and walls/*.stl; writes liggghts.dump, outflow.txt where there is an outlet,
-// liggghts.restart.STEP on its way, end.restart.
+// The deck of LIGGGHTS, for LIGGGHTS-PUBLIC 3.8.0. It reads grains.data and walls/*.stl. It writes
+// liggghts.dump, liggghts.restart.STEP while it runs, end.restart, and outflow.txt where there is an outlet.
 std::string liggghts_deck(const CarriedScene& carried);
 
-// One kind of contact in the words of LAMMPS' pair_style granular and its walls.
-
+// A kind of contact in the words of LAMMPS' pair_style granular and its walls:
 // "hooke 9600 2647 tangential linear_history 2742 0 0.5 damping mass_velocity limit_damping"
 std::string lammps_law(const CarriedPair& pair);
 
-// Faces of a scene as regions of LAMMPS. Internal to its deck.
-
+// A face of the scene as a region of LAMMPS.
 struct LammpsRegion {
-    std::string name;                    // "floor", "left_slant"; a floor with a slot is two: "floor_0"
+    std::string name;                    // "floor", "left_slant"; a floor with a slot has two: "floor_0"
     std::string text;                    // the whole command
-    std::vector<std::string> variables;  // commands before it
+    std::vector<std::string> variables;  // commands that must come before it
 };
 
-// The regions of the faces as the run begins, or after the outlet has opened. Names of faces that the outlet
-// has changed end in "_open".
+// The regions of all faces when the run begins, or after the outlet has opened. Names of faces that the
+// outlet changes end in "_open".
 std::vector<LammpsRegion> lammps_regions(const CarriedScene& carried, bool opened);
 
-// Where grains leave the run: those of the scene's exits and below its outlet.
+// The regions in which grains leave the run: the scene's exits, and the room below its outlet.
 std::vector<LammpsRegion> lammps_exits(const CarriedScene& carried);
 
 // The contact laws of a scene as LIGGGHTS wants them: a model, its flags, and matrices by pairs of types.
-
 struct LiggghtsLaw {
     std::string model;                    // "model hooke/stiffness tangential history"
     std::string flags;                    // "absolute_damping off limitForce on tangential_damping off"
-    std::vector<std::string> properties;  // lines
+    std::vector<std::string> properties;  // a line for each property
 };
 
-// All pairs have one law. With the softest number that makes sense where a pair never touches.
+// All pairs have the same law. Pairs that never touch get the softest number that makes sense.
 LiggghtsLaw liggghts_law(const CarriedScene& carried);
 
-// How many times stiffer than loading the unloading of `luding` can become.
+// In `luding`, unloading can become at most so many times as stiff as loading.
 inline constexpr double kLudingRatio = 50;
 // The plasticity depth that gives K2 = K1 + S F_max: (r - 1)^2 / (2 r S R_eff).
 double luding_depth(const CarriedPair& pair);

@@ -19,7 +19,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Adds variables, and the parts of the last three: a part counts while its stretch of time is on.
+// Adds variables, and parts of the last three. A part only counts in its own stretch of time.
 class FormulaWriter {
   public:
     explicit FormulaWriter(const Drive& drive) : drive_(drive) { formula_.direction = drive.direction; }
@@ -35,7 +35,7 @@ class FormulaWriter {
         formula_.variables.push_back({name, expression});
         return "v_" + name;
     }
-    // 1 from one time to the next, else 0; s.
+    // An expression that is 1 between two times (s) and 0 else.
     std::string gate(const std::string& name, double from, double until) {
         const std::string begun = from > 0 ? fmt::format("(v_t>={})", number(from)) : "1.0";
         if (std::isinf(until)) return from > 0 ? add(name, begun) : "1.0";
@@ -49,7 +49,7 @@ class FormulaWriter {
         speed_ += (speed_.empty() ? "" : "+") + add(stem + "v", on + "*(" + speed + ")");
         ride_ += (ride_.empty() ? "" : "+") + add(stem + "a", on + "*(" + ride + ")");
     }
-    // A sine of constant values: the phase (rad) is an expression.
+    // A sine with constant amplitude and frequency. phase (rad) is an expression.
     void sine(const std::string& on, double amplitude, double frequency, const std::string& phase) {
         const double w = 2 * pi * frequency;
         const std::string start = drive_.ramp > 0 ? "" : "-" + number(std::sin(2 * pi * drive_.phase));
@@ -60,7 +60,7 @@ class FormulaWriter {
     void change(const std::string& stem, const std::string& on, const PeriodStretch& times,
                 const DriveSchedule::Piece& piece);
     void tap(const std::string& stem, const std::string& on, double start, const DriveSchedule::Piece& piece);
-    // Time since a moment, not below 0.
+    // Time since a moment, and 0 before it.
     std::string since(double start) const {
         return start > 0 ? fmt::format("((v_t>{0})*(v_t-{0}))", number(start)) : "v_t";
     }
@@ -71,7 +71,7 @@ class FormulaWriter {
     std::string shift_, speed_, ride_;
 };
 
-// z = a (s sin(wt + phi)), with the ramp s(u), u = f t / ramp; minus the start without a ramp.
+// z = a s sin(wt + phi), with the ramp s(u), u = f t / ramp. Without a ramp, z at the start is subtracted.
 void FormulaWriter::one_stage(double until) {
     const double a = drive_.amplitude, f = drive_.frequency, w = 2 * pi * f;
     const std::string on = gate("on0", 0, until);
@@ -95,7 +95,8 @@ void FormulaWriter::one_stage(double until) {
                      ds, number(2 * w)));
 }
 
-// The formulas of DriveChange: frequency and acceleration go as s(u), and the amplitude follows.
+// The formulas of DriveChange: frequency and acceleration change as s(u), and the amplitude follows from
+// them.
 void FormulaWriter::change(const std::string& stem, const std::string& on, const PeriodStretch& times,
                            const DriveSchedule::Piece& piece) {
     const double w0 = 2 * pi * piece.frequency_before,
@@ -110,7 +111,7 @@ void FormulaWriter::change(const std::string& stem, const std::string& on, const
         add(name("ds"), fmt::format("30.0*{0}*{0}*(1.0-{0})*(1.0-{0})*{1}", u, number(1 / length)));
     const std::string dds = add(
         name("dds"), fmt::format("60.0*{0}*(1.0-{0})*(1.0-2.0*{0})*{1}", u, number(1 / (length * length))));
-    // Periods since its start: the integral of f.
+    // Number of periods since its start: the integral of f.
     const std::string phase =
         add(name("p"),
             fmt::format("{0}*({1}*{2}+{3}*{2}*{2}*{2}*{2}*(2.5+{2}*({2}-3.0)))+{4}", number(2 * pi),
@@ -134,7 +135,7 @@ void FormulaWriter::change(const std::string& stem, const std::string& on, const
                      da, g));
 }
 
-// z = a (1 - cos wt), once up and down, then rest until the next.
+// z = a (1 - cos wt): once up and down, and then at rest until the next tap.
 void FormulaWriter::tap(const std::string& stem, const std::string& on, double start,
                         const DriveSchedule::Piece& piece) {
     const double w = 2 * pi * piece.frequency, a = piece.acceleration / (w * w);
@@ -200,7 +201,8 @@ PeerVariable time_variable(std::int64_t shift) {
     return {"t", fmt::format("(step>{0})*(step-{0})*dt", shift)};
 }
 
-// The rate is a smooth step from `from` on less one from `until` on; the angle its integral.
+// The rate is a smooth step that begins at `from`, minus one that begins at `until`. The angle is its
+// integral.
 TurnFormula turn_formula(const BodyTurn& turn) {
     const auto share = [&](double begin) {
         const std::string past = fmt::format("(v_t>={})", peer_number(begin));

@@ -71,7 +71,7 @@ void DumpTail::wrong(std::int64_t line, const std::string& what) const {
                                 file_.string(), line, what));
 }
 
-// Whether there was more.
+// Reads more of the file. Returns whether there was more.
 bool DumpTail::read_more() {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file_, error);
@@ -91,7 +91,7 @@ bool DumpTail::read_more() {
     return got > 0;
 }
 
-// That from `at` on, which goes behind it; none while its end is not there.
+// The line that begins at `at`, which moves to the next line; none while the line's end is missing.
 std::optional<std::string> DumpTail::line(std::size_t& at, std::int64_t& number) const {
     const std::size_t end = text_.find('\n', at);
     if (end == std::string::npos) return std::nullopt;
@@ -116,7 +116,7 @@ std::optional<DumpRows> DumpTail::next() {
             if (k == 3 && (!whole_number(*head, rows) || rows < 0)) wrong(number, "is no number of atoms");
             if (k == 8 && *head != kColumns) wrong(number, "has other columns");
         }
-        // Until all rows can be there nothing is looked at again.
+        // Until all rows can be there, the text is not looked at again.
         if (whole && static_cast<std::int64_t>(text_.size() - at) >= rows * kShortestRow) {
             const auto count = static_cast<std::size_t>(rows);
             for (std::vector<Vec3>* list : {&frame.position, &frame.velocity, &frame.spin})
@@ -179,11 +179,11 @@ void trim_dump(const fs::path& dump, std::int64_t step) {
 
 namespace {
 
-constexpr double kSlack = 1.5;  // of the way in free fall, for pushes from others
+constexpr double kSlack = 1.5;  // times the way in free fall, to allow for pushes from other grains
 
 }  // namespace
 
-// It can be at an exit by then. Others push it, but not by much.
+// Whether the grain can reach an exit in that time. Other grains push it, but not far.
 bool GrainCount::may_leave(const Frame& before, std::size_t row, double seconds) const {
     const Vec3& at = before.position[row];
     const double way = before.velocity[row].norm() * seconds + scene_.gravity.norm() * seconds * seconds / 2;

@@ -1,4 +1,5 @@
-// The dump of a deck of ours while an engine writes it: each frame once it is whole.
+// The dump that another engine writes: its frames are read as soon as they are whole, its grains are counted
+// against the scene, and it is cut for a run that continues.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +15,9 @@
 
 namespace grainreel {
 
-// Rows by rising id, as the engine counts them: from 1.
+// A frame with rows by rising id. Ids are the engine's, from 1.
 struct DumpRows {
-    std::int64_t step = 0;  // of the engine
+    std::int64_t step = 0;  // the engine's step
     std::vector<std::int64_t> id;
     std::vector<int> type;  // from 1
     std::vector<double> radius;
@@ -24,14 +25,15 @@ struct DumpRows {
     std::size_t size() const { return id.size(); }
 };
 
+// Reads a dump while it grows.
 class DumpTail {
   public:
     explicit DumpTail(std::filesystem::path file) : file_(std::move(file)) {}
 
-    // The next frame that is whole; none so far, or ever. Throws UserError with the line where the file holds
-    // something else, and RunError where it got shorter.
+    // The next frame if it is whole; none if it is not whole yet, or if there are no more. Throws UserError
+    // with the line where the file holds something else, and RunError where it became shorter.
     std::optional<DumpRows> next();
-    // Bytes of the file up to the end of the last frame that next() gave.
+    // Number of bytes up to the end of the last frame that next() gave.
     std::uintmax_t taken() const { return place_ - text_.size(); }
 
   private:
@@ -40,35 +42,32 @@ class DumpTail {
     [[noreturn]] void wrong(std::int64_t line, const std::string& what) const;
 
     std::filesystem::path file_;
-    std::string text_;          // read and not yet taken
-    std::uintmax_t place_ = 0;  // of its end in the file
-    std::int64_t line_ = 1;     // of its begin
+    std::string text_;          // text that was read and not yet used
+    std::uintmax_t place_ = 0;  // place of its end in the file
+    std::int64_t line_ = 1;     // number of its first line
 };
 
-// Prepares a dump for a run that goes on from an engine's restart file.
-
-// The engine's step of the newest restart file in the folder of its deck; none without one.
+// The step of the newest restart file in the folder of a deck; none where there is no restart file.
 std::optional<std::int64_t> newest_restart(const std::filesystem::path& folder, PeerEngine engine);
 
-// Cuts off what the dump has of steps behind `step` of the engine, which will come again, and a frame that
-// was broken off. Throws UserError for a dump that is not the deck's, RunError where it cannot be cut.
+// Cuts off the frames after a step of the engine, because they will be written again, and a frame that is not
+// whole. Throws UserError for a dump that does not fit the deck, RunError where it cannot be cut.
 void trim_dump(const std::filesystem::path& dump, std::int64_t step);
 
-// Counts the grains of every dump against the scene. LIGGGHTS drops a grain that got out of its box without a
-// word, and goes on.
-
+// Counts the grains of each frame against the scene. If a grain leaves the box, LIGGGHTS drops it without a
+// message and goes on.
 class GrainCount {
   public:
     // file: of the dump, for messages.
     GrainCount(const Scene& scene, std::string file) : scene_(scene), file_(std::move(file)) {}
 
     struct Change {
-        std::vector<std::size_t> left;  // rows of the frame before: grains that have left since
+        std::vector<std::size_t> left;  // rows, in the frame before, of grains that have left
         std::int64_t came = 0;
     };
-    // What came and went between two frames that follow each other; before: null for the first. Throws
-    // RunError naming step and id where a grain is missing that could not leave, or is there that was never
-    // fed, and where one is not where it could be.
+    // Which grains came and went between two frames that follow each other. before: null for the first frame.
+    // Throws RunError with step and id where a grain is missing that could not leave, where one is there that
+    // was never fed, and where one is at an impossible place.
     Change compare(const Frame* before, const Frame& now) const;
 
   private:

@@ -35,7 +35,7 @@ std::string quoted_for_shell(const std::string& word) {
     return out + "'";
 }
 
-// The first lines that a program says.
+// The first lines that a program prints.
 std::string said_by(const fs::path& program, const std::string& option) {
     const std::string command = quoted_for_shell(program.string()) + " " + option + " </dev/null 2>/dev/null";
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
@@ -45,7 +45,7 @@ std::string said_by(const fs::path& program, const std::string& option) {
     return {text.data(), size};
 }
 
-// From behind `begin` to the first of `ends`.
+// The text between `begin` and the first of the characters in `ends`.
 std::string between(const std::string& text, const std::string& begin, const char* ends) {
     const std::size_t at = text.find(begin);
     if (at == std::string::npos) return "";
@@ -92,7 +92,7 @@ EngineProgram find_engine(PeerEngine engine) {
             fmt::format("--engine {}: there is no program `{}` in PATH; Debian has it in the package {} "
                         "(sudo apt-get install {})",
                         key_of(engine), what.program, what.package, what.package));
-    // LIGGGHTS opens its log for -h, too, in whatever folder the user is in.
+    // Even with -h, LIGGGHTS opens its log in the working folder, so it is started in another one.
     found.version = version_in(engine, said_by(found.path, "-log none -h"));
     if (found.version.empty())
         throw UserError(fmt::format("--engine {}: {} does not say which version it is; try `{} -h`",
@@ -117,14 +117,14 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
     RankWords all;
     all.words = {mpirun.string(), "-n", std::to_string(ranks)};
     if (said_by(mpirun, "--version").find("Open MPI") != std::string::npos) {
-        // Open MPI counts cores, not hardware threads, and would bind two runs to the same ones.
+        // Open MPI counts cores and not hardware threads, and would bind two runs to the same cores.
         all.words.insert(all.words.end(), {"--oversubscribe", "--bind-to", "none"});
         if (::geteuid() == 0) {
             all.words.emplace_back("--allow-run-as-root");
             all.notes.emplace_back("this is root, whom Open MPI refuses: mpirun gets --allow-run-as-root");
         }
     }
-    // LIGGGHTS loses the text of an error that is still in its buffer.
+    // LIGGGHTS loses an error message that is still in its buffer.
     const fs::path stdbuf = program_named("stdbuf");
     if (!stdbuf.empty()) all.words.insert(all.words.end(), {stdbuf.string(), "-oL"});
     all.words.insert(all.words.end(), {program.path.string(), "-echo", "both", "-in", deck});
@@ -135,9 +135,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kLongest = 400;  // characters of a line that are quoted
+constexpr std::size_t kLongest = 400;  // most characters of a line that are quoted
 
-// Words with one blank between, as far as a comment.
+// The words of a line up to a comment, with one blank between them.
 std::string words_of(const std::string& line) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::string text;
@@ -145,7 +145,7 @@ std::string words_of(const std::string& line) {
     return text;
 }
 
-// The lines of a deck by their words; a line that is there twice counts where it is last.
+// The numbers of a deck's lines by their words. If two lines are the same, the later one counts.
 std::map<std::string, int> lines_of(const fs::path& deck) {
     std::map<std::string, int> lines;
     std::ifstream file(deck);
@@ -155,7 +155,7 @@ std::map<std::string, int> lines_of(const fs::path& deck) {
     return lines;
 }
 
-// Not those of Open MPI about itself.
+// Whether the line is an error of the engine and not of Open MPI.
 bool is_error(const std::string& line) {
     return line.rfind("ERROR", 0) == 0;
 }

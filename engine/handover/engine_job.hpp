@@ -1,4 +1,5 @@
-// The programs of other engines on this machine.
+// Runs another engine on this machine: finds its program and version, starts it with a deck, and explains its
+// error messages. The process itself is in guarded_process.hpp.
 #pragma once
 
 #include <filesystem>
@@ -17,47 +18,48 @@ struct EngineProgram {
     std::string version;  // "29 Sep 2021 - Update 2", "3.8.0"
 };
 
-// A program by its name among the folders of PATH; empty where none has it.
+// The path of a program by its name in the folders of PATH; empty where there is none.
 std::filesystem::path program_named(const std::string& name);
 
-// `lmp` or `liggghts`. Throws UserError where it is not installed, and names Debian's package; where it does
-// not start; and for LAMMPS of 28 Mar 2023, whose walls act on all grains whatever their group.
+// Finds `lmp` or `liggghts`. Throws UserError where it is not installed (and names Debian's package), where
+// it does not start, and for LAMMPS of 28 Mar 2023, whose walls act on all grains whatever their group.
 EngineProgram find_engine(PeerEngine engine);
-// The version among the first lines that the engine says of itself; empty where there is none.
+// The version in the first lines that the engine prints; empty where there is none.
 std::string version_in(PeerEngine engine, const std::string& text);
 // Throws UserError for versions whose results would be wrong.
 void check_version(PeerEngine engine, const std::string& version);
 
-// The words that start so many ranks of it with a deck. Throws UserError where there is no mpirun, and where
-// this process may use fewer processors than ranks.
+// The command that starts so many ranks of the engine with a deck. Throws UserError where there is no mpirun,
+// and where this process may use fewer processors than ranks.
 struct RankWords {
     std::vector<std::string> words;
-    std::vector<std::string> notes;  // what the user should know, a line each
+    std::vector<std::string> notes;  // what the user should know, a line for each
 };
 RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std::string& deck, int ranks);
 
-// What an engine said when it failed, with the deck's line at which it did.
-
-// "in.lammps:7: ERROR: Unrecognized pair style 'x' (at `pair_style x`)". output: the file of what it printed,
-// its commands among it (-echo both). Empty where that has no error; a file that cannot be read has none.
+// The error message of an engine with the line of the deck: "in.lammps:7: ERROR: Unrecognized pair style 'x'
+// (at `pair_style x`)". output: the file with all that it printed, including its commands (-echo both). Empty
+// where there is no error or the file cannot be read.
 std::string engine_error(const std::filesystem::path& output, const std::filesystem::path& deck);
 
-// An engine that runs the deck of a folder on this machine.
+// An engine that runs the deck in a folder.
 
 class EngineJob {
   public:
-    // restart: a restart file in the deck's folder that it goes on from; empty: from the start. Throws
-    // UserError where engine or mpirun are missing, are of no use, or processors are too few.
+    // restart: a file in the deck's folder from which the engine continues; empty: it starts from the
+    // beginning. Throws UserError where engine or mpirun are missing or cannot be used, or there are too few
+    // processors.
     EngineJob(PeerEngine engine, int ranks, const std::string& deck, const std::string& restart = {});
 
     const EngineProgram& program() const { return program_; }
     const std::vector<std::string>& notes() const { return ranks_.notes; }
-    std::string command() const;  // as typed
-    // In that folder; what it prints goes to engine.txt there. Throws RunError.
+    std::string command() const;  // as one would type it
+    // Starts the engine in that folder. What it prints goes to engine.txt there. Throws RunError.
     void start(const std::filesystem::path& folder);
     bool is_running();
     void stop() { process_->stop(); }
-    // Once it has ended by itself: empty where all went well, else what it said, with the deck's line.
+    // Called when it has ended by itself. Empty where all went well, else its error message with the deck's
+    // line.
     std::string failure();
 
     static constexpr const char* kOutput = "engine.txt";

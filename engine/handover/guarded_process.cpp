@@ -21,12 +21,12 @@ namespace grainreel {
 
 namespace {
 
-constexpr int kNap = 20;     // ms, between two looks
+constexpr int kNap = 20;     // ms, between two checks
 constexpr int kGrace = 100;  // naps between SIGTERM and SIGKILL
 constexpr int kNoProgram = 127;
 
-// All that the new processes need, made before the fork: between fork and exec nothing but system calls is
-// allowed, since we have threads.
+// All that the new processes need. It is made before the fork, because between fork and exec only system
+// calls are allowed in a process with threads.
 struct Launch {
     char* const* words;
     const char* folder;
@@ -36,7 +36,7 @@ struct Launch {
 [[noreturn]] void become_program(const Launch& launch, pid_t guard) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != guard) ::_exit(1);  // it has died already
+    if (::getppid() != guard) ::_exit(1);  // the guard has died already
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     sigset_t none;
     ::sigemptyset(&none);
@@ -49,7 +49,7 @@ struct Launch {
     ::_exit(kNoProgram);
 }
 
-// Our locks and sockets are not the guard's.
+// Closes all other open files, so that the guard does not keep our locks and sockets.
 void close_all_but(int one, int other) {
     const int low = one < other ? one : other, high = one < other ? other : one;
     const auto close_between = [](int from, int to) {
@@ -64,7 +64,8 @@ void close_all_but(int one, int other) {
     close_between(high + 1, 65535);
 }
 
-// SIGKILL to each child of this process. Those that it leaves behind become our children, and are next.
+// Sends SIGKILL to each child of this process. Processes that these leave behind become our children and are
+// next.
 void kill_children() {
     const int file = ::open("/proc/thread-self/children", O_RDONLY);
     if (file < 0) return;
@@ -83,11 +84,11 @@ void kill_children() {
     ::close(file);
 }
 
-// Until there is none.
+// Repeats this until there is no child.
 void end_children(pid_t program) {
     for (int k = 0; k < 50 * kGrace; ++k) {
         kill_children();
-        ::kill(program, SIGKILL);  // where /proc does not tell
+        ::kill(program, SIGKILL);  // in case /proc does not list it
         pid_t one = 0;
         while ((one = ::waitpid(-1, nullptr, WNOHANG)) > 0) continue;
         if (one < 0 && errno == ECHILD) return;
@@ -95,7 +96,7 @@ void end_children(pid_t program) {
     }
 }
 
-// Told to stop, or nobody is there any more who could tell.
+// Whether the guard was told to stop, or our process has ended.
 bool is_to_stop(int alive) {
     pollfd look{alive, POLLIN, 0};
     return ::poll(&look, 1, kNap) > 0 && look.revents != 0;

@@ -64,7 +64,7 @@ std::string facts_text(const CarriedScene& carried, const StartState& start, con
     throw UserError(fmt::format("{}:{}:{}: {}", file.string(), at.begin.line, at.begin.column, what));
 }
 
-// A value that must be there.
+// Reads a value that must be there.
 class FactsReader {
   public:
     FactsReader(const fs::path& file, const toml::table& table) : file_(file), table_(table) {}
@@ -142,7 +142,7 @@ void write_handover(const fs::path& folder, const CarriedScene& carried, const S
     replace_file(folder / "run.sh", run_script(carried));
     make_executable(folder / "run.sh");
     replace_file(folder / "job.slurm", slurm_script(carried));
-    // The last, so that a folder that has it is whole.
+    // This file is written last, so that a folder that has it is complete.
     replace_file(folder / facts_name, facts_text(carried, start, version));
 }
 
@@ -185,7 +185,7 @@ std::string program_of(PeerEngine engine) {
     return engine == PeerEngine::lammps ? "lmp" : "liggghts";
 }
 
-// "hours:minutes:00", twice what is expected, at least ten minutes.
+// The time limit "hours:minutes:00": twice what is expected, but at least ten minutes.
 std::string wall_time(const CarriedScene& carried) {
     const double seconds = peer_seconds(carried.engine, carried.frame, carried.grains(),
                                         carried.last - carried.first + carried.packing_steps, carried.ranks);
@@ -193,7 +193,7 @@ std::string wall_time(const CarriedScene& carried) {
     return fmt::format("{}:{:02}:00", minutes / 60, minutes % 60);
 }
 
-// A shell's comment has one line.
+// A text as one line, for a comment in a shell script.
 std::string one_line(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');

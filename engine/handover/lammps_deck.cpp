@@ -1,4 +1,5 @@
-
+// Writes the deck of LAMMPS: contacts in the words of pair_style granular, walls as regions with fixes,
+// forces, times. Internal helpers for laws and regions stand below the class; decks.hpp declares them.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
@@ -14,7 +15,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr int kLookForGone = 200;  // steps between looks for grains to remove
+constexpr int kLookForGone = 200;  // steps between two searches for grains to remove
 
 class LammpsDeck {
   public:
@@ -86,7 +87,7 @@ class LammpsDeck {
         add_all(variables);
     }
 
-    // A fix a face and type, or one for all types that have the same law.
+    // A fix for each face and type, or one for all types if they have the same law.
     void walls(bool opened) {
         const std::vector<CarriedPair>& with = carried_.surfaces.front().with;
         std::vector<std::string> laws;
@@ -143,7 +144,7 @@ class LammpsDeck {
         if (first > 0) add("fix drag free viscous {}{}", first, scales);
     }
 
-    // In a run that goes on, what lies behind it is left out.
+    // A run that continues leaves out the commands `run` up to steps that it has passed.
     void run_up_to(std::int64_t step, bool again) {
         const std::string target = there(step);
         add("if \"$(step) < {}\" then \"run {} upto{}\"", target, target, again && hertz_ ? " pre no" : "");
@@ -179,10 +180,10 @@ class LammpsDeck {
     }
 
     const CarriedScene& carried_;
-    std::string free_, glued_;  // their types
+    std::string free_, glued_;  // types of free and of glued grains
     bool hertz_ = false;
-    std::set<std::string> standing_;                          // regions
-    std::vector<std::pair<std::string, std::string>> fixes_;  // region and fix
+    std::set<std::string> standing_;                          // regions that stay as they are
+    std::vector<std::pair<std::string, std::string>> fixes_;  // the region and the name of each fix
     std::vector<std::string> lines_;
 };
 
@@ -195,9 +196,9 @@ std::string lammps_deck(const CarriedScene& carried) {
 std::string lammps_law(const CarriedPair& pair) {
     const bool hertz = pair.law == CarriedLaw::hertz;
     GRAINREEL_CHECK(hertz || pair.law == CarriedLaw::spring_dashpot);
-    // It divides by the tangential stiffness, also where nothing rubs.
+    // LAMMPS divides by the tangential stiffness, even without friction.
     const double tangential = pair.tangential > 0 ? pair.tangential : 2.0 / 7 * pair.stiffness;
-    // With Hertz tangential_damping is the share already.
+    // For Hertz, tangential_damping is a ratio already.
     const double share = hertz              ? pair.tangential_damping
                          : pair.damping > 0 ? pair.tangential_damping / pair.damping
                                             : 0;
@@ -214,8 +215,8 @@ std::string lammps_law(const CarriedPair& pair) {
 
 namespace {
 
-constexpr double kEndless = 1000;   // m: as far as a cylinder goes, so that no grain sees its ends
-constexpr double kThickness = 0.5;  // of a plate, over the smallest radius
+constexpr double kEndless = 1000;   // m, length of a cylinder, so that no grain reaches its ends
+constexpr double kThickness = 0.5;  // of a plate, divided by the smallest radius
 
 std::string word(const std::string& name, std::size_t number) {
     std::string word = fmt::format("w{}_", number);
@@ -247,10 +248,11 @@ class Regions {
                                    face.radius, -kEndless, kEndless));
         if (face.ends && face.gap > 0) return add_slot(f, name);
         if (face.ends && face.normal.z() > 0 && face.normal.y() != 0) return add_slant(f, name);
-        // Walls that end go on below: what falls through the slot does not reach them.
+        // Walls that end are continued downwards, because grains that fall through the slot do not reach
+        // them.
         add(f, name, fmt::format("plane {} {} side in", three(face.point), three(face.normal)));
     }
-    // A floor with a slot along x: a thin block to each side. A wide gap leaves none.
+    // A floor with a slot along x is a thin block on each side. A wide gap leaves no block.
     void add_slot(std::size_t f, const std::string& name) {
         const double half = carried_.scene.container.floor_half_width(), gap = faces_[f].gap;
         if (gap >= half) return;
@@ -260,7 +262,7 @@ class Regions {
                 fmt::format("block {} {} {} {} {} 0.0 side out", -x, x, std::min(side * gap, side * half),
                             std::max(side * gap, side * half), -thick_));
     }
-    // A slant that ends at the floor: a prism, sheared along y.
+    // A slanted wall that ends at the floor is a prism, sheared along y.
     void add_slant(std::size_t f, const std::string& name) {
         const Container& c = carried_.scene.container;
         const double x = beyond(), foot = c.floor_half_width(), out = c.half_width - foot;
@@ -270,7 +272,7 @@ class Regions {
                         left ? -foot - 2 * thick_ : foot, left ? -foot : foot + 2 * thick_, c.slant_height,
                         left ? -out : out));
     }
-    double beyond() const { return carried_.scene.container.depth; }  // m, farther than the container
+    double beyond() const { return carried_.scene.container.depth; }  // m, a distance beyond the container
 
     void add(std::size_t f, const std::string& name, const std::string& shape) {
         LammpsRegion region{name, {}, {}};

@@ -14,7 +14,7 @@ namespace grainreel {
 namespace {
 
 using Lines = std::vector<std::string>;
-constexpr int kSizesOfFeed = 5;  // that stand for a spread
+constexpr int kSizesOfFeed = 5;  // so many sizes stand for a spread of sizes
 
 bool is_prime(std::int64_t number) {
     for (std::int64_t k = 2; k * k <= number; ++k)
@@ -22,7 +22,7 @@ bool is_prime(std::int64_t number) {
     return true;
 }
 
-// Its random numbers want primes above 10000, each once.
+// LIGGGHTS needs a different prime above 10000 for each random sequence.
 class Seeds {
   public:
     explicit Seeds(std::uint64_t seed) : last_(static_cast<std::int64_t>(100000 + 1000 * (seed % 10000))) {}
@@ -71,7 +71,7 @@ class Deck {
         add_all({"units si", "atom_style granular", "atom_modify map array"});
         add("boundary {} f f", carried_.periodic ? "p" : "f");
         add_all({"newton off", "communicate single vel yes", processors_line(carried_)});
-        // Walls come back where they were; contacts with them begin anew.
+        // Walls are read at their present places; contacts with them begin anew.
         add("if \"${{goes_on}} == 0\" then \"read_data {}\" else \"read_restart ${{restart}}\"", data_name);
         add("neighbor {} bin", carried_.skin);
         add("neigh_modify delay 0 one 5000 page 200000");
@@ -106,7 +106,7 @@ class Deck {
         knows_time_ = true;
     }
 
-    // Its fixes, which are taken off again when other walls come.
+    // The fixes of these walls, which are removed when other walls replace them.
     void set_up_walls(bool opened) {
         for (auto fix = wall_fixes_.rbegin(); fix != wall_fixes_.rend(); ++fix) add("unfix {}", *fix);
         wall_fixes_.clear();
@@ -114,7 +114,7 @@ class Deck {
         if (walls.empty()) return;
         std::string names;
         for (const TriangleWall& wall : walls) {
-            // What is smooth may have triangles with a corner that is sharper than its edges bend.
+            // A smooth surface may have triangles with a corner sharper than the angle between faces.
             add("fix {} all mesh/surface file {} type {} curvature {}{}", wall.id, wall.file,
                 carried_.type_count() + wall.surface + 1, wall.curvature,
                 wall.curvature > 1e-4 ? " curvature_tolerant yes" : "");
@@ -181,7 +181,7 @@ class Deck {
                 sizes.size(), shares);
             add("region feed{} block {} {} {} {} {} {} units box", f, feed.low.x(), feed.high.x(),
                 feed.low.y(), feed.high.y(), feed.low.z(), feed.high.z());
-            // One at a time would cost an insertion every few hundred steps; it keeps the rate on average.
+            // Single grains would need an insertion every few hundred steps. This keeps the mean rate.
             const auto every = std::max<std::int64_t>(1, std::llround(1 / (feed.rate * carried_.step)));
             const auto start = there(std::max<std::int64_t>(1, std::llround(feed.from / carried_.step)));
             add("fix feed{} all insert/rate/region seed {} distributiontemplate feed{}_mix nparticles {} "
@@ -191,7 +191,7 @@ class Deck {
         }
     }
 
-    // Equally frequent diameters, m: middles of so many equal shares.
+    // Diameters (m) that are equally frequent: the middles of so many equal parts.
     static std::vector<double> sizes_of(const Species& species) {
         const SizeSpread& spread = species.diameter;
         if (spread.kind == SizeSpread::Kind::fixed || spread.smallest == spread.largest)
@@ -202,7 +202,7 @@ class Deck {
             if (spread.kind == SizeSpread::Kind::uniform) {
                 sizes.push_back(spread.smallest + share * (spread.largest - spread.smallest));
             } else {
-                // The normal quantiles at 0.1, 0.3, ... 0.9.
+                // The quantiles of the normal distribution at 0.1, 0.3, ... 0.9.
                 constexpr double quantiles[kSizesOfFeed] = {-1.2816, -0.5244, 0, 0.5244, 1.2816};
                 sizes.push_back(std::clamp(spread.mean + quantiles[k] * spread.deviation, spread.smallest,
                                            spread.largest));
@@ -215,11 +215,11 @@ class Deck {
         const std::int64_t steps = carried_.last - carried_.first;
         add("thermo {}", std::max<std::int64_t>(1, steps / 100));
         add("thermo_style custom step atoms ke cpu");
-        // Grains leave through an outlet; who is missing without having left is found in the dump.
+        // Grains may leave through an outlet. Grains that are lost otherwise are found when the dump is read.
         add("thermo_modify lost {} norm no", exit_plane(carried_).empty() ? "error" : "ignore");
     }
 
-    // In a run that goes on, what lies behind it is left out.
+    // A run that continues leaves out the commands `run` up to steps that it has passed.
     void run_up_to(std::int64_t step) {
         add("if \"$(step) < {}\" then \"run {} upto\"", there(step), there(step));
     }
@@ -276,7 +276,7 @@ class Deck {
     const LiggghtsLaw law_;
     Seeds seeds_;
     Lines lines_, wall_fixes_;
-    std::string glued_;  // their types
+    std::string glued_;  // types of glued grains
     bool knows_time_ = false;
 };
 

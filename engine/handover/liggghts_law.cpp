@@ -11,7 +11,7 @@ namespace grainreel {
 
 namespace {
 
-// The contact of two types, or of a type and a surface. Two surfaces never meet.
+// The contact of two types, or of a type and a surface; none for two surfaces, which never touch.
 const CarriedPair& pair_at(const CarriedScene& carried, std::size_t a, std::size_t b) {
     const std::size_t types = carried.type_count();
     if (a < types && b < types) return carried.between(a, b);
@@ -53,7 +53,7 @@ LiggghtsLaw spring_dashpot(const CarriedScene& carried) {
     LiggghtsLaw law;
     law.model = "model hooke/stiffness tangential history";
     const bool pulls = any(carried, [](const CarriedPair& pair) { return pair.attraction; });
-    // It comes on top of Coulomb's cap, so that it is off where the scene has none.
+    // This damping is added after Coulomb's limit, so it is off where the scene has none.
     const bool damps = any(carried, [](const CarriedPair& pair) { return pair.tangential_damping > 0; });
     law.flags = fmt::format("absolute_damping off limitForce {} tangential_damping {}", pulls ? "off" : "on",
                             damps ? "on" : "off");
@@ -65,7 +65,7 @@ LiggghtsLaw spring_dashpot(const CarriedScene& carried) {
     return law;
 }
 
-// Both unload along a steeper line and have no dashpot.
+// Whether the law unloads along a steeper line. Such laws have no dashpot.
 void add_steeper(const CarriedScene& carried, const std::function<double(const CarriedPair&)>& ratio,
                  LiggghtsLaw& law) {
     law.properties.push_back(matrix(carried, "LoadingStiffness", stiffness_of));
@@ -106,13 +106,14 @@ LiggghtsLaw edinburgh(const CarriedScene& carried) {
 
 double luding_depth(const CarriedPair& pair) {
     constexpr double r = kLudingRatio;
-    if (!(pair.hardening > 0) || !(pair.effective_radius > 0)) return 1e3;  // never stiffens
+    if (!(pair.hardening > 0) || !(pair.effective_radius > 0)) return 1e3;  // the contact never stiffens
     return (r - 1) * (r - 1) / (2 * r * pair.hardening * pair.effective_radius);
 }
 
 LiggghtsLaw liggghts_law(const CarriedScene& carried) {
     const CarriedLaw kind = law_of(carried);
-    GRAINREEL_CHECK(kind != CarriedLaw::hertz);  // refused before: E and nu are by type there
+    GRAINREEL_CHECK(kind !=
+                    CarriedLaw::hertz);  // it was refused before, because there E and nu belong to types
     LiggghtsLaw law = kind == CarriedLaw::luding      ? luding(carried)
                       : kind == CarriedLaw::edinburgh ? edinburgh(carried)
                                                       : spring_dashpot(carried);

@@ -18,14 +18,14 @@
 
 namespace grainreel {
 
-// engine/handover/start_state.cpp
+// Places for so many grains on a lattice; it is defined at the end of this file.
 std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count, double largest);
 
 namespace {
 
 using Grain = StartState::Grain;
 
-// Ours packs, and its last frame is the start.
+// Packs with our engine and takes the last frame.
 bool packed_here(const CarriedScene& carried, int threads, const PackingWatcher& watcher, StartState& start) {
     Simulation run(carried.scene, carried.plan, threads);
     const PackingResult result = run.pack(watcher);
@@ -43,7 +43,7 @@ bool packed_here(const CarriedScene& carried, int threads, const PackingWatcher&
     return true;
 }
 
-// Our grains, the lowest of their layers at the lowest places.
+// Puts our grains on the lattice. The lowest grains get the lowest places.
 void laid_out(const CarriedScene& carried, StartState& start) {
     const Grains drawn = place_in_layers(carried.scene);
     std::vector<std::size_t> order(drawn.size());
@@ -80,13 +80,13 @@ void add_glued(const CarriedScene& carried, StartState& start) {
                                 Vec3(0, 0, 0), Vec3(0, 0, 0)});
 }
 
-// Free grains as the container sees them.
+// Changes places and velocities of free grains to those relative to the container.
 void into_frame(const CarriedScene& carried, std::size_t free_grains, StartState& start) {
     if (!carried.rides()) return;
     const Pose pose = WallMotion(carried.scene.drive, carried.plan.clock).at(carried.first);
     for (std::size_t i = 0; i < free_grains; ++i) {
         start.grains[i].position -= pose.offset;
-        // Nothing moves yet where the deck packs first.
+        // If the deck packs first, nothing moves yet.
         if (!carried.packs) start.grains[i].velocity -= pose.velocity;
     }
 }
@@ -96,7 +96,7 @@ void include(CarriedScene& carried, const Vec3& low, const Vec3& high) {
     carried.high = carried.high.cwiseMax(high);
 }
 
-// A container that turns sweeps a ball about its axis.
+// The box that holds a turning container at all times.
 void include_turn(CarriedScene& carried, const BodyTurn& turn) {
     double farthest = 0;
     const Vec3 low = carried.low, high = carried.high;
@@ -117,7 +117,7 @@ void set_box(CarriedScene& carried, const StartState& start) {
     const double margin = 2 * largest;
     const double half_depth = c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2;
     carried.low = Vec3(-half_depth, -c.half_width, c.base());
-    // Without a lid the walls go on upwards, and grains may fly.
+    // Without a lid the walls continue upwards, and grains may fly.
     carried.high = Vec3(half_depth, c.half_width, c.lid ? c.height : 3 * c.height);
     for (const SceneMesh& mesh : scene.meshes) include(carried, mesh.low, mesh.high);
     if (c.outlet) include(carried, Vec3(0, 0, -c.outlet->exit_depth), carried.high);
@@ -130,7 +130,7 @@ void set_box(CarriedScene& carried, const StartState& start) {
     }
     for (const Feed& feed : scene.feeds) include(carried, feed.low, feed.high);
     if (c.turn) include_turn(carried, *c.turn);
-    if (c.shape == Container::Shape::none) {  // nothing says how far they go
+    if (c.shape == Container::Shape::none) {  // the scene does not say how far grains go
         const Vec3 size = carried.high - carried.low;
         include(carried, carried.low - size, carried.high + size);
     }
@@ -158,8 +158,6 @@ StartState start_state(CarriedScene& carried, int threads, const PackingWatcher&
     return start;
 }
 
-// The data file, as atom_style sphere of LAMMPS and granular of LIGGGHTS read it.
-
 namespace {
 
 constexpr std::size_t kFlushAt = std::size_t{1} << 20;  // bytes
@@ -184,7 +182,7 @@ void write_data_file(const std::filesystem::path& path, const CarriedScene& carr
     fmt::format_to(out, "\nAtoms\n\n");
     for (const StartState::Grain& g : start.grains) {
         double x = g.position.x();
-        if (carried.periodic) {  // read_data wants them inside
+        if (carried.periodic) {  // read_data needs them inside the box
             const double depth = carried.high.x() - carried.low.x();
             x -= std::floor((x - carried.low.x()) / depth) * depth;
         }
@@ -201,13 +199,15 @@ void write_data_file(const std::filesystem::path& path, const CarriedScene& carr
     flush(true);
 }
 
-// Places for grains that another engine packs: apart from each other and from all walls, from the bottom up.
+// Places for grains that another engine packs. They are apart from each other and from all walls, from the
+// bottom up.
 
 std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count, double largest);
 
 namespace {
 
-// The loosest lattice that fits; over the largest diameter. Its grains are moved at random by what is left.
+// Distances that are tried, from the loosest on, divided by the largest diameter. Grains are moved at random
+// within the room that is left.
 constexpr double kSpacings[] = {1.25, 1.15, 1.08, 1.02};
 
 struct RoomOfLattice {
@@ -233,7 +233,7 @@ struct RoomOfLattice {
     const CarriedScene& carried;
     FreeSpace space;
     Vec3 low, high;
-    double glued = 0;  // m, how far glued grains reach into the room
+    double glued = 0;  // m, how far glued grains reach inwards
 };
 
 bool fill(const RoomOfLattice& room, double spacing, double jitter, double radius, std::size_t count,
@@ -241,7 +241,7 @@ bool fill(const RoomOfLattice& room, double spacing, double jitter, double radiu
     Random random(seed, Stream::centres, {1});
     const double margin = radius + jitter;
     const Vec3 size = room.high - room.low;
-    // Across a periodic depth the lattice closes.
+    // Across a periodic depth the lattice must be periodic too.
     const double along =
         std::max(1.0, std::floor((size.x() - (room.carried.periodic ? 0 : 2 * margin)) / spacing +
                                  (room.carried.periodic ? 0 : 1)));

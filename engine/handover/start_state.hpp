@@ -1,4 +1,5 @@
-// The grains with which another engine begins.
+// The grains with which another engine begins: packed by us, or on a lattice where the deck packs them. Also
+// writes the data file that holds them.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,8 @@
 namespace grainreel {
 
 struct StartState {
-    // By rising id, which counts from 1 here as engines want it: ours + 1. Glued grains come last.
+    // Grains are in the order of ids, which are ours + 1, because engines count from 1. Glued grains come
+    // last.
     struct Grain {
         std::int64_t id = 0;
         int type = 1;            // from 1
@@ -21,16 +23,16 @@ struct StartState {
         Vec3 spin{0, 0, 0};      // rad/s
     };
     std::vector<Grain> grains;
-    bool stopped = false;  // by the watcher; nothing else holds then
-    bool settled = true;   // false: the time limit ended our packing
+    bool stopped = false;  // the watcher stopped it, and nothing else is valid
+    bool settled = true;   // false if the time limit ended our packing
 };
 
-// Packs as a run of ours does, or lays the grains out on a lattice where the deck packs. Sets the box of
-// `carried` (low, high) so that it holds all of them. Throws UserError and RunError as Simulation does.
+// Packs as a run of ours does, or puts the grains on a lattice if the deck packs. Sets the box of `carried`
+// (low, high) so that it holds all grains. Throws UserError and RunError as Simulation does.
 StartState start_state(CarriedScene& carried, int threads, const PackingWatcher& watcher);
 
-// Writes a file for atom_style sphere, and for LIGGGHTS' granular. types: how many the deck has, for LIGGGHTS
-// counts walls among them.
+// Writes a file for atom_style sphere of LAMMPS and granular of LIGGGHTS. types: number of types in the deck,
+// which for LIGGGHTS includes walls.
 void write_data_file(const std::filesystem::path& path, const CarriedScene& carried, const StartState& start,
                      std::size_t types);
 

@@ -18,16 +18,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kInside = 1e-6;          // of the box's size: how far walls stay from its sides
-constexpr double kOctagon = 0.92;         // apothem over radius, a bit less
-constexpr double kSagitta = 0.005;        // of a cylinder's facets, over the smallest radius of grains
-constexpr int kFewest = 36, kMost = 180;  // facets
+constexpr double kInside = 1e-6;          // of the box's size: distance of walls from its sides
+constexpr double kOctagon = 0.92;         // apothem divided by radius, and a bit less
+constexpr double kSagitta = 0.005;        // of a cylinder's facets, divided by the smallest radius of grains
+constexpr int kFewest = 36, kMost = 180;  // facets of a cylinder
 
 struct Room {
     Vec3 low, high;
 };
 
-// m, how far what the drive moves goes from rest, to each side.
+// How far (m) driven walls move from rest in each direction.
 Vec3 stroke_of(const CarriedScene& carried) {
     if (carried.drive.empty() || carried.rides()) return Vec3::Zero();
     return 2.05 * carried.scene.drive.largest_amplitude() * carried.scene.drive.direction.cwiseAbs();
@@ -45,7 +45,7 @@ double smallest_grain(const CarriedScene& carried) {
     return smallest;
 }
 
-// Where a wall may lie at rest so that it stays in the box on its way.
+// The box in which a wall must be at rest so that it stays in the run's box while it moves.
 Room room_of(const CarriedScene& carried, const TriangleWall& wall) {
     const double inside = kInside * (carried.high - carried.low).maxCoeff();
     const double time = static_cast<double>(carried.last) * carried.step;
@@ -59,7 +59,7 @@ Room room_of(const CarriedScene& carried, const TriangleWall& wall) {
     return room;
 }
 
-// m, about its axis: what is nearer stays in the box however it turns.
+// A distance (m) from the axis. Points that are nearer stay in the box however the wall turns.
 double turning_radius(const Room& room, const TriangleWall& wall) {
     double radius = INFINITY;
     for (int k = 0; k < 3; ++k) {
@@ -95,7 +95,7 @@ void shape_tube(const CarriedScene& carried, const Face& face, const Room& room,
     if (face.ends && face.along.z() > 0) low = std::max(low, face.edge.z());
     if (face.ends && face.along.z() < 0) high = std::min(high, face.edge.z());
     if (!wall.rate.empty() && std::abs(wall.axis.z()) < 1 - 1e-9) {
-        // Only as far as the corners stay in the box when it turns.
+        // The face extends only so far that its corners stay in the box when it turns.
         const double radius = turning_radius(room, wall);
         const double up = std::sqrt(std::max(0.0, radius * radius - 1.1 * face.radius * face.radius));
         low = std::max(low, wall.through.z() - up);
@@ -127,7 +127,7 @@ void shape_plane(const CarriedScene& carried, const Face& face, const Room& room
     }
 }
 
-// Where it is in the scene.
+// Takes the wall's motions from its body.
 void set_motion(const CarriedScene& carried, const Body& body, TriangleWall& wall) {
     if (carried.rides()) return;
     wall.driven = body.driven && !carried.drive.empty();

@@ -12,9 +12,9 @@ namespace grainreel {
 namespace {
 
 constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
-constexpr double kSmooth = 30;   // degrees: edges that bend more are edges
-constexpr double kFlat = 1e-5;   // degrees: of planes
-constexpr double kFattest = 8;   // height of a tube's facets over their width
+constexpr double kSmooth = 30;   // degrees; where triangles meet at a larger angle there is an edge
+constexpr double kFlat = 1e-5;   // degrees, within a plane
+constexpr double kFattest = 8;   // height of a tube's facets divided by their width
 constexpr double kTiny = 1e-12;  // m2, twice a triangle's area
 
 double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
@@ -47,7 +47,7 @@ void add_quad(const std::array<Vec3, 4>& q, TriangleMesh& mesh) {
     add_triangle(q[0], q[2], q[3], mesh);
 }
 
-// Where a ray from the middle meets the rectangle.
+// The point where a ray from the middle meets the rectangle.
 Vec3 on_rectangle(const Vec3& middle, double angle, const Vec3& low, const Vec3& high) {
     const double x = std::cos(angle), y = std::sin(angle);
     double far = INFINITY;
@@ -149,7 +149,7 @@ void add_plate_with_hole(const Vec3& middle, double hole, const Vec3& low, const
 
 double smooth_bend(const TriangleMesh& mesh) {
     using Edge = std::array<double, 6>;
-    std::map<Edge, std::vector<Vec3>> edges;  // by place: STL knows no shared corners
+    std::map<Edge, std::vector<Vec3>> edges;  // by their places, because STL does not share corners
     for (const TriangleMesh::Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             Vec3 a = mesh.vertices[static_cast<std::size_t>(t[k])];

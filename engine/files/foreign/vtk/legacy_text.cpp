@@ -83,7 +83,7 @@ VtkType LegacyText::type(const char* what) {
 }
 
 void LegacyText::check_room(std::uint64_t count) const {
-    // A digit each, and something between them.
+    // Each number takes a digit and something between it and the next.
     if (count > (bytes_.size() - at_) / 2 + 1)
         refuse(
             fmt::format("{} numbers, for which the rest of the file is too short; {}", count, kWriteAgain));
@@ -151,7 +151,7 @@ void LegacyText::skip(VtkType type, std::uint64_t count) {
         const std::string_view next = word();
         if (next.empty())
             refuse(fmt::format("the file ends after {} of {} numbers; {}", i, count, kWriteAgain));
-        // "nan" and "inf" are numbers.
+        // "nan" and "inf" are numbers too.
         if (is_letter(next[0]) && std::string_view("nNiI").find(next[0]) == std::string_view::npos)
             refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(next), i, count, kWriteAgain));
     }
@@ -166,7 +166,7 @@ void LegacyText::skip_words(std::uint64_t count) {
             line();
             continue;
         }
-        // The two highest bits say how many bytes the length has: 8, 4, 2 or 1.
+        // The two highest bits tell how many bytes the length has: 8, 4, 2 or 1.
         const std::size_t bytes = std::size_t{8} >> (static_cast<unsigned char>(bytes_[at_]) >> 6);
         std::uint64_t length = 0;
         for (std::size_t k = 0; k < bytes && at_ + k < bytes_.size(); ++k)

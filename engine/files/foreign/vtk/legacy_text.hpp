@@ -1,5 +1,5 @@
-// The words and arrays of a legacy VTK file. Words are text in both forms; arrays are text or big-endian
-// bytes.
+// Reads the words and arrays of a legacy VTK file, which is parsed in vtk_legacy.cpp. Words are always text;
+// arrays are text or big-endian bytes.
 #pragma once
 
 #include <cstdint>
@@ -14,50 +14,50 @@ namespace grainreel {
 
 class LegacyText {
   public:
-    // Both must live as long as this does.
+    // Both must outlive this object.
     LegacyText(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
-    // What follows is text or bytes.
+    // Whether arrays from here on are bytes.
     void set_binary(bool binary) { binary_ = binary; }
     bool binary() const { return binary_; }
 
     // The rest of the line, without its end.
     std::string_view line();
-    // The next word, over the ends of lines too; empty at the end of the file.
+    // The next word, also of a later line; empty at the end of the file.
     std::string_view word();
-    // The next word, which stays.
+    // The next word, which word() will give again.
     std::string_view peek();
     // The next word of this line; empty at its end.
     std::string_view word_in_line();
     bool at_end();
 
-    // The next word as a count. `what`: for the message.
+    // The next word as a count. what: for the message.
     std::uint64_t count(const char* what);
     VtkType type(const char* what);
 
-    // So many numbers, behind the end of this line where they are bytes. `finite`: NaN is refused. Throws
-    // UserError where there are fewer, before memory is asked for.
+    // So many numbers; bytes begin after the end of this line. finite: NaN is refused. Throws UserError where
+    // there are fewer, before memory is asked for.
     template <class T>
     std::vector<T> numbers(VtkType type, std::uint64_t count, bool finite);
     void skip(VtkType type, std::uint64_t count);
-    // Words, one a line, or with their lengths before them.
+    // Skips words: one on each line, or with their lengths before them.
     void skip_words(std::uint64_t count);
-    // The lines behind METADATA, as far as the empty one.
+    // Skips the lines after METADATA up to the next empty one.
     void skip_metadata();
 
-    // Throws UserError with the line in which the last word stands, or its byte.
+    // Throws UserError with the line of the last word, or with its byte.
     [[noreturn]] void refuse(const std::string& what) const;
 
   private:
     void skip_blanks();
-    // The bytes of an array, of the file.
+    // The bytes of an array in the file.
     std::string_view stored(VtkType type, std::uint64_t count);
     void check_room(std::uint64_t count) const;
 
     const std::filesystem::path& file_;
     std::string_view bytes_;
     bool binary_ = false;
-    std::size_t at_ = 0, last_ = 0;  // the next byte; the last word's
+    std::size_t at_ = 0, last_ = 0;  // the next byte, and the first byte of the last word
 };
 
 extern template std::vector<double> LegacyText::numbers<double>(VtkType, std::uint64_t, bool);
@@ -66,7 +66,7 @@ extern template std::vector<std::int64_t> LegacyText::numbers<std::int64_t>(VtkT
 // Whether a section begins with this word.
 bool is_legacy_keyword(std::string_view word);
 
-// Names have their blanks and other characters as "%20".
+// The name that a word stands for; blanks and other characters are written as "%20".
 std::string legacy_name(std::string_view word);
 
 }  // namespace grainreel

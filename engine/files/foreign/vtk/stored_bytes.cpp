@@ -15,7 +15,7 @@
 namespace grainreel {
 namespace {
 
-// No byte of zlib gives more than 1032 others, and none of LZ4 more than 255.
+// The most bytes that one byte can become: 1032 in zlib, 255 in LZ4.
 constexpr std::uint64_t most_growth = 1100, most_of_nothing = 64;
 
 constexpr int blank = -2, padding = -3, no_letter = -1, no_more = -4;
@@ -80,7 +80,7 @@ std::uint64_t plain_length(StoredStream& stream, const VtkCoding& coding, std::o
 }
 
 struct Blocks {
-    std::uint64_t full = 0, last = 0;  // bytes of a block, and of the last one
+    std::uint64_t full = 0, last = 0;  // bytes of a full block and of the last one
     std::vector<std::uint64_t> packed;
     std::uint64_t size_of(std::size_t block) const { return block + 1 == packed.size() ? last : full; }
     std::uint64_t length() const { return packed.empty() ? 0 : (packed.size() - 1) * full + last; }

@@ -66,7 +66,7 @@ std::vector<RawColumn> place_columns(const std::vector<double>& places, const Vt
 
 void add_rows(RawTable& table, std::vector<RawColumn>&& columns, std::size_t rows, const std::string& where) {
     if (rows == 0) {
-        // The names of an empty table are known, too.
+        // The names of columns are kept even if the table is empty.
         if (table.rows == 0 && table.columns.empty()) table.columns = std::move(columns);
         return;
     }
@@ -100,12 +100,12 @@ bool is_contact(const VtkCells& cells, std::size_t cell) {
     return is_line(cells.types[cell]) && cells.end_of(cell) - cells.begin_of(cell) == 2;
 }
 
-// Grains and the vertex cell of each.
+// The points that are grains, and the vertex cell of each.
 struct Grains {
     VtkRows points, cells;
 };
 
-// A point of several vertex cells is one grain, with the numbers of the first.
+// A point with several vertex cells is one grain with the numbers of the first cell.
 Grains grains_of(const VtkPiece& piece) {
     const VtkCells& cells = piece.cells;
     Grains grains;
@@ -170,7 +170,7 @@ void add_contacts(const VtkPiece& piece, RawTable& table) {
     add_rows(table, std::move(columns), lines.count, piece.where);
 }
 
-// Types become words where the file names all of them.
+// Turns types into words if the file names all of them.
 void name_types(RawTable& table, const std::vector<std::string>& names) {
     for (RawColumn& column : table.columns) {
         if (column.name != "type") continue;
@@ -183,7 +183,7 @@ void name_types(RawTable& table, const std::vector<std::string>& names) {
     }
 }
 
-// Back to numbers, where other rows of the same moment have other names.
+// Turns types back into numbers, for rows of the same moment with other names.
 void unname_types(RawColumn& column) {
     if (column.words.empty()) return;
     for (double& type : column.values) ++type;
@@ -211,7 +211,7 @@ void merge_tables(RawTable& table, RawTable&& more) {
     table.rows += more.rows;
 }
 
-// A file of one frame.
+// A file that holds one frame.
 class VtkFile : public RawFile {
   public:
     using Read = VtkContents (*)(const fs::path& file, VtkPart part);
@@ -279,7 +279,7 @@ RawFrame frame_of(VtkContents&& contents) {
     frame.time = contents.time;
     for (VtkPiece& piece : contents.pieces) {
         std::vector<RawWall> walls = walls_of(piece);
-        // Pieces of one surface, written by several processes.
+        // These are pieces of one surface that several processes wrote.
         if (walls.size() == 1 && frame.walls.size() == 1 && join_walls(frame.walls[0], walls[0]))
             walls.clear();
         std::move(walls.begin(), walls.end(), std::back_inserter(frame.walls));

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Cells of one section: old ones as "3 0 1 2", those of version 5 as offsets and corners.
+// The cells of one section. Old versions write "3 0 1 2", version 5 writes offsets and corners.
 struct LegacyCells {
     std::vector<std::int64_t> ends, corners;
     void add_to(VtkCells& cells) const {
@@ -27,7 +27,7 @@ struct LegacyCells {
     }
 };
 
-// Reads the sections of one file in their order.
+// Reads the sections of a file in their order.
 class LegacyReader {
   public:
     LegacyReader(LegacyText& text, VtkPart part, VtkContents& contents)
@@ -180,7 +180,7 @@ class LegacyReader {
                                      owner == Owner::points ? "points" : "cells", kWriteAgain));
     }
 
-    // One array, its head read.
+    // Reads an array whose head was read.
     void array(const std::string& name, VtkType type, std::uint64_t components, std::uint64_t tuples) {
         if (components > 1024 || tuples > (std::uint64_t{1} << 48))
             text_.refuse(fmt::format("array \"{}\" of {} components; at most 1024 are read", excerpt(name),
@@ -203,7 +203,7 @@ class LegacyReader {
     }
 
     void field() {
-        text_.word();  // its name
+        text_.word();  // the name
         const std::uint64_t arrays = text_.count("a count of arrays");
         for (std::uint64_t i = 0; i < arrays; ++i) {
             std::string_view word = text_.word();
@@ -225,7 +225,7 @@ class LegacyReader {
         }
     }
 
-    // SCALARS, VECTORS and their like.
+    // Reads SCALARS, VECTORS, NORMALS and similar sections.
     void attribute(std::string_view word) {
         if (owner_ == Owner::file)
             text_.refuse(fmt::format("{} before POINT_DATA or CELL_DATA; {}", excerpt(word), kWriteAgain));
@@ -256,7 +256,7 @@ class LegacyReader {
         array(name, type, static_cast<std::uint64_t>(components), tuples_);
     }
 
-    // A table of colours: bytes, or numbers from 0 to 1.
+    // Skips a table of colours, which are bytes or numbers from 0 to 1.
     void lookup_table() {
         text_.word();
         text_.skip(VtkType::uint8, 4 * text_.count("a count of colours"));
@@ -289,7 +289,7 @@ class LegacyReader {
     VtkPart part_;
     VtkContents& contents_;
     VtkPiece piece_{};
-    LegacyCells parts_[4]{};  // vertices, lines, polygons, strips; of a grid the first holds all cells
+    LegacyCells parts_[4]{};  // vertices, lines, polygons, strips; the first holds all cells of a grid
     std::vector<std::uint8_t> types_{};
     bool poly_data_ = false, known_ = false;
     Owner owner_ = Owner::file;

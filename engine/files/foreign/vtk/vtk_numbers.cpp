@@ -179,7 +179,7 @@ bool VtkWords::number(double& value) {
     return true;
 }
 
-// "+1.5", 1e-400, 1e400, "1.5d0", "-1.#IND".
+// Reads less common numbers: "+1.5", 1e-400, 1e400, "1.5d0", "-1.#IND".
 bool VtkWords::odd_number(double& value) {
     const char* begin = at_;
     std::string text(word());
@@ -209,7 +209,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_of_a_path = 400;  // characters, in a message
+constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
 
 std::string shown(const fs::path& file) {
     return excerpt(file.string(), most_of_a_path);

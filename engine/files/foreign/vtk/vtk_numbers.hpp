@@ -1,4 +1,5 @@
-// Numbers of VTK's files: their types, and what their bytes and words mean.
+// Small things that all readers of VTK files need: messages about a place in a file (a line of text, or a
+// byte), file names in lists, types of numbers, and numbers in bytes and in text.
 #pragma once
 
 #include <algorithm>
@@ -28,27 +29,28 @@ enum class VtkType : std::uint8_t {
     bit
 };
 
-// "Float32", "UInt8", ... of XML files; none for "String" and what is no type.
+// The type "Float32", "UInt8", ... of XML files; none for "String" and for unknown words.
 std::optional<VtkType> vtk_xml_type(std::string_view word);
-// "float", "unsigned_char", "vtkIdType", ... of legacy files, in any case; vtkIdType is an int there.
+// The type "float", "unsigned_char", "vtkIdType", ... of legacy files, ignoring case; vtkIdType is an int
+// there.
 std::optional<VtkType> vtk_legacy_type(std::string_view word);
 
-// Bytes that so many numbers take. Bits are packed by eight.
+// Number of bytes that so many numbers take. Eight bits are packed into a byte.
 std::uint64_t bytes_of(VtkType type, std::uint64_t count);
 
-// So many numbers out of their bytes, which must be there, each as a double.
+// Turns bytes into so many numbers. There must be enough bytes.
 void widen(std::string_view bytes, VtkType type, bool big_endian, std::size_t count,
            std::vector<double>& values);
 void widen(std::string_view bytes, VtkType type, bool big_endian, std::size_t count,
            std::vector<std::int64_t>& values);
 
-// Numbers in a text, blanks and ends of lines between them.
+// Numbers in a text, which blanks and ends of lines separate.
 class VtkWords {
   public:
     VtkWords(const char* begin, const char* end) : at_(begin), end_(end) {}
 
-    // False at the end of the text, and where the next word is no number: at() is its place then. "nan" and
-    // "-1.#IND" are numbers that are missing: NaN.
+    // Reads a number. False at the end of the text, and where the next word is no number; at() is its place
+    // then. "nan" and "-1.#IND" give NaN, a missing number.
     bool number(double& value);
     // The next word, empty at the end.
     std::string_view word();
@@ -63,16 +65,14 @@ class VtkWords {
     const char* end_;
 };
 
-// Complaints about files of VTK: file and line where they are text, file and byte where they are binary.
-
-// Where something stands in a file. `array` is its name for the reader of a message, and may be empty.
+// A place in a file for a message. `array` is the name of the array there; it may be empty.
 struct VtkPlace {
     const std::filesystem::path* file = nullptr;
     std::int64_t line = 0;  // 0: unknown
     std::string array{};
 };
 
-// Throw UserError: "FILE:LINE: array \"Radius\": what", "FILE: byte 84: what", "FILE: what".
+// These throw UserError: "FILE:LINE: array \"Radius\": what", "FILE: byte 84: what", "FILE: what".
 [[noreturn]] void refuse_vtk(const VtkPlace& place, const std::string& what);
 [[noreturn]] void refuse_vtk_line(const std::filesystem::path& file, std::int64_t line,
                                   const std::string& what);
@@ -80,19 +80,17 @@ struct VtkPlace {
                                   const std::string& what);
 [[noreturn]] void refuse_vtk_file(const std::filesystem::path& file, const std::string& what);
 
-// "FILE:LINE", as far as they are known.
+// "FILE:LINE", or as much of it as is known.
 std::string text_of(const VtkPlace& place);
 
-// What to do about a damaged file.
+// The advice for a damaged file.
 inline constexpr const char* kWriteAgain = "the file is damaged or cut off; write it again";
 
-// The line in which a byte of a text stands, from 1.
+// The line of a byte in a text, from 1.
 std::int64_t line_of_byte(std::string_view text, std::size_t byte);
 
-// Files that lists of VTK name: relative to the folder of the list, and by programs on Windows with
-// backslashes.
-
-// The name as the list has it where a file is there, or where it has no backslash; else with slashes.
+// The name of a file in a list, relative to the folder of the list. Programs on Windows write backslashes;
+// they become slashes if there is no file with the name as it stands.
 inline std::string named_file(const std::filesystem::path& folder, std::string_view name) {
     std::string file(name);
     if (file.find('\\') == std::string::npos || is_plain(folder / file)) return file;

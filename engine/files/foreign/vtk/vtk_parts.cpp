@@ -23,10 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_depth = 4;  // of lists within lists
+constexpr int most_depth = 4;  // so deep may lists lie within lists
 constexpr std::string_view domain_name = "Domain";
 
-// LIGGGHTS writes its box as a rectilinear grid of one cell, and a tilted one as a hexahedron.
+// Reads the box, which LIGGGHTS writes as a rectilinear grid of one cell, or as a hexahedron if it is tilted.
 std::optional<WorldCell> box_of_grid(const fs::path& file, const std::string& bytes, const XmlTree& tree) {
     const XmlElement* grid = tree.root.child("RectilinearGrid");
     const XmlElement* piece = grid == nullptr ? nullptr : grid->child("Piece");
@@ -163,7 +163,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A solid of an ASCII STL: its name, and how many triangles it has.
+// A solid of a text STL: its name and number of triangles.
 struct Solid {
     std::string name;
     std::size_t triangles = 0;
@@ -182,7 +182,7 @@ std::string name_behind(std::string_view line) {
     return std::string(left.substr(begin, left.find_last_not_of(" \t") - begin + 1));
 }
 
-// The text has been read once and is sound.
+// Finds the solids. The text was read before and is sound.
 std::vector<Solid> solids_of(std::string_view bytes) {
     std::vector<Solid> solids;
     Words words(bytes);
@@ -223,7 +223,7 @@ std::vector<RawWall> split(TriangleMesh&& mesh, const std::vector<Solid>& solids
     std::size_t all = 0;
     for (const Solid& solid : solids) all += solid.triangles;
     std::vector<RawWall> walls;
-    // Few: each solid costs a look at all vertices.
+    // There may not be many, because each solid takes a look at all vertices.
     if (solids.size() < 2 || solids.size() > 1000 || all != mesh.triangles.size()) {
         const std::size_t triangles = mesh.triangles.size();
         walls.push_back(
@@ -270,7 +270,7 @@ bool is_text(std::string_view bytes) {
     return bytes.find('\0') == std::string_view::npos;
 }
 
-// A line "v 0 0 1", "f 1 2 3" or "mtllib a.mtl" before any line of something else.
+// Whether a line "v 0 0 1", "f 1 2 3" or "mtllib a.mtl" comes before any other line.
 bool is_obj(std::string_view bytes) {
     Words words(bytes);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
@@ -284,8 +284,8 @@ bool is_obj(std::string_view bytes) {
     return false;
 }
 
-// Whether all facets of a binary STL that the first bytes hold have places that walls can have. Of a packed
-// file the size that it has unpacked is not known.
+// Whether the facets among the first bytes of a binary STL have places that walls can have. The unpacked size
+// of a packed file is not known.
 bool holds_facets(std::string_view bytes) {
     constexpr float farthest = 1e7F;
     if (bytes.size() < 84 + 50) return false;
@@ -308,7 +308,7 @@ bool takes_wall_surface(const FileHead& head) {
     if (bytes.size() >= 84 && !is_text(bytes)) {
         std::uint32_t count = 0;
         std::memcpy(&count, bytes.data() + 80, sizeof count);
-        // The size of a packed file is that of its packed bytes.
+        // For a packed file this is the size of its packed bytes.
         const std::uint64_t size = 84 + 50 * std::uint64_t{count};
         return size == head.size || (bytes.size() < kHeadBytes && size == bytes.size()) ||
                (bytes.size() >= kHeadBytes && size > head.size && holds_facets(bytes)) ||

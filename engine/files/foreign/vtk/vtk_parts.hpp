@@ -1,4 +1,5 @@
-// What several files hold at one moment: those that a collection names, and those within a .vtm.
+// The files of one moment, which a collection or a .vtm names: VTK files of any kind, and surfaces without
+// grains (STL, OBJ, PLY).
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,7 @@
 
 namespace grainreel {
 
-// A file, and the name of what it holds: of a mesh, as a rule.
+// A file and the name of what it holds, which is mostly a mesh.
 struct VtkPartFile {
     std::filesystem::path file;
     std::string name;
@@ -23,14 +24,14 @@ struct VtkPartFile {
 struct VtkParts {
     RawMoment moment;            // counts, for VtkPart::cells
     RawFrame frame;              // for VtkPart::all
-    std::string program;         // that wrote them, where they say so
-    std::size_t grids = 0;       // files of grids that were passed over
+    std::string program;         // the program that wrote them, if they say so
+    std::size_t grids = 0;       // number of files with grids that were left out
     std::filesystem::path grid;  // the first of them
-    std::size_t missing = 0;     // files that a .vtm names and that are not there
+    std::size_t missing = 0;     // number of files that a .vtm names and that do not exist
 };
 
-// Adds what a file holds: VTK XML, legacy VTK, .vtm, or a surface. Grids are passed over, but for a block of
-// the name "Domain", which is the box. Throws UserError.
+// Adds what a file holds: VTK XML, legacy VTK, .vtm, or a surface. Grids are left out, except for a block
+// with the name "Domain", which is the box. Throws UserError.
 void add_part(const VtkPartFile& part_file, VtkPart part, VtkParts& parts, int depth = 0);
 
 // The files that a .vtm names, with the names of their blocks.
@@ -38,14 +39,13 @@ std::vector<VtkPartFile> files_of_blocks(const std::filesystem::path& file, cons
 
 bool is_block_type(std::string_view type);
 
-// Surfaces without grains: STL (text and binary), OBJ and PLY. One frame, with a wall for each solid of an
-// STL.
-
+// Surfaces without grains: STL (text and binary), OBJ and PLY. They are one frame, with a wall for each solid
+// of an STL.
 RawFormat wall_surface_format();
 
 bool takes_wall_surface(const FileHead& head);
 
-// In the file's unit, as it is: nothing is mended. Throws UserError with file and line or byte.
+// Reads the walls in the file's unit, without mending them. Throws UserError with file and line or byte.
 std::vector<RawWall> read_wall_surface(const std::filesystem::path& file);
 
 }  // namespace grainreel

@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
 
-// Triangles of some cells, with the points that they use and no others.
+// The triangles of some cells, with only the points that they use.
 RawWall wall_of(const VtkPiece& piece, const std::vector<VtkTriangle>& triangles,
                 const std::vector<std::size_t>& cells) {
     RawWall wall;
@@ -61,7 +61,7 @@ std::vector<std::size_t> mesh_parts(const std::vector<double>& meshid) {
         numbered.push_back(first ? 0 : numbered.back() + (next ? 1 : 0));
         seen.insert(meshid[i]);
     }
-    // As many parts as triangles are ids of triangles.
+    // If there are as many meshes as triangles, the numbers are ids of triangles.
     if (counts && !meshid.empty() && counted.back() + 1 < meshid.size()) return counted;
     if (numbers && !meshid.empty() && 2 * (numbered.back() + 1) <= meshid.size()) return numbered;
     return std::vector<std::size_t>(meshid.size(), 0);
@@ -134,7 +134,7 @@ void cut_strip(Corners corners, std::vector<VtkTriangle>& triangles) {
     }
 }
 
-// Faces of a solid cell by its own corners; -1 ends a face of three.
+// The faces of a solid cell by its own corners; -1 is the fourth corner of a face with three.
 struct Solid {
     std::uint8_t type;
     std::size_t corners;
@@ -157,7 +157,7 @@ void cut_solid(const Solid& solid, Corners corners, std::vector<VtkTriangle>& tr
     }
 }
 
-// A stream: the number of faces, and of each the number of its corners and the corners.
+// A polyhedron is a stream: the number of faces, and for each the number of its corners and the corners.
 void cut_polyhedron(const VtkPiece& piece, std::size_t cell, Corners stream,
                     std::vector<VtkTriangle>& triangles) {
     const auto fail = [&] {

@@ -39,7 +39,7 @@ bool is_list(std::string_view type) {
                     excerpt(type)));
 }
 
-// Words are the bytes of their letters and a 0, each as a number. Empty for what is none.
+// The word whose letters and final 0 are written as numbers. Empty where it is no word.
 std::vector<std::string> words_of(std::string_view text) {
     std::vector<std::string> all(1);
     VtkWords numbers(text.data(), text.data() + text.size());
@@ -55,7 +55,7 @@ std::vector<std::string> words_of(std::string_view text) {
     return all;
 }
 
-// The names of species, where they are different, are names, and can be typed.
+// The names of species, if they are all different, look like names and can be typed.
 std::vector<std::string> species_of(const XmlArrays& arrays, const XmlElement& array) {
     const std::string_view format = array.attribute("format");
     if (!format.empty() && format != "ascii") return {};
@@ -67,7 +67,7 @@ std::vector<std::string> species_of(const XmlArrays& arrays, const XmlElement& a
     return fine && different.size() == names.size() ? names : std::vector<std::string>();
 }
 
-// Reads the element FieldData, wherever it stands.
+// Reads the element FieldData, wherever it is.
 void read_field(const XmlArrays& arrays, const XmlElement& field, VtkContents& contents) {
     for (const XmlElement& array : field.children) {
         const std::string_view name = array.attribute("Name");
@@ -92,7 +92,7 @@ void read_words(const XmlTree& tree, VtkContents& contents) {
     }
 }
 
-// The file of a piece. Throws UserError where it is not there.
+// The file of a piece. Throws UserError where it does not exist.
 fs::path file_of_piece(const fs::path& file, const XmlElement& piece) {
     const std::string source = named_file(file.parent_path(), piece.attribute("Source"));
     if (source.empty()) refuse_vtk_line(file, piece.line, "a piece without a file: its Source is missing");
@@ -195,7 +195,7 @@ const XmlElement& needed(const XmlArrays& arrays, const XmlElement& element, std
                     fmt::format("its array \"{}\" is missing from {}; {}", name, element.name, kWriteAgain));
 }
 
-// Adds cells by their corners; the types follow.
+// Adds the corners of cells; their types are added later.
 void add_corners(const XmlArrays& arrays, const XmlElement& element, std::uint64_t count, VtkCells& cells) {
     const XmlElement& offsets = needed(arrays, element, "offsets");
     const std::vector<std::int64_t> ends = arrays.whole(offsets, count);
@@ -213,7 +213,7 @@ void add_corners(const XmlArrays& arrays, const XmlElement& element, std::uint64
     cells.corners.insert(cells.corners.end(), corners.begin(), corners.end());
 }
 
-// Verts, lines, polygons and strips, in the order of the cell data.
+// Reads Verts, Lines, Polys and Strips in the order of the cell data.
 void add_poly_cells(const XmlArrays& arrays, const XmlElement& piece, VtkCells& cells) {
     struct Kind {
         const char *count, *element;
@@ -240,7 +240,7 @@ void add_poly_cells(const XmlArrays& arrays, const XmlElement& piece, VtkCells& 
     }
 }
 
-// Puts the streams of faces in the place of the corners of polyhedra.
+// Replaces the corners of polyhedra by their streams of faces.
 void add_faces(const XmlArrays& arrays, const XmlElement& element, VtkCells& cells) {
     if (std::find(cells.types.begin(), cells.types.end(), VtkCell::polyhedron) == cells.types.end()) return;
     if (array_named(element, "faces") == nullptr && array_named(element, "face_connectivity") != nullptr)
@@ -288,7 +288,7 @@ void add_data(const XmlArrays& arrays, const XmlElement& piece, const char* name
     const XmlElement* element = piece.child(name);
     if (element == nullptr) return;
     for (const XmlElement& array : element->children) {
-        // Words are passed over.
+        // Words are skipped.
         if (array.name != "DataArray" || array.attribute("type") == "String") continue;
         const std::uint64_t components =
             std::max<std::uint64_t>(arrays.count_in(array, "NumberOfComponents"), 1);

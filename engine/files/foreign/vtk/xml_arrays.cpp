@@ -71,7 +71,7 @@ std::uint64_t XmlArrays::count_in(const XmlElement& element, std::string_view at
     if (text.empty()) return 0;
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    // Three doubles of each must have a number of bytes.
+    // Three doubles for each must be a possible number of bytes.
     if (error != std::errc() || end != text.data() + text.size() || count > (std::uint64_t{1} << 48))
         refuse_vtk_line(file_, element.line, fmt::format("{}=\"{}\" is no count", attribute, excerpt(text)));
     return count;
@@ -164,7 +164,7 @@ void XmlArrays::read(const XmlElement& array, std::optional<std::uint64_t> count
 void XmlArrays::check(const XmlElement& array, std::uint64_t count) const {
     const VtkType type = type_of(array);
     if (is_text(array)) {
-        // A digit each, and something between them.
+        // Each number takes a digit and something between it and the next.
         if (count > text_of_array(array).size() / 2 + 1)
             refuse_vtk(
                 place_of(array),
@@ -199,7 +199,7 @@ bool count_piece(const XmlArrays& arrays, const XmlElement& piece, RawMoment& mo
     const std::uint64_t lines = arrays.count_in(piece, "NumberOfLines");
     const std::uint64_t faces = arrays.count_in(piece, "NumberOfPolys");
     const bool strips = arrays.count_in(piece, "NumberOfStrips") > 0;
-    // Lines may have more than two points, and strips and polygons fewer than three.
+    // Lines could have more than two points, and strips and polygons fewer than three.
     if (strips || lines > 0 || (vertices > 0 && vertices != points) || (vertices > 0 && faces > 0))
         return false;
     if (faces > 0)
@@ -219,7 +219,7 @@ bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& part
         const XmlTree tree = xml_tree(part_file.file, head.bytes);
         const XmlElement* set = tree.root.child("PolyData");
         if (set == nullptr) return false;
-        // A time of its own may stand far behind.
+        // The file's own time may stand far behind.
         const bool own_time = set->child("FieldData") != nullptr || tree.root.child("FieldData") != nullptr;
         if (own_time && !time_known) return false;
         const XmlArrays arrays(part_file.file, head.bytes, tree);
@@ -230,7 +230,7 @@ bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& part
         parts.moment.has_walls = parts.moment.has_walls || moment.has_walls;
         return true;
     } catch (const UserError&) {
-        return false;  // reading it all says what is wrong
+        return false;  // reading the whole file tells what is wrong
     }
 }
 

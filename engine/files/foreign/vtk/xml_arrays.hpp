@@ -1,4 +1,5 @@
-// Bytes of arrays in VTK's XML files: raw or base64, plain or in compressed blocks.
+// Arrays of numbers in VTK's XML files: as text, as base64, or appended after the XML; plain or in compressed
+// blocks. stored_bytes.cpp gets the bytes, xml_arrays.cpp turns them into numbers.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +17,23 @@ namespace grainreel {
 
 enum class VtkCompressor { none, zlib, lz4, lzma, unknown };
 
-// What the head of a file says of all its arrays.
+// What the head of a file says about all its arrays.
 struct VtkCoding {
     bool big_endian = false;
-    std::size_t header_bytes = 4;  // of a length: UInt32 or UInt64
+    std::size_t header_bytes = 4;  // size of a length: UInt32 or UInt64
     VtkCompressor compressor = VtkCompressor::none;
     std::string compressor_name{};
 };
 
-// A stream of bytes, written as they are or as base64. Base64 may come in several streams, each with padding
-// of its own at its end, one after the other.
+// A stream of bytes, written raw or as base64. There may be several streams of base64, one after the other,
+// each with its own padding at the end.
 class StoredStream {
   public:
     StoredStream(std::string_view text, bool base64, const VtkPlace& place);
 
-    // The next so many bytes. Throws UserError where they are not there, before memory is asked for.
+    // The next so many bytes. Throws UserError where there are fewer, before memory is asked for.
     std::string take(std::uint64_t size);
-    // No more bytes than these can follow.
+    // An upper limit for the number of bytes that follow.
     std::uint64_t at_most() const;
 
   private:
@@ -45,34 +46,33 @@ class StoredStream {
     std::string spare_{};  // decoded and not yet taken
 };
 
-// The bytes of one array. `wanted`: how many they must be, where that is known. Throws UserError for wrong
-// lengths, for damage and for a compressor that is not read. Memory follows the size of the text.
+// The bytes of one array. wanted: how many there must be, if that is known. Throws UserError for wrong
+// lengths, for damage and for an unknown compressor. The memory that it takes is limited by the size of the
+// text.
 std::string stored_array(std::string_view text, bool base64, const VtkCoding& coding,
                          std::optional<std::uint64_t> wanted, const VtkPlace& place);
 
-// The same checks by the lengths alone, without the bytes: what is cut off is noticed when a file is opened.
+// The same checks by the lengths only, so that a cut file is noticed when it is opened.
 void check_stored_array(std::string_view text, bool base64, const VtkCoding& coding,
                         std::optional<std::uint64_t> wanted, const VtkPlace& place);
 
-// Arrays of numbers in VTK's XML files: as text, as base64, or appended behind the XML.
-
 class XmlArrays {
   public:
-    // All of them must live as long as this does. Throws UserError for a head that is not understood.
+    // The arguments must outlive this object. Throws UserError for a head that is not understood.
     XmlArrays(const std::filesystem::path& file, std::string_view bytes, const XmlTree& tree);
 
-    // The numbers of a DataArray. `count`: how many there must be; none: as many as there are. `finite`: NaN
-    // and infinity are refused. Throws UserError with the line.
+    // The numbers of a DataArray. count: how many there must be; none: any number. finite: NaN and infinity
+    // are refused. Throws UserError with the line.
     std::vector<double> numbers(const XmlElement& array, std::optional<std::uint64_t> count,
                                 bool finite) const;
     std::vector<std::int64_t> whole(const XmlElement& array, std::optional<std::uint64_t> count) const;
-    // By the lengths alone that so many numbers can be there.
+    // Checks by the lengths only that there can be so many numbers.
     void check(const XmlElement& array, std::uint64_t count) const;
 
-    // As it stands in the file.
+    // The text of an array as it stands in the file.
     std::string_view text_of_array(const XmlElement& array) const;
     VtkPlace place_of(const XmlElement& array) const;
-    // The count that an attribute has, or 0 without the attribute. Throws UserError for what is no count.
+    // The count in an attribute, or 0 without the attribute. Throws UserError where it is no count.
     std::uint64_t count_in(const XmlElement& element, std::string_view attribute) const;
     const std::filesystem::path& file() const { return file_; }
 
@@ -97,12 +97,10 @@ class XmlArrays {
     VtkCoding coding_;
 };
 
-// How many grains a file of VTK has, by its head alone: a long list of large files is opened without reading
-// them.
-
-// Adds to the counts of a moment, and returns true, where the head says all: PolyData with appended numbers,
-// in which each point is a vertex, or which is all polygons. Nothing is known then of how the file goes on.
-// `time_known`: the list says the time, so that the file's own does not matter.
+// Counts the grains of a file by its head only, so that a long list of large files is opened without reading
+// them. It adds to the counts of a moment and returns true if the head says all: in PolyData with appended
+// numbers whose points are all vertices, or which has only polygons. The rest of the file is not checked
+// then. time_known: the list says the time, so that the time in the file does not matter.
 bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& parts);
 
 }  // namespace grainreel

@@ -22,7 +22,7 @@ struct FreeParser {
 };
 using Parser = std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser>;
 
-// Makes the tree of expat's events.
+// Makes the tree from the events of expat.
 class Builder {
   public:
     Builder() : parser_(XML_ParserCreate(nullptr)) {
@@ -68,7 +68,7 @@ class Builder {
         XML_StopParser(parser_.get(), XML_FALSE);
     }
 
-    // The element that is open, deepest first.
+    // The innermost open element.
     XmlElement* innermost() { return open_.empty() ? nullptr : open_.back(); }
     void end_text() {
         if (XmlElement* element = innermost(); element != nullptr && !ended_) element->end = byte();
@@ -113,12 +113,12 @@ class Builder {
     }
 
     Parser parser_;
-    std::vector<XmlElement*> open_;  // the last child of each is the next one
-    bool ended_ = true;              // the text of the innermost one
+    std::vector<XmlElement*> open_;  // open elements; each is the last child of the one before it
+    bool ended_ = true;              // the text of the innermost one has ended
     std::string complaint_;
 };
 
-// Where the XML of the file ends: behind the opening tag of AppendedData, or at its end.
+// The end of the XML in the file: after the opening tag of AppendedData, or the end of the file.
 std::size_t end_of_xml(std::string_view bytes) {
     const std::size_t tag = bytes.find(appended_tag);
     if (tag == std::string_view::npos) return bytes.size();
@@ -193,7 +193,7 @@ std::string vtk_file_type(std::string_view head) {
     if (tag == std::string_view::npos) return {};
     const std::string_view words = head.substr(tag, head.find('>', tag) - tag);
     std::size_t at = words.find("type");
-    // header_type is another attribute.
+    // This must not find the attribute header_type.
     while (at != std::string_view::npos && words[at - 1] > ' ') at = words.find("type", at + 1);
     const std::size_t open = at == std::string_view::npos ? at : words.find_first_of("\"'", at);
     if (open == std::string_view::npos) return "unknown";

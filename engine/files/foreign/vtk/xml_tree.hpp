@@ -1,4 +1,5 @@
-// The elements of a VTK file in XML, with the places of their texts. The texts stay in the file's bytes.
+// Parses a VTK file in XML into a tree of elements with the places of their texts. The texts stay in the
+// file's bytes.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +15,30 @@ struct XmlElement {
     std::string name;
     std::vector<std::pair<std::string, std::string>> attributes;
     std::int64_t line = 0;
-    std::size_t begin = 0, end = 0;  // bytes of the text before its first child
+    std::size_t begin = 0, end = 0;  // place of its text before its first child
     std::vector<XmlElement> children;
 
-    // Empty where there is none.
+    // The value of an attribute; empty where there is none.
     std::string_view attribute(std::string_view name) const;
     bool has(std::string_view name) const;
-    // The first child of that name; null where there is none.
+    // The first child with that name; null where there is none.
     const XmlElement* child(std::string_view name) const;
 };
 
 struct XmlTree {
     XmlElement root;
     std::vector<std::string> comments;  // the first few of them
-    // What stands behind the "_" of AppendedData: bytes of the file. Equal where there is nothing.
+    // The bytes of the file after the "_" of AppendedData; both are equal where there are none.
     std::size_t appended_begin = 0, appended_end = 0;
     bool appended_base64 = false;
     bool cut_off = false;  // ends before its last element is closed
 };
 
-// Raw appended data are no XML: the file is cut there before it is parsed. Throws UserError with the line
-// where the XML is damaged. `may_end_early`: a file that ends within an element is taken as far as it goes.
+// Raw appended data are not XML, so only the part before them is parsed. Throws UserError with the line where
+// the XML is damaged. may_end_early: a file that ends within an element is used as far as it goes.
 XmlTree xml_tree(const std::filesystem::path& file, std::string_view bytes, bool may_end_early = false);
 
-// The type attribute of VTKFile near the beginning of a file, "PolyData"; empty where it is no such file.
+// The attribute `type` of VTKFile near the beginning of a file, "PolyData"; empty where it is no VTK file.
 std::string vtk_file_type(std::string_view head);
 
 }  // namespace grainreel
