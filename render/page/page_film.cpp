@@ -14,7 +14,7 @@
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
-#include "render/film/run/folder_film.hpp"
+
 #include "render/film/sampling/held_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/page/embed.hpp"

@@ -98,23 +98,4 @@ FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan);
 // without a text.
 void add_caption_of_change(FilmedScene& scene, double time, const std::string& text);
 
-// film_times.csv: which moment of the run each frame of its film shows.
-
-inline constexpr const char* kFilmTimes = "film_times.csv";
-
-class FilmTimesTable {
-  public:
-    // The next picture, which the film shows in so many frames.
-    void add(const Frame& picture, std::int64_t frames);
-    // Writes the times of the film's first `frames`. Throws RunError.
-    void write(const std::filesystem::path& path, std::int64_t frames) const;
-
-  private:
-    struct Row {
-        std::int64_t step = 0;
-        double time = 0;  // s
-    };
-    std::vector<Row> rows_;  // one a frame of the film
-};
-
 }  // namespace grainreel

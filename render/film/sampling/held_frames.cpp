@@ -1,6 +1,9 @@
 #include "render/film/sampling/held_frames.hpp"
 
+#include <fmt/format.h>
+
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "render/film/sampling/sampler.hpp"
 
 namespace grainreel {
@@ -28,6 +31,17 @@ std::int64_t poster_picture(const Film& film, double duration, const std::vector
     std::int64_t picture = 0;
     for (std::size_t i = 1; i < times.size() && times[i] - times.front() <= until; ++i) ++picture;
     return picture;
+}
+
+void FilmTimesTable::add(const Frame& picture, std::int64_t frames) {
+    rows_.insert(rows_.end(), static_cast<std::size_t>(frames), {picture.step, picture.time});
+}
+
+void FilmTimesTable::write(const std::filesystem::path& path, std::int64_t frames) const {
+    std::string text = "frame,step,time_s\n";
+    for (std::size_t k = 0; k < rows_.size() && static_cast<std::int64_t>(k) < frames; ++k)
+        text += fmt::format("{},{},{}\n", k, rows_[k].step, rows_[k].time);
+    replace_file(path, text);
 }
 
 }  // namespace grainreel

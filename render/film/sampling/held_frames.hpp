@@ -1,11 +1,14 @@
-// Where the film stands still so that a caption can be read.
+// From the pictures of a film to its frames: frames that are held so that a caption can be read, which frames
+// a part of the film has, and film_times.csv, which says what moment each frame shows.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
+#include "engine/frame.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -65,5 +68,23 @@ std::vector<FilmPart> film_parts(const Film& film, const std::vector<double>& ti
 
 // The picture that stands for the whole film, of those at these times. duration: s, of the run.
 std::int64_t poster_picture(const Film& film, double duration, const std::vector<double>& times);
+
+// The file that says which moment of the run each frame of its film shows.
+inline constexpr const char* kFilmTimes = "film_times.csv";
+
+class FilmTimesTable {
+  public:
+    // The next picture, which the film shows in so many frames.
+    void add(const Frame& picture, std::int64_t frames);
+    // Writes the times of the film's first `frames`. Throws RunError.
+    void write(const std::filesystem::path& path, std::int64_t frames) const;
+
+  private:
+    struct Row {
+        std::int64_t step = 0;
+        double time = 0;  // s
+    };
+    std::vector<Row> rows_;  // one a frame of the film
+};
 
 }  // namespace grainreel
