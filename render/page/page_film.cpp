@@ -15,7 +15,7 @@
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
 
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/page/bed/all_moments.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/page_parts.hpp"

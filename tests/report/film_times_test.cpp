@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/columns.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/page/page_film.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -13,8 +13,8 @@
 #include "render/app/check/print_plan.hpp"
 #include "render/app/estimate/cost_estimate.hpp"
 #include "render/film/codec/codec.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/film_limits.hpp"
-#include "render/film/sampling/held_frames.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

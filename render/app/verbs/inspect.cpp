@@ -28,7 +28,7 @@
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/answers/filmed_record.hpp"
 #include "render/film/answers/pictured_answer.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 
 namespace grainreel {
 namespace {

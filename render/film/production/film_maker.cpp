@@ -11,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "render/film/production/bounded_queue.hpp"
 #include "render/film/production/picture_files.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -13,7 +13,7 @@
 #include "engine/handover/carried_scene.hpp"
 #include "engine/handover/engine_job.hpp"
 #include "render/film/run/folder_film.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -11,7 +11,7 @@
 #include "engine/files/run_json.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "render/film/production/film_maker.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/scene/film.hpp"

@@ -10,8 +10,8 @@
 #include "engine/files/run_names.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "render/film/codec/film_writer.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/film_limits.hpp"
-#include "render/film/sampling/held_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
 #include "render/film/run/folder_film.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/scene_run.hpp"
 #include "render/scene/filmed_scene.hpp"

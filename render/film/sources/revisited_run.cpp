@@ -9,7 +9,7 @@
 #include "engine/base/team.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/measures_csv.hpp"
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/bed_periods.hpp"
 #include "render/film/sources/choice.hpp"

@@ -1,4 +1,4 @@
-#include "render/film/sampling/held_frames.hpp"
+#include "render/film/sampling/film_frames.hpp"
 
 #include <fmt/format.h>
 
