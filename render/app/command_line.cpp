@@ -14,7 +14,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/messages/result.hpp"
-#include "render/app/report/version.hpp"
+#include "render/app/messages/version.hpp"
 #include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {

@@ -5,8 +5,8 @@
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "render/app/foreign/run_to_read.hpp"
 #include "render/app/messages/result.hpp"
+#include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/report/record.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/compare/compare_run.hpp"
 

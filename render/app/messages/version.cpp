@@ -1,20 +1,20 @@
-#include "render/app/report/version.hpp"
+#include "render/app/messages/version.hpp"
 
 #include <cairo.h>
+#include <fmt/format.h>
 #include <hwy/highway.h>
 #include <microhttpd.h>
 #include <pango/pango.h>
 #include <png.h>
+#include <spdlog/version.h>
 #include <toml++/toml.h>
 #include <xxhash.h>
-
-#include <filesystem>
-
-#include <fmt/format.h>
-#include <spdlog/version.h>
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+
+#include "build_info.hpp"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -23,7 +23,6 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-#include "build_info.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
 
@@ -80,6 +79,14 @@ std::string version_text() {
     text += "libraries";
     for (const auto& [name, version] : library_versions()) text += fmt::format("\n  {:<15}{}", name, version);
     return text;
+}
+
+}  // namespace grainreel
+namespace grainreel {
+
+ProgramInfo program_info() {
+    return {build_info::version, build_info::commit, build_info::compiler, build_info::flags,
+            library_versions()};
 }
 
 }  // namespace grainreel

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/files/run_json.hpp"
+
 namespace grainreel {
 
 // Name and version of every library in use, shared ones as loaded.
@@ -15,5 +17,10 @@ std::string where_program_is();
 
 // Several lines: the program, where it is, its commit, compiler and libraries.
 std::string version_text();
+
+// What every run.json says of the program that wrote it.
+
+// Version, build and libraries.
+ProgramInfo program_info();
 
 }  // namespace grainreel
