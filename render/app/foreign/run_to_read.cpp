@@ -1,15 +1,20 @@
 #include "render/app/foreign/run_to_read.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
 
 #include "build_info.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_series.hpp"
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/option_groups.hpp"
 
 namespace grainreel {
 
@@ -47,6 +52,147 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     const ImportedRun run = cached_import(request);
     for (const std::string& line : run.news) reporter.info(line);
     return {run.folder, folder_around(path), true};
+}
+
+// Options for files of other programs.
+
+namespace {
+
+using Pair = std::pair<std::string, std::string>;
+
+std::string trimmed(const std::string& text) {
+    const std::size_t from = text.find_first_not_of(" \t"), to = text.find_last_not_of(" \t");
+    return from == std::string::npos ? "" : text.substr(from, to - from + 1);
+}
+
+// "a=b,c=d". Throws UserError for another form.
+std::vector<Pair> pairs_of(const std::string& option, const std::string& text, const char* example) {
+    std::vector<Pair> pairs;
+    std::size_t from = 0;
+    while (from <= text.size()) {
+        const std::size_t to = std::min(text.find(',', from), text.size());
+        const std::string one = text.substr(from, to - from);
+        const std::size_t equals = one.find('=');
+        const std::string name = trimmed(one.substr(0, equals));
+        const std::string value = equals == std::string::npos ? "" : trimmed(one.substr(equals + 1));
+        if (name.empty() || value.empty())
+            throw UserError(fmt::format("{} {}: '{}' is no pair NAME=VALUE; write it as in {} {}", option,
+                                        text, one, option, example));
+        pairs.emplace_back(name, value);
+        from = to + 1;
+    }
+    return pairs;
+}
+
+double positive(const std::string& option, const std::string& text, Dimension dimension,
+                const char* example) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool plain = error == std::errc() && end == text.data() + text.size();  // in SI
+    try {
+        if (!plain) value = parse_quantity(text, dimension, example);
+    } catch (const std::exception& problem) {
+        throw UserError(fmt::format("{} {}: {}", option, text, problem.what()));
+    }
+    if (!(value > 0))
+        throw UserError(fmt::format("{} {}: must be larger than 0, as in {}", option, text, example));
+    return value;
+}
+
+void set_columns(ReadingOptions& reading, const std::string& text) {
+    const std::vector<std::string> known = all_meanings();
+    for (const auto& [meaning, column] : pairs_of("--columns", text, "radius=c_rad,type=mol")) {
+        if (std::find(known.begin(), known.end(), meaning) == known.end())
+            throw UserError(fmt::format("--columns {}={}: there is no such meaning; there are {}", meaning,
+                                        column, fmt::join(known, ", ")));
+        reading.columns[meaning] = column;
+    }
+}
+
+void set_radius(ReadingOptions& reading, const std::string& text) {
+    if (text.find('=') == std::string::npos) {
+        reading.radius = positive("--radius", text, Dimension::length, "2 mm");
+        return;
+    }
+    for (const auto& [type, radius] : pairs_of("--radius", text, "1=2mm,2=5mm"))
+        reading.radius_of_type[type] = positive("--radius", radius, Dimension::length, "2 mm");
+}
+
+void set_units(ReadingOptions& reading, const std::string& text) {
+    if (!unit_system(text))
+        throw UserError(fmt::format("--units {}: there are no such units; there are {}", text,
+                                    fmt::join(unit_names(), ", ")));
+    reading.units = text;
+}
+
+void set_moves_with(ReadingOptions& reading, const std::string& text) {
+    if (text != "container" && text != "lab")
+        throw UserError(fmt::format("--moves-with {}: say container or lab", text));
+    reading.moves_with_container = text == "container";
+}
+
+}  // namespace
+
+void add_reading(CLI::App& verb, ReadingOptions& reading) {
+    const std::string group = "Files of other programs";
+    const auto add = [&](const char* flag, const char* type, const char* about, auto set) {
+        verb.add_option_function<std::string>(
+                flag,
+                [flag, set, &reading](const std::string& text) {
+                    check_typed(flag, text);
+                    set(reading, text);
+                },
+                about)
+            ->type_name(type)
+            ->group(group);
+    };
+    add("--columns", "MEANING=COLUMN,...",
+        "Which column says what, as in radius=c_rad,type=mol [known names]", set_columns);
+    add("--radius", "LENGTH", "Radius of the grains where the file has none: 2mm, or 1=2mm,2=5mm by type",
+        set_radius);
+    add("--time-step", "TIME", "Length of a step where the file has steps alone, as in 1us or 1e-6",
+        [](ReadingOptions& to, const std::string& text) {
+            to.time_step = positive("--time-step", text, Dimension::time, "1e-6");
+        });
+    add("--units", "NAME", "Units of the file: si, lj, cgs, micro, nano, real, metal [as it says, else si]",
+        set_units);
+    add("--species", "TYPE=NAME,...", "Names of the types, as in 1=small,2=big",
+        [](ReadingOptions& to, const std::string& text) {
+            for (const auto& [type, name] : pairs_of("--species", text, "1=small,2=big"))
+                to.species[type] = name;
+        });
+    add("--density", "DENSITY", "Density of the grains where the file has none [2500 kg/m3]",
+        [](ReadingOptions& to, const std::string& text) {
+            to.density = positive("--density", text, Dimension::density, "2500 kg/m3");
+        });
+    add("--contacts", "FILE", "Contacts of the same run: a file or a quoted pattern; may be repeated",
+        [](ReadingOptions& to, const std::string& text) { to.contacts.push_back(text); });
+    add("--walls", "FILE", "Walls: STL, OBJ, PLY, VTK, one or a series (quoted pattern); may be repeated",
+        [](ReadingOptions& to, const std::string& text) { to.walls.push_back(text); });
+    add("--walls-scale", "NUMBER", "Length of one unit of the walls' files in m, as in 0.001",
+        [](ReadingOptions& to, const std::string& text) {
+            to.walls_scale = positive("--walls-scale", text, Dimension::length, "0.001");
+        });
+    add("--container", "SCENE", "Scene of ours whose container, walls and drive stand around the grains",
+        [](ReadingOptions& to, const std::string& text) { to.container = text; });
+    add("--moves-with", "WHOM", "Places of the file are against: lab, or container [lab]", set_moves_with);
+    verb.add_flag("--one", reading.one, "This file alone, although it is one of a numbered series")
+        ->group(group);
+}
+
+std::string given_reading(const ReadingOptions& r) {
+    if (!r.columns.empty()) return "--columns";
+    if (r.radius || !r.radius_of_type.empty()) return "--radius";
+    if (r.time_step) return "--time-step";
+    if (!r.units.empty()) return "--units";
+    if (!r.species.empty()) return "--species";
+    if (r.density) return "--density";
+    if (!r.contacts.empty()) return "--contacts";
+    if (!r.walls.empty()) return "--walls";
+    if (r.walls_scale) return "--walls-scale";
+    if (!r.container.empty()) return "--container";
+    if (r.moves_with_container) return "--moves-with";
+    return r.one ? "--one" : "";
 }
 
 }  // namespace grainreel

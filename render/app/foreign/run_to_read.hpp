@@ -1,11 +1,10 @@
 // Runs as verbs take them: a run's folder of ours, or files of other programs, which are imported first.
 #pragma once
 
+#include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include <CLI/App.hpp>
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "render/app/messages/reporter.hpp"
