@@ -3,10 +3,10 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "render/app/foreign/run_to_read.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
+#include "render/app/options/run_to_read.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/compare/compare_run.hpp"
 

@@ -1,4 +1,4 @@
-#include "render/app/foreign/run_to_read.hpp"
+#include "render/app/options/run_to_read.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
