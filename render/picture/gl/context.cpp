@@ -19,8 +19,8 @@ void missing_function(const char* name) {
     throw RunError(fmt::format("the OpenGL library lacks {}; install one that offers OpenGL 3.3", name));
 }
 
-// Mesa's libraries share what is current on a thread without telling each other, so one lets go before
-// another takes hold.
+// Mesa's libraries share what is current on a thread without telling each other. So one context lets go
+// before another takes hold.
 void Context::make_current() {
     if (current && current != this) current->release();
     current = nullptr;
@@ -80,8 +80,8 @@ std::unique_ptr<Context> make_context(Provider provider, int raster_threads) {
 namespace grainreel::gl {
 namespace {
 
-// The few declarations of GL/osmesa.h that are used; that header would pull in the compatibility GL/gl.h,
-// which does not go together with the core header.
+// The few declarations of GL/osmesa.h that are used. That header itself would include the compatibility
+// header GL/gl.h, which does not go together with the core header.
 using OSMesaHandle = struct osmesa_context*;
 using CreateContextAttribs = OSMesaHandle (*)(const int* attributes, OSMesaHandle share);
 using MakeCurrent = unsigned char (*)(OSMesaHandle, void* buffer, GLenum type, GLsizei width, GLsizei height);
@@ -103,7 +103,7 @@ void find(void* handle, const char* name, Function& into) {
     if (!into) throw RunError(std::string("libOSMesa lacks ") + name + "; install Debian's libosmesa6");
 }
 
-// Opened once and never closed: LLVM inside it does not survive being unloaded.
+// The library is opened once and never closed, because LLVM inside it does not survive being unloaded.
 Library open_library() {
     void* handle = nullptr;
     for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6"})
@@ -152,7 +152,8 @@ class OSMesaContext final : public Context {
 
     const Library* library_ = nullptr;
     OSMesaHandle handle_ = nullptr;
-    // The default framebuffer, copied at every glFinish and so kept tiny: pictures go to framebuffer objects.
+    // The default framebuffer. It is copied at every glFinish and so kept tiny; pictures go to framebuffer
+    // objects.
     std::array<unsigned char, 4 * 4 * 4> dummy_{};
 };
 

@@ -1,4 +1,6 @@
-// An off-screen OpenGL core context. How it is made is the maker's business; drawing sees the function table.
+// An off-screen OpenGL core context, and the table of the OpenGL functions that drawing uses. Whoever makes a
+// context fills the table, and nothing links against a GL library, so that one binary serves every way of
+// getting a context. A function that drawing newly needs is added to GRAINREEL_GL_FUNCTIONS.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -8,9 +10,6 @@
 #include <vector>
 
 #include "render/picture/gl/provider.hpp"
-
-// The OpenGL functions that drawing uses, and no others, as a table that the context's maker fills: nothing
-// links against a GL library, so one binary serves every way of getting a context.
 
 namespace grainreel::gl {
 
@@ -100,13 +99,13 @@ class Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    // To be called on the one thread that draws, whenever another context may have been used in between:
-    // several contexts may live on one thread, also of different providers.
+    // Must be called on the one thread that draws, whenever another context may have been used in between.
+    // Several contexts may live on one thread, also of different providers.
     void make_current();
 
     const Functions& gl() const { return functions_; }
     std::string description() const;  // "EGL: ", then vendor, renderer and version
-    // Why this is not what one would have expected; mostly empty.
+    // Why this is not the context that one would have expected; mostly empty.
     const std::string& note() const { return note_; }
     void set_note(std::string note) { note_ = std::move(note); }
 
@@ -123,16 +122,16 @@ class Context {
     std::string note_;
 };
 
-// raster_threads >= 1: of Mesa's software rasteriser, which reads the number once a process, at the first
-// context: later values are without effect. All throw RunError when the library or the context is not to be
-// had.
+// raster_threads >= 1: threads of Mesa's software rasteriser. It reads the number once a process, at the
+// first context, and later values have no effect. All of these throw RunError when there is no library or no
+// context.
 
 // Mesa's software rasteriser through libOSMesa, opened at run time.
 std::unique_ptr<Context> make_osmesa_context(int raster_threads);
 
-// Through libEGL, opened at run time: a context on a device (EGL_EXT_platform_device: the first one that
-// gives it, a GPU where there is one), or without any (EGL_MESA_platform_surfaceless), in the order asked
-// for.
+// A context through libEGL, which is opened at run time. It is on a device (EGL_EXT_platform_device: the
+// first device that gives one, a GPU where there is one) or without any (EGL_MESA_platform_surfaceless), in
+// the order asked for.
 enum class EglPlatform { device, surfaceless };
 std::unique_ptr<Context> make_egl_context(int raster_threads,
                                           const std::vector<EglPlatform>& order = {EglPlatform::device,
@@ -140,7 +139,7 @@ std::unique_ptr<Context> make_egl_context(int raster_threads,
 
 std::unique_ptr<Context> make_context(Provider provider, int raster_threads);
 
-// For Mesa, before its first context is made.
+// Tells Mesa the number of threads, before its first context is made.
 void set_raster_threads(int raster_threads);
 
 }  // namespace grainreel::gl

@@ -1,3 +1,5 @@
+// OpenGL contexts through libEGL, which is opened at run time (context.hpp). This is a file of its own
+// because of the macros that EGL's headers want.
 #include <dlfcn.h>
 
 #define EGL_NO_PLATFORM_SPECIFIC_TYPES  // no X11
@@ -44,7 +46,8 @@ void find(void* handle, const char* name, Function& into) {
     if (!into) throw RunError(std::string("libEGL lacks ") + name + "; " + remedy);
 }
 
-// Opened once and never closed, as drivers with LLVM inside do not survive being unloaded.
+// The library is opened once and never closed, because drivers with LLVM inside do not survive being
+// unloaded.
 Library open_library() {
     void* handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!handle) throw RunError(std::string("libEGL.so.1 cannot be opened; ") + remedy);
@@ -61,7 +64,8 @@ Library open_library() {
     find(handle, "eglMakeCurrent", egl.make_current);
     const char* extensions = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     egl.extensions = extensions ? extensions : "";
-    // Addresses are asked for only where the extension is listed: eglGetProcAddress answers to any name.
+    // Addresses are asked for only where the extension is listed, because eglGetProcAddress gives one for any
+    // name.
     if (lists(egl.extensions, "EGL_EXT_platform_base"))
         egl.platform_display =
             reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(egl.address("eglGetPlatformDisplayEXT"));
@@ -99,8 +103,8 @@ class EglContext final : public Context {
   public:
     // Throws RunError when the display offers no OpenGL 3.3.
     explicit EglContext(EGLDisplay display) : Context("EGL"), egl_(library()), display_(display) {
-        // Contexts on one display share its initialization, so it is never terminated; once more does no
-        // harm.
+        // Contexts on one display share its initialization, so it is never terminated. To initialize it again
+        // does no harm.
         if (display == EGL_NO_DISPLAY || !egl_.initialize(display, nullptr, nullptr))
             throw RunError("a display does not initialize");
         try {
@@ -134,7 +138,7 @@ class EglContext final : public Context {
                                                    EGL_NONE};
         context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, version.data());
         if (context_ == EGL_NO_CONTEXT) throw RunError("a display offers no OpenGL 3.3 core context");
-        // A default framebuffer that nothing is drawn to, and so kept tiny.
+        // Nothing is drawn to the default framebuffer, so it is kept tiny.
         constexpr std::array<EGLint, 5> size = {EGL_WIDTH, 4, EGL_HEIGHT, 4, EGL_NONE};
         surface_ = egl_.create_surface(display_, config, size.data());
         if (surface_ == EGL_NO_SURFACE) throw RunError("a display offers no off-screen surface");

@@ -1,4 +1,4 @@
-// OpenGL objects that delete themselves. Each is used on the thread of its context only.
+// OpenGL objects that delete themselves. Each may be used only on the thread of its context.
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     void use() const { gl_.UseProgram(id_); }
-    // For a uniform of the program in use; unused ones are ignored, as OpenGL does.
+    // Set a uniform of the program, which must be in use. As in OpenGL, uniforms that it does not use are
+    // ignored.
     void set(const char* uniform, int value) const { gl_.Uniform1i(place(uniform), value); }
     void set(const char* uniform, float value) const { gl_.Uniform1f(place(uniform), value); }
     void set(const char* uniform, float x, float y) const { gl_.Uniform2f(place(uniform), x, y); }
@@ -36,7 +37,7 @@ struct TextureFormat {
     GLenum internal, format, type;
 };
 
-// A picture read texel by texel, without filtering; its contents are undefined at first.
+// A texture that is read texel by texel, without filtering. Its contents are undefined at first.
 class Texture {
   public:
     Texture(const Functions& gl, int width, int height, const TextureFormat& format);
@@ -70,7 +71,7 @@ class Framebuffer {
     GLuint id_ = 0;
 };
 
-// A vertex array without vertices of its own: attributes come from Buffer objects bound to it.
+// A vertex array. It has no vertices of its own: attributes come from Buffer objects that are bound to it.
 class VertexArray {
   public:
     explicit VertexArray(const Functions& gl) : gl_(gl) { gl_.GenVertexArrays(1, &id_); }

@@ -1,10 +1,10 @@
-// Who makes the off-screen OpenGL context.
+// Who makes the off-screen OpenGL context. The headers of films include this one and not those of OpenGL.
 #pragma once
 
 namespace grainreel::gl {
 
-// automatic: OSMesa, which gives the same picture on every machine; where it is not to be had (it left Mesa
-// with 25.1), EGL, and a note that says so.
+// automatic: OSMesa, which gives the same picture on every machine. Where there is none (Mesa dropped it
+// in 25.1) it is EGL, and a note says so.
 enum class Provider { automatic, osmesa, egl };
 
 }  // namespace grainreel::gl

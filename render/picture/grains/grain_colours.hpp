@@ -1,4 +1,5 @@
-// The quantity that colours the grains, grain by grain.
+// The colours of grains: the quantity of each grain, and the albedo that the colour map or the species gives
+// it. A new quantity is a GrainValue (render/scene/film.hpp) with a case in Quantities::of().
 #pragma once
 
 #include <array>
@@ -14,34 +15,34 @@ class Quantities {
   public:
     Quantities(const FilmedScene& scene, GrainValue by);
 
-    // Start heights are counted from this frame; without a call, from the first one that of() sees.
+    // Heights at the start are those of this frame. Without a call they are those of the first frame that
+    // of() sees.
     void start_from(const Frame& frame);
 
-    // SI, one a grain in the frame's order; NaN for a grain that has no value: it was not there at the start,
-    // or the frame lacks what the quantity needs (displacements before a period has passed). All NaN when
-    // coloured by species.
+    // SI: the value of each grain, in the frame's order. It is NaN for a grain that was not there at the
+    // start, where the frame lacks what the quantity needs (displacements before a period has passed), and
+    // where grains are coloured by species.
     const std::vector<double>& of(const Frame& frame);
 
   private:
-    double start_height_of(std::int32_t id) const;  // NaN when it was not there
+    double start_height_of(std::int32_t id) const;  // m; NaN when the grain was not there
     void count_touches(const Frame& frame, bool forces);
 
     const GrainValue by_;
     std::vector<double> density_;         // kg/m3, by species
     std::vector<std::int32_t> start_id_;  // rising; ids may be far apart
-    std::vector<double> start_height_;    // m, theirs
+    std::vector<double> start_height_;    // m, of the grains of start_id_
     std::vector<double> values_;
 };
-
-// The albedo of every grain: by species, or by a quantity through a colour map.
 
 using Albedo = std::array<float, 3>;  // linear light
 Albedo to_albedo(const Colour& colour);
 
-// The colour of grains whose quantity is unknown, and of the legend's when colours say something else than
-// the species.
+// The colour of grains whose quantity is unknown, and of the legend's grains where colours do not stand for
+// species.
 inline constexpr Colour neutral_grain{0.62, 0.62, 0.62};  // sRGB
 
+// The albedo of every grain: by species, or by a quantity through a colour map.
 class GrainColours {
   public:
     explicit GrainColours(const FilmedScene& scene);
@@ -49,7 +50,7 @@ class GrainColours {
     // See Quantities.
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
 
-    // One a grain, in the frame's order.
+    // The albedo of each grain, in the frame's order.
     const std::vector<Albedo>& of(const Frame& frame);
     // How many of the grains that it has coloured by a quantity lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }
@@ -63,7 +64,7 @@ class GrainColours {
     double low_ = 0, high_ = 1;  // SI
     bool banded_ = false, logarithmic_ = false;
     ClippedCount clipped_;
-    std::vector<Albedo> steps_;  // a species each; or along the colour map, or its bands
+    std::vector<Albedo> steps_;  // one for each species, or for each step of the colour map or band
     std::vector<Albedo> colours_;
 };
 

@@ -105,7 +105,7 @@ void SpherePainter::take(const View& view, const Frame& frame) {
     add_glued(view, frame);
 }
 
-// Grains glued to walls come behind all others, so that these keep their places.
+// Grains glued to walls come last, so that all others keep their places.
 void SpherePainter::add_glued(const View& view, const Frame& frame) {
     for (const GluedSpheres::Seen& seen : glued_.seen(view, frame)) {
         const Vec3 at = view.to_view(seen.centre);
@@ -117,7 +117,7 @@ void SpherePainter::add_glued(const View& view, const Frame& frame) {
     }
 }
 
-// The planes of the cut, which go with the container, in view coordinates.
+// Takes the planes of the cut, which go with the container, into view coordinates.
 void SpherePainter::open_bed(const View& view, const Frame& frame) {
     cut_.planes = 0;
     for (const HalfSpace& kept : kept_by_cut(look_.cut, frame))

@@ -1,4 +1,5 @@
-// The grains that are glued to walls, as they are drawn: in the colour of their species, greyer.
+// From the grains of a frame to a layer of lit spheres: the grains themselves, those glued to walls, and the
+// light.
 #pragma once
 
 #include <array>
@@ -16,6 +17,7 @@
 
 namespace grainreel {
 
+// The grains that are glued to walls. They are drawn in the colour of their species, but greyer.
 class GluedSpheres {
   public:
     explicit GluedSpheres(const FilmedScene& scene);
@@ -24,8 +26,8 @@ class GluedSpheres {
         Vec3 centre;    // m, where it is now
         double radius;  // m
     };
-    // Those at front, back, floor, lid and round walls only where the eye looks at the inner side: otherwise
-    // they would hide the bed.
+    // The glued grains that are drawn. At front, back, floor, lid and round walls these are only those whose
+    // wall the eye sees from inside; the others would hide the bed.
     std::vector<Seen> seen(const View& view, const Frame& frame) const;
     const Albedo& colour() const { return colour_; }
 
@@ -40,16 +42,13 @@ class GluedSpheres {
     Albedo colour_{};
 };
 
-// The three lights: studio, flat, dark.
-
-// colours_are_read: off a colour bar, so that light and shade may not stray far from them.
+// The light of a style: studio, flat or dark. colours_are_read: readers compare colours with a colour bar, so
+// light and shade may not change them much.
 Lamp lamp_of(const FilmLook& look, bool colours_are_read);
-
-// From a frame's grains to a layer of lit spheres.
 
 class SpherePainter {
   public:
-    // width, height: pixels of the port. ghosts: paint those of the scene's ghost species alone, where
+    // width, height: pixels of the port. ghosts: paint only grains of the scene's ghost species, where
     // nothing else stands before them; otherwise paint all grains that are taken.
     SpherePainter(const FilmedScene& scene, int width, int height, Team& team, bool ghosts);
 
@@ -61,19 +60,19 @@ class SpherePainter {
 
     const ClippedCount& clipped() const { return grain_colours_.clipped(); }
 
-    // One after the other.
+    // These are called one after the other.
     void take(const View& view, const Frame& frame);
     void find_visible(const SolidDepth& solid = {});
-    // Sight and cut of the frame that is taken.
+    // Sight and cut for the frame that is taken.
     const Sight& sight() const { return sight_; }
     const Cut& cut() const { return cut_; }
     const Visibility& visibility() const { return layer_.visibility(); }
-    // Walls as they were painted behind and before the grains.
+    // walls: as they were painted behind and before the grains.
     void find_order(const View& view, const ContainerShapes& walls);
     void find_neighbours();
     const Layer& light();
     double seen_share(std::size_t grain) const { return layer_.visibility().seen_share(grain); }
-    // Where the layers of walls are not right, and what is left of the one before the grains.
+    // The pixels where the layers of walls are not right.
     const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
 
   private:

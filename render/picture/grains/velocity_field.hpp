@@ -1,5 +1,6 @@
-// The grains' mean velocity in the y-z plane, all along the depth: momentum over mass by coarse-graining, as
-// fields.nc has it (engine/measure/fields), of the picture's moment or of the last period of the drive.
+// The mean velocity of the grains in the y-z plane, over the whole depth, at the picture's moment or over the
+// last period of the drive. It is momentum over mass by coarse-graining, as in fields.nc
+// (engine/measure/fields).
 #pragma once
 
 #include <functional>
@@ -15,9 +16,9 @@ namespace grainreel {
 // fine as `finest` (m), but not more cells than a picture has use for.
 FieldOutput picture_fields(const FilmedScene& scene, double width, double finest);
 
-// What coarse-graining takes of a frame: places from where the container is, velocities of the room. period:
-// displacements over a period in place of velocities; grains that were not there a period before are left
-// out, and all are while the frame has no displacements.
+// What coarse-graining takes of a frame: places relative to the container, and velocities in the lab. period:
+// takes displacements over a period in place of velocities. Grains that were not there a period before are
+// then left out, and all grains while the frame has no displacements.
 FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period);
 
 class VelocityField {
@@ -26,8 +27,8 @@ class VelocityField {
     VelocityField(const FilmedScene& scene, double width, bool period);
 
     void take(const Frame& frame);
-    // m/s, between cells by straight lines; none where fewer than three grains lie under the kernel. y, z: m,
-    // from the container.
+    // m/s, interpolated between cells; none where fewer than three grains lie under the kernel. y, z: m,
+    // relative to the container.
     std::optional<Vec3> at(double y, double z) const;
 
   private:

@@ -75,14 +75,14 @@ namespace {
 
 using PlanePoint = Eigen::Vector2d;
 
-// Unit vector of the flow; none where it stands still.
+// The unit vector of the flow; none where it stands still.
 std::optional<PlanePoint> direction(const PlaneVelocity& velocity, const PlanePoint& at) {
     const std::optional<PlanePoint> here = velocity(at);
     if (!here || here->norm() == 0) return std::nullopt;
     return *here / here->norm();
 }
 
-// A step along the flow, or against it when it is negative.
+// The place after a step along the flow; a negative step goes against it.
 std::optional<PlanePoint> next(const PlaneVelocity& velocity, const PlanePoint& at, double step) {
     const auto a = direction(velocity, at);
     if (!a) return std::nullopt;
@@ -124,11 +124,11 @@ namespace {
 
 constexpr double longest_arrow = 1.5;            // cells
 constexpr double streamline_reach = 1.5;         // distances of seeds, on either side of its own
-constexpr double slow = 0.1;                     // of the speed of full width: slower lines fade out
+constexpr double slow = 0.1;                     // of the speed of full width; slower lines fade out
 constexpr double thin = 0.6, thick = 2;          // widths of lines, pens
 const double side_over_width = std::sqrt(12.0);  // of a square and of its spread along one side
 
-// As wide as the mean over an arrow's cell; no narrower than half a grain.
+// m: the kernel is as wide as an arrow's cell, and no narrower than half a grain.
 double arrow_kernel(const FilmedScene& scene) {
     return std::max(0.5 * mean_diameter(scene), arrow_cell(scene) / side_over_width);
 }
@@ -192,7 +192,7 @@ void FlowMarks::draw_arrows(const View& view, const Frame& frame, Shapes& on) co
         }
 }
 
-// Seeds stand still in a staggered grid, so that lines change as gently as the flow does.
+// Seeds stand still in a staggered grid, so that the lines change as gently as the flow.
 void FlowMarks::draw_streamlines(const View& view, const Frame& frame, Shapes& on) const {
     const double side = seed_distance(scene_);
     const Extent extent = extent_of(scene_);
@@ -205,7 +205,7 @@ void FlowMarks::draw_streamlines(const View& view, const Frame& frame, Shapes& o
                             on);
 }
 
-// Thin where it begins, with a head where it ends; wide where the flow is fast.
+// A streamline is thin where it begins, has a head where it ends, and is wide where the flow is fast.
 void FlowMarks::draw_streamline(const View& view, const Frame& frame, const Eigen::Vector2d& seed,
                                 Shapes& on) const {
     const double side = seed_distance(scene_), full = scene_.film.shows.streamlines.speed;

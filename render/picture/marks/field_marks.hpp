@@ -1,5 +1,5 @@
-// A quantity of the grains as a coloured layer before them: its mean over the depth by coarse-graining,
-// weighted by mass (engine/measure/fields). The layer stands in the container's front face.
+// Marks that show fields of the grains by coarse-graining (engine/measure/fields): a coloured layer of a
+// quantity, and arrows and streamlines of the mean velocity.
 #pragma once
 
 #include <functional>
@@ -19,6 +19,8 @@
 
 namespace grainreel {
 
+// A quantity of the grains as a coloured layer before them: its mean over the depth, weighted by mass. The
+// layer stands in the container's front face.
 class FieldLayer {
   public:
     explicit FieldLayer(const FilmedScene& scene);
@@ -33,17 +35,15 @@ class FieldLayer {
 
     const FilmedScene& scene_;
     const FieldGrid grid_;
-    const std::vector<double> shares_;  // of each cell that are inside the container
+    const std::vector<double> shares_;  // the share of each cell that is inside the container
     Footprint footprint_;
     Quantities quantities_;
     ColourScale scale_;
     ClippedCount clipped_;
-    std::vector<double> solid_, mass_, sum_;  // in each cell: solid fraction, kg/m3, and that times the mean
+    std::vector<double> solid_, mass_, sum_;  // of each cell: solid fraction, kg/m3, and kg/m3 times the mean
 };
 
-// A piece of a streamline of a plane velocity field.
-
-// m/s at a place (y, z), m; none where there is no flow to speak of.
+// The velocity (m/s) at a place (y, z), m; none where there is no flow to speak of.
 using PlaneVelocity = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)>;
 
 struct StreamPoint {
@@ -51,21 +51,20 @@ struct StreamPoint {
     double speed;        // m/s
 };
 
-// Through `seed`, along the flow, up to `reach` (m) on either side of it; shorter where the field ends or
-// stands still. Of points `step` (m) apart, by the fourth order method of Runge and Kutta in arc length.
-// Empty where the seed has no velocity.
+// A piece of a streamline through `seed`, up to `reach` (m) on either side of it; it is shorter where the
+// field ends or stands still, and empty where the seed has no velocity. Its points are `step` (m) apart, by
+// the fourth order method of Runge and Kutta in arc length.
 std::vector<StreamPoint> streamline(const PlaneVelocity& velocity, const Eigen::Vector2d& seed, double reach,
                                     double step);
 
-// Arrows and streamlines of the grains' mean velocity.
-
-// m: side of an arrow's cell.
+// m: the side of an arrow's cell.
 double arrow_cell(const FilmedScene& scene);
-// m an arrow is long for each m/s.
+// m: the length of an arrow for each m/s.
 double arrow_scale(const FilmedScene& scene);
-// Pixels, of a line where the flow has the speed of full width or more.
+// Pixels: the width of a streamline where the flow has the speed of full width or more.
 double widest_streamline(int picture_height);
 
+// Arrows and streamlines of the mean velocity.
 class FlowMarks {
   public:
     FlowMarks(const FilmedScene& scene, const Palette& palette);

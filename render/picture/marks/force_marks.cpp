@@ -20,7 +20,7 @@ constexpr double along_sight = 0.25;     // of the length in space that is seen,
 
 constexpr double room = 10;  // pens, from a grain's centre to the ends of arrows at the least
 
-// Pixels by which what points at a grain's surface is moved outwards.
+// Pixels by which an arrow at a grain's surface is moved outwards.
 Pixel moved_outwards(const View& view, const PointForce& force, double pen) {
     if (!force.centre) return Pixel(0, 0);
     const Pixel out = view.project(force.at) - view.project(*force.centre);
@@ -94,7 +94,7 @@ constexpr double grazing = 0.05;                           // sine of 3 degrees
 constexpr double packing = 0.55;
 constexpr double face_on = 0.7;  // cosine: of walls that are looked at, forces point at the eye
 
-// x, y and z of the last row; NaN where there is no such row or column.
+// The vector whose components are three columns of the last row; NaN where there is no such row or column.
 Vec3 last_vector(const Frame& frame, const std::string& name, const std::string& unit) {
     Vec3 vector = Vec3::Constant(std::nan(""));
     const std::vector<std::string>& columns = frame.measures->columns();
@@ -109,7 +109,8 @@ Vec3 last_vector(const Frame& frame, const std::string& name, const std::string&
     return vector;
 }
 
-// All around a cylinder's wall: half way up the bed, where the picture has the wall's edge.
+// The force on a cylinder's wall acts all around it. Its arrow stands half way up the bed, at the wall's edge
+// in the picture.
 Vec3 beside_bed(const FilmedScene& scene, const Face& wall) {
     return {0, wall.radius, 0.5 * fill_height(scene, packing)};
 }
@@ -120,7 +121,7 @@ double wall_force_scale(const FilmedScene& scene) {
     return usual_arrow * extent_of(scene).size().y() / scene.film.shows.wall_forces.scale;
 }
 
-// A moment M = r x F leaves r open along F: r = F x M / F^2 + s F.
+// A moment M = r x F does not tell where r lies along F: r = F x M / F^2 + s F.
 std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const Vec3& moment) {
     const double across = force.dot(plane.normal);
     if (!(std::abs(across) >= grazing * force.norm()) || force.isZero(0)) return std::nullopt;

@@ -1,4 +1,4 @@
-// An arrow over the grains, on a border of the background's colour so that it reads on any grain.
+// Arrows over the grains: of forces at points of a body, and of the mean force of the grains on each wall.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,7 @@ struct ArrowStyle {
     double pen;    // pixels, of the border
 };
 
+// Draws an arrow on a border of the background's colour, so that it can be seen on any grain.
 inline void draw_arrow(Shapes& on, const Pixel& tail, const Pixel& tip, const ArrowStyle& style) {
     const double length = (tip - tail).norm();
     if (length < 1) return;
@@ -34,37 +35,35 @@ inline void draw_arrow(Shapes& on, const Pixel& tail, const Pixel& tip, const Ar
     on.line(corners, true, 0.5 * style.pen, {style.colour, 1});
 }
 
-// Forces on a body, each an arrow at the point where it acts.
-
-// Pixels of the arrow of the strongest force.
+// Pixels: the length of the arrow of the strongest force.
 double longest_force_arrow(const View& view);
 
-// Where the arrows lie in the picture. Lengths are proportional to the forces, but for weak ones, which stay
-// long enough to be seen. Where a grain is so small in the picture that heads would hide it and each other,
-// arrows are moved away from its centre. A force along the line of sight has a length near 0.
+// The arrow of a force in the picture. Lengths are proportional to the forces, except that arrows of weak
+// forces stay long enough to be seen. Where a grain is so small that heads would hide it and each other,
+// arrows are moved away from its centre. The arrow of a force along the line of sight has a length near 0.
 struct ForceArrow {
     Pixel tail, tip;
     double share;     // of the strongest force
-    bool at_eye;      // it points towards the eye
-    double in_space;  // pixels, if it lay across the line of sight
+    bool at_eye;      // the force points towards the eye
+    double in_space;  // pixels: its length if it lay across the line of sight
 };
 std::vector<ForceArrow> force_arrows(const View& view, const std::vector<PointForce>& forces, double pen);
 
-// A force along the line of sight is a circle: with a point where it comes towards the eye, with a cross
-// where it goes away. pen: pixels, of the border.
+// Draws forces on a body, each as an arrow at the point where it acts. A force along the line of sight is a
+// circle, with a point where it comes towards the eye and a cross where it goes away. pen: pixels, of the
+// border.
 void draw_point_forces(const View& view, const std::vector<PointForce>& forces, const Palette& palette,
                        double pen, Shapes& on);
 
-// Arrows of the mean force of the grains on each wall, as the last row of measures has it (instrument
-// `walls`). An arrow's tip is where the force acts on the wall.
-
-// m an arrow is long for each N.
+// m: the length of a wall force's arrow for each N.
 double wall_force_scale(const FilmedScene& scene);
 
-// Where the line of action of a force crosses a plane. moment: N m, about the origin. None where the force
-// runs along the plane: within 3 degrees.
+// The point where the line of action of a force crosses a plane; none where the force runs along the plane
+// within 3 degrees. moment: N m, about the origin.
 std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const Vec3& moment);
 
+// Arrows of the mean force of the grains on each wall, from the last row of measures (instrument `walls`). An
+// arrow's tip is where the force acts on the wall.
 class WallForceMarks {
   public:
     WallForceMarks(const FilmedScene& scene, const Palette& palette);
@@ -73,7 +72,7 @@ class WallForceMarks {
   private:
     struct Wall {
         Face face;
-        std::string name;  // as columns have it
+        std::string name;  // as in the names of columns
     };
     void draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const;
 

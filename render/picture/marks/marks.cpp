@@ -31,26 +31,26 @@ bool Trails::chosen(std::int32_t id, std::int32_t species) const {
 }
 
 void Trails::take(const Frame& frame) {
-    if (!moments_.empty() && frame.time == moments_.front().time) return;
-    if (!moments_.empty() && frame.time < moments_.front().time) moments_.clear();
-    Moment now{frame.time, {}, {}};
+    if (!past_.empty() && frame.time == past_.front().time) return;
+    if (!past_.empty() && frame.time < past_.front().time) past_.clear();
+    PastFrame now{frame.time, {}, {}};
     for (std::size_t i = 0; i < frame.size(); ++i) {
         if (!chosen(frame.id[i], frame.species[i])) continue;
         now.id.push_back(frame.id[i]);
         now.at.push_back(frame.position[i]);
     }
-    moments_.push_front(std::move(now));
+    past_.push_front(std::move(now));
     const double oldest = frame.time - duration_ * (1 + 1e-9);
-    while (moments_.back().time < oldest) moments_.pop_back();
+    while (past_.back().time < oldest) past_.pop_back();
 }
 
 std::vector<std::vector<Trails::Point>> Trails::paths() const {
     std::vector<std::vector<Point>> paths;
-    if (moments_.empty()) return paths;
-    const Moment& now = moments_.front();
+    if (past_.empty()) return paths;
+    const PastFrame& now = past_.front();
     for (const std::int32_t id : now.id) {
         std::vector<Point> path;
-        for (const Moment& moment : moments_) {
+        for (const PastFrame& moment : past_) {
             const auto found = std::lower_bound(moment.id.begin(), moment.id.end(), id);
             if (found == moment.id.end() || *found != id) break;
             const Vec3& at = moment.at[static_cast<std::size_t>(found - moment.id.begin())];
@@ -147,8 +147,8 @@ void Marks::draw_trails(const View& view, Shapes& on) const {
     }
 }
 
-// Those chosen by id wherever they are, those of a condition where they are seen: in a bed that is full of
-// them rings around buried grains would lie around others.
+// Grains chosen by id get rings wherever they are. Grains that a condition chooses get rings only where they
+// are seen: in a bed full of them, rings around buried grains would seem to belong to others.
 void Marks::draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
     constexpr double kHidden = 0.02, kPlain = 0.2;  // shares, between which a ring fades in
     const FilmShows& look = scene_.film.shows;
@@ -173,17 +173,17 @@ void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, dou
     outlined(on, circle_corners(middle, radius, corners), true, 2 * pen_, palette_.accent, strength);
 }
 
-// What the marks over the grains mean.
+// The legend: what the marks over the grains mean.
 
 namespace {
 
-// With a space that no line breaks at.
+// A value with its unit, and between them a space at which no line breaks.
 std::string quantity_text(double value, Dimension dimension) {
     const std::string unit = fitting_unit(value * 1.0000001, dimension);
     return fmt::format("{:.3g}\u00a0{}", value / unit_size(unit, dimension), unit);
 }
 
-// Entries below each other: a sample of a mark, and its words beside it.
+// Entries below each other, each a sample of a mark with its words beside it.
 class MarksLegend {
   public:
     MarksLegend(const Writer& writer, double x, double y, double wrap)
@@ -198,7 +198,7 @@ class MarksLegend {
     double pen() const { return pen_; }
     double height() const { return height_ > 0 ? height_ - gap_ : 0; }
 
-    // A straight line of that width.
+    // An entry for a straight line of this width.
     void line(const Colour& colour, double width, const std::string& words) {
         entry(icon_, words, [&](double middle) { draw_line(colour, icon_, width, middle); });
     }
@@ -210,7 +210,7 @@ class MarksLegend {
             cairo_stroke(writer_.on);
         });
     }
-    // An arrow of a round value, whose unit is so many pixels long.
+    // An entry for an arrow of a round value. pixels: the length of one SI unit.
     void arrow(double pixels, Dimension dimension, const Colour& colour, double width,
                const std::string& words) {
         const double most = 0.28 * wrap_;
@@ -227,7 +227,7 @@ class MarksLegend {
     }
 
   private:
-    // sample(middle) draws, as wide as `reach`.
+    // sample(middle) draws a sample at this height, as wide as `reach`.
     template <class Sample>
     void entry(double reach, const std::string& words, const Sample& sample) {
         const double indent = std::max(reach, icon_) + gap_, text_wrap = std::max(1.0, wrap_ - indent);

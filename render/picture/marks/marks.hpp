@@ -1,4 +1,6 @@
-// Where chosen grains have been in the frames drawn lately.
+// What is drawn over the grains, and the legend that explains it: a field, lines of force, trails, arrows and
+// streamlines of the flow, forces on walls, and rings around chosen grains. A new kind of mark is drawn in
+// Marks::draw() and explained in marks_block().
 #pragma once
 
 #include <cstdint>
@@ -18,23 +20,25 @@
 
 namespace grainreel {
 
+// Where chosen grains have been in the last frames.
 class Trails {
   public:
     explicit Trails(const FilmedScene& scene);
 
-    // Frames in the order of time; one that is seen again adds nothing, one from before starts anew.
+    // Takes frames in the order of time. A frame that is taken again adds nothing, and an earlier one starts
+    // the trails anew.
     void take(const Frame& frame);
 
     struct Point {
         double age;  // 0: now, 1: as old as trails get
         Vec3 at;     // m
     };
-    // One a grain, the newest point first; broken where a grain left through a periodic wall and came back
-    // at the other.
+    // The path of each grain, with the newest point first. It ends where a grain left through a periodic wall
+    // and came back at the other.
     std::vector<std::vector<Point>> paths() const;
 
   private:
-    struct Moment {
+    struct PastFrame {
         double time;
         std::vector<std::int32_t> id;  // rising
         std::vector<Vec3> at;
@@ -44,16 +48,14 @@ class Trails {
     std::vector<bool> species_;
     std::vector<std::int32_t> grains_;
     double duration_, longest_jump_;
-    std::deque<Moment> moments_;  // the newest first
+    std::deque<PastFrame> past_;  // the newest first
 };
 
-// What is drawn over the grains: a field, lines of force, trails, arrows and streamlines of the flow, forces
-// on walls, rings around chosen grains.
-
 bool has_marks(const FilmShows& look);
-// N of a contact whose line is as wide as lines of force get.
+// N: from this force on, the line of a contact has its full width.
 double widest_force(const FilmedScene& scene);
-double widest_line(int picture_height);  // pixels
+// Pixels: that width.
+double widest_line(int picture_height);
 
 class Marks {
   public:
@@ -61,11 +63,11 @@ class Marks {
 
     // See Renderer.
     void start_from(const Frame& frame);
-    // For trails; frames that are drawn need not be remembered.
+    // Takes a frame for the trails that is not drawn.
     void remember(const Frame& frame);
     // The share of a grain of the frame that is seen.
     using SeenShare = std::function<double(std::size_t grain)>;
-    // Adds them to what is to be painted after the grains. Frames come in the order of time.
+    // Adds the marks to the shapes that are painted after the grains. Frames come in the order of time.
     void draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
     // How many of the field's cells lie beyond the ends of the colour bar.
     ClippedCount clipped() const { return field_ ? field_->clipped() : ClippedCount(); }
@@ -75,7 +77,7 @@ class Marks {
     void draw_trails(const View& view, Shapes& on) const;
     void draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
     void draw_ring(const View& view, const Vec3& at, double radius, double strength, Shapes& on) const;
-    // A line on a wider one of the background's colour, so that it reads on any grain.
+    // Draws a line on a wider one of the background's colour, so that it can be seen on any grain.
     void outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,
                   const Colour& colour, double strength = 1) const;
 

@@ -1,4 +1,4 @@
-// Where the panels go, and how large a metre is.
+// Where the panels lie, and how large a metre is (panels.hpp).
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double most_unlike = 3;  // scales of the panels, beyond which each has its own
 
-// Plots of one panel: under its port in rows, or in a column beside it, where wide panels have room.
+// The plots of one panel: in rows under its port, or in a column beside it where panels are wide.
 enum class PlotsAt { none, below, beside };
 struct PlotGrid {
     PlotsAt at = PlotsAt::none;
@@ -20,9 +20,9 @@ struct PlotGrid {
 };
 
 constexpr double most_upright = 0.75;  // height of a plot over its width
-// Words above and below the curves of a plot take so many sizes of minor letters.
+// The height of the words above and below the curves of a plot, in sizes of minor letters.
 constexpr double words_high = 5;
-// Pixels of a plot. Curves need as many whatever the size of the letters is.
+// Pixels: the least height and width of a plot. The curves need as many whatever the size of the letters is.
 double least_high(double minor) {
     constexpr double usual = 7.5, curves = 48;
     return std::max(usual * minor, words_high * minor + curves);
@@ -32,7 +32,7 @@ double least_wide(double minor) {
     return std::max(usual * minor, least_high(minor) / most_upright);
 }
 
-// None where they would be too small, or leave too little to the grains.
+// There are no plots where they would be too small or leave too little room for the grains.
 PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width, int height, PlotsAt at) {
     constexpr double usual_height = 0.2, usual_width = 0.3, most = 0.45;  // of a panel: one plot, all of them
     std::size_t most_plots = 0;
@@ -43,8 +43,8 @@ PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width
     PlotGrid grid{at, 1, count, 0, 0};
     if (at == PlotsAt::beside) {
         grid.width = static_cast<int>(std::max(least_wide(minor), usual_width * width));
-        // Height is free beside the port: there the curves alone are as upright as a plot may be, not the
-        // curves with their words.
+        // Beside the port there is height to spare. So there the curves alone are as upright as a plot may
+        // be, and the words come on top.
         grid.taller = static_cast<int>(words_high * minor);
         return grid.width <= most * width ? grid : PlotGrid();
     }
@@ -71,7 +71,7 @@ struct PanelSize {
     int x = 0, width = 0, port = 0;  // port: its height
 };
 
-// The parts of a panel whose caption begins at y, from there down.
+// Puts the parts of a panel below each other, from y down.
 void stack(PanelLayout::Place& place, int y, const PanelSize& size, const WordHeights& words,
            const PlotGrid& grid, std::size_t plots, int gap) {
     const auto next = [&](double height) {
@@ -96,7 +96,7 @@ int around_port(const WordHeights& words, const PlotGrid& grid) {
     return static_cast<int>(height);
 }
 
-// What a grid of these columns gives: ports, and the scales they would have by themselves.
+// A grid with so many columns.
 struct Planned {
     PanelLayout layout;
     PlotGrid plots;
@@ -121,7 +121,7 @@ Planned grid(const std::vector<Panel>& panels, const Film& film, const WordHeigh
         const FilmedScene& scene = panels[static_cast<std::size_t>(i)].scene;
         const int row = i / columns, in_row = std::min(columns, count - row * columns);
         PanelLayout::Place place;
-        // The last row may be shorter: it stands in the middle.
+        // The last row may be shorter, and then stands in the middle.
         const int x = (film.width - in_row * width - (in_row - 1) * margin / 2) / 2 +
                       (i % columns) * (width + margin / 2);
         place.zoom = scene.film.camera.zoom;
@@ -140,7 +140,7 @@ double own_scale(const Panel& panel, const PanelLayout::Place& place) {
     return framed_scale(scene, bare_layout(scene.film));
 }
 
-// Gives all panels one scale where they can have one; returns what the grid is worth.
+// Gives all panels one scale where they can have one. Returns the scale, by which grids are compared.
 double set_scales(const std::vector<Panel>& panels, PanelLayout& layout) {
     if (layout.places.empty()) return 0;
     layout.scale = 0;
@@ -157,7 +157,7 @@ double set_scales(const std::vector<Panel>& panels, PanelLayout& layout) {
     return layout.scale;
 }
 
-// Pixels, from the highest to the lowest point that has to be seen.
+// Pixels from the highest to the lowest point that has to be seen in a panel.
 double seen_height(const Panel& panel, const PanelLayout::Place& place) {
     FilmedScene scene = panel.scene;
     scene.film.width = place.port.width;
@@ -166,8 +166,9 @@ double seen_height(const Panel& panel, const PanelLayout::Place& place) {
     return framed_height(scene, bare_layout(scene.film));
 }
 
-// Where panels are narrow, the room above and below their containers goes out of the ports: to plots below,
-// and beside the panels, so that captions and legends stand close to what they speak of.
+// Where panels are narrow, takes the room above and below their containers out of the ports. It goes to the
+// plots below and to the space around the panels, so that captions and legends stand close to their
+// containers.
 void close_up(const std::vector<Panel>& panels, const Film& film, const WordHeights& words,
               Planned& planned) {
     constexpr double most_plots = 0.4;  // of a panel
@@ -200,7 +201,7 @@ void close_up(const std::vector<Panel>& panels, const Film& film, const WordHeig
     set_scales(panels, layout);
 }
 
-// Columns, rows and the place of plots such that the grains become as large as can be.
+// The columns, rows and place of plots with which the grains become as large as can be.
 Planned best_grid(const std::vector<Panel>& panels, const Film& film, const WordHeights& words,
                   const std::vector<PlotsAt>& plots) {
     Planned best;
@@ -212,7 +213,7 @@ Planned best_grid(const std::vector<Panel>& panels, const Film& film, const Word
             const auto count = static_cast<double>(panels.size());
             const double full = count / (columns * std::ceil(count / columns));
             const double value = set_scales(panels, planned.layout) * std::pow(full, 0.25);
-            if (value <= 1.02 * best_value) continue;  // among equals the one with fewer rows
+            if (value <= 1.02 * best_value) continue;  // of equal grids the one with fewer rows is kept
             best_value = value;
             best = std::move(planned);
         }

@@ -16,7 +16,8 @@ namespace {
 constexpr double longest_bar = 0.14, common_colour_bar = 0.2, common_marks = 0.17;
 constexpr int pace_lines = 4;
 
-// Only what holds for all panels; the rest is in their captions. frame: null to measure the longest.
+// Writes of the drive only what holds for all panels; the rest is in their captions. frame: null to measure
+// the longest lines.
 TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Common& common,
                       const Frame* frame, double x, double y) {
     if (!scene.film.word_kinds.drive) return {};
@@ -48,8 +49,8 @@ WordBlock dial(const Writer& measure, const Drive& drive) {
             }};
 }
 
-// Those of which all panels say the same, and the others. scale: pixels a metre, 0 where panels have their
-// own.
+// The marks that mean the same in all panels, and the others. scale: pixels a metre; 0 where panels have
+// scales of their own.
 MarkKinds common_marks_of(const Common& common, double scale) {
     MarkKinds kinds = common.marks;
     kinds.arrows = kinds.arrows && scale > 0;
@@ -73,7 +74,7 @@ WordBlock playback_block(const Writer& measure, const Film& film) {
         }};
 }
 
-// What all scenes say at that time, in a row of its own.
+// The captions that all scenes have, in a row of their own.
 WordBlock captions_block(const Writer& measure, const Film& film, double width) {
     constexpr int lines = 3;
     const double inner = width - 2 * measure.type.margin;
@@ -144,7 +145,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
              }});
     }
     if (scale > 0 && kinds.scale) {
-        // As wide as it may get: the row it stands in must not depend on the scale.
+        // The block is as wide as the bar may get, since the rows must not depend on the scale.
         const double longest = longest_bar * width;
         blocks.push_back({{longest, scale_block(measure, scale, 0, 0, longest).height},
                           false,
@@ -166,7 +167,7 @@ double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width)
             used += gap + blocks[next].size.width;
             height = std::max(height, blocks[next].size.height);
         }
-        // The row stands in the middle, its blocks a little apart where there is room.
+        // The row stands in the middle. Its blocks are a little apart where there is room.
         const auto gaps = static_cast<double>(next - first - 1);
         const double more = gaps > 0 ? std::min((inner - used) / gaps, 3 * type.main) : 0;
         double x = type.margin + 0.5 * (inner - used - gaps * more);

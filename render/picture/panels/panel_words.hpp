@@ -1,4 +1,5 @@
-// The words around panels that stand side by side: blocks that flow in rows, some of which change with time.
+// The words and plots around panels that stand side by side. Words are blocks that flow in rows; some change
+// with time.
 #pragma once
 
 #include <functional>
@@ -20,36 +21,36 @@ struct WordBlock {
     TextSize size;
     bool changes = false;
     Draw draw;
-    double x = 0, y = 0;  // pixels, of the top left corner; where flow() has put it
+    double x = 0, y = 0;  // pixels: the top left corner, which flow() sets
 };
 
-// Captions of time, clock, dial, playback, drive, legend, colour bar, what marks mean, and scale bar, as far
-// as they are common. scale: pixels a metre; 0 where panels have their own.
+// The blocks that hold for all panels: captions of time, clock, dial, playback, drive, legend, colour bar,
+// what marks mean, and scale bar. scale: pixels a metre; 0 where panels have scales of their own.
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
                                      const Common& common, double scale, double width);
 
-// Puts blocks in rows across the width; returns the height they take, margins included.
+// Puts blocks in rows across the width. Returns the height that they take with their margins.
 double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width);
 
-// Height of the live words under panels of this width; 0 for none.
+// The height of the live words under panels of this width; 0 for none.
 double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width);
 
-// Height of what is said of time over each panel; 0 where it is common.
+// The height of what is said of time over each panel; 0 where that is common.
 double pace_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
                    double width);
-// What is said of time over one of them.
+// Writes what is said of time over one panel.
 TextSize pace_block(const Writer& writer, const std::string& words, double width);
-// A panel's caption: its first line strong, others below it.
+// Writes a panel's caption: a strong first line, and the others below it.
 TextSize caption_block(const Writer& writer, const std::string& caption, double width);
-// In the middle of the width, each of its lines by itself.
+// Writes a text whose lines stand in the middle of the width.
 TextSize write_in_middle(const Writer& writer, const std::string& text, const TextStyle& style,
                          const Colour& colour, double width, int lines);
 
-// Height of a legend, a scale bar, a colour bar and the meaning of marks that belong to one panel alone;
-// `scales`: bars for each.
+// The height of legend, scale bar, colour bar and the meaning of marks where they belong to one panel alone.
+// scales: whether each panel has a scale bar.
 double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common, bool scales,
                    double width);
-// scale: pixels a metre in the panel. bar: with a scale bar.
+// Writes these. scale: pixels a metre in the panel. bar: whether there is a scale bar.
 void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, bool bar,
                double width);
 

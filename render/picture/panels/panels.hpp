@@ -1,5 +1,5 @@
-// Several scenes beside each other in one picture: what they have in common, where each goes, and how large
-// a metre is.
+// Several scenes beside each other in one picture, a panel each: what they have in common (panels.cpp), where
+// each of them lies and how large a metre is (panel_grid.cpp).
 #pragma once
 
 #include <string>
@@ -11,72 +11,71 @@
 namespace grainreel {
 
 struct Panel {
-    FilmedScene scene;  // with its own camera, and what its film shows; of its film nothing else counts
+    FilmedScene scene;  // of its film only the camera and what it shows count
     std::string caption;
-    std::vector<std::string> playback = {};  // what is said of time in each segment of the whole
+    std::vector<std::string> playback = {};  // what is said of time in each segment of the film
 };
 
-// Kinds of what is drawn over the grains, and has to be explained.
+// The kinds of marks over the grains, which have to be explained.
 struct MarkKinds {
     bool arrows = true, streamlines = true, wall_forces = true;
     bool trails = true, chains = true, rings = true;
 };
-// With those marks alone.
+// The scene with these kinds of marks alone.
 FilmedScene marked_by(FilmedScene scene, const MarkKinds& kinds);
 
-// What is the same in all panels, and so is said once.
+// What is the same in all panels and is therefore said once.
 struct Common {
-    bool clock = true;  // one frequency, phase and ramp: one dial shows all cycles
-    bool frequency = true, g_level = true, amplitude = true;  // of drives that all have
+    bool clock = true;  // one frequency, phase and ramp, so that one dial shows all cycles
+    bool frequency = true, g_level = true, amplitude = true;  // all have drives that agree in this
     bool species = true;
     bool exaggerated = true;  // by one factor
     bool colours = true;      // one colour bar, or none
-    MarkKinds marks;          // that mean the same; arrows only where a metre is equally long, too
+    MarkKinds marks;          // kinds that mean the same everywhere; arrows also want one scale
     bool playback = true;
     bool captions = true;  // of time (film.caption), with at least one
 };
 Common common_of(const std::vector<Panel>& panels);
 
-// Without what is common and written in the panels otherwise: captions of time.
+// The panels without captions of time that are common and so are not written in each panel.
 std::vector<Panel> without_common(std::vector<Panel> panels, const Common& common);
 
-// What tells the scenes apart, shortest first: frequency, g level or amplitude of their drives; or their
-// titles, with the drives where these differ too; or their names.
+// Words that tell the scenes apart. They are the shortest of these that differ: frequency, g level or
+// amplitude of the drives; the titles, with the drives where these differ too; the names.
 std::vector<std::string> captions_of(const std::vector<FilmedScene>& scenes);
 
-// One range of colours for panels that show the same quantity, as wide as the widest of theirs, unless a
-// scene has a range of its own: the same colour then means the same everywhere.
+// Gives panels that show the same quantity one range of colours that holds all of theirs, so that a colour
+// means the same in all of them. It does nothing where a scene has a range of its own.
 void share_colours(std::vector<Panel>& panels);
 
-// One height that the grains reach, the highest of all, for cameras that frame it by themselves: containers
-// of the same size are then drawn at the same size, and their floors at the same height but for their
-// strokes.
+// Gives cameras that frame what the grains reach one height, the highest of all. Containers of the same size
+// are then drawn at the same size, with their floors at the same height except for their strokes.
 void share_reach(std::vector<Panel>& panels);
 
 struct PanelLayout {
     struct Place {
         Rectangle caption, pace, port, note;  // pace: what is said of time; note: live words
         std::vector<Rectangle> plots;
-        Rectangle foot;   // of no height when all is said below
+        Rectangle foot;   // has no height when everything is said below the panels
         double zoom = 1;  // of the panel's camera
         int row = 0;
     };
     std::vector<Place> places;  // in rows from the top; empty when the picture is too small for them
     Rectangle top, bottom;      // title; clock, legend, scale
-    double scale = 0;           // pixels a metre, in the middle of every panel; 0: each has its own
-    bool plots_fit = true;      // else they are left out
+    double scale = 0;           // pixels a metre in the middle of every panel; 0: panels differ
+    bool plots_fit = true;      // whether plots have room; else they are left out
 };
 
-constexpr int least_panel = 64;  // pixels, either way
+constexpr int least_panel = 64;  // pixels, width and height
 
-// Columns and rows are chosen so that the grains become as large as can be. Containers of which one would be
-// too small to see at the others' scale get a scale of their own each.
-// Plots stand under the ports or beside them, as far as they leave room for the grains.
-// top, bottom, caption, pace, note, foot: pixels, the heights of what is written there.
+// Pixels: the heights of what is written at these places.
 struct WordHeights {
     double top = 0, bottom = 0, caption = 0, pace = 0, note = 0, foot = 0;
 };
 TypeScale panel_type(const Film& film);  // upright pictures have smaller words than those of one scene
+// Chooses columns and rows so that the grains become as large as can be. Where a container would be too small
+// to see at the scale of the others, each has a scale of its own. Plots stand under the ports or beside them
+// if they leave room for the grains.
 PanelLayout plan_panels(const std::vector<Panel>& panels, const Film& film, const WordHeights& words);
 
 }  // namespace grainreel

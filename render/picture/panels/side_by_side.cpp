@@ -46,7 +46,7 @@ FilmedScene panel_scene(const Panel& panel, const PanelLayout::Place& place, con
     return scene;
 }
 
-// Around a block and as far beyond it.
+// The whole pixels around a block, and `beyond` pixels more on each side.
 Rectangle whole_pixels(const WordBlock& block, const Rectangle& within, int beyond) {
     const int x = std::max(0, static_cast<int>(std::floor(block.x)) - beyond),
               y = std::max(0, static_cast<int>(std::floor(block.y)) - beyond);
@@ -66,8 +66,8 @@ PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film) {
     words.top = title_height(measure, film);
     std::vector<WordBlock> blocks = common_blocks(measure, panels, common, 1, film.width);
     words.bottom = flow(blocks, type, film.width);
-    // Again, since words wrap at the width that panels get, until that is no narrower. scales: of each its
-    // own.
+    // Words wrap at the width of the panels, and the panels depend on the height of the words. So this is
+    // repeated until panels become no narrower. scales: whether each panel has a scale of its own.
     bool scales = false;
     const std::vector<Panel> own = without_common(panels, common);
     for (double width = film.width, foot_width = film.width;;) {
@@ -89,7 +89,7 @@ PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film) {
 struct SideBySide::Impl {
     Impl(const std::vector<Panel>& panels, const Film& film, int raster_threads, gl::Provider provider);
 
-    // Part of the picture, blank but for what write(Writer) puts there.
+    // Draws a part of the picture anew: it is blank except for what write(Writer) puts there.
     template <class Write>
     void renew(const Rectangle& part, const Write& write);
     void write_still_words(const std::vector<Panel>& panels, const Film& film);
@@ -199,7 +199,7 @@ void SideBySide::Impl::write_note(std::size_t panel, const Frame& frame) {
     std::string note = note_text(scenes[panel], frame);
     if (part.height <= 0 || note == notes[panel]) return;
     const Writer measure{nullptr, type, palette};
-    // Where the longest note stands in the middle, so that words do not move with their values.
+    // The longest note would stand in the middle, so that words do not move with their values.
     const auto width_of = [&](const std::string& text) {
         return note_block(measure, text, 0, 0, part.width - 2, note_lines(scenes[panel])).width;
     };

@@ -1,4 +1,6 @@
-// A plot beside the grains, which goes with the film.
+// Plots beside the grains, which change in the course of the film: what all of them can do (SidePlot), and a
+// measure against time (Plot). Profiles are in profile_plot.hpp. What films keep as files of their own is
+// drawn by gnuplot.
 #pragma once
 
 #include <cairo.h>
@@ -23,25 +25,23 @@ class SidePlot {
   public:
     virtual ~SidePlot() = default;
 
-    // False when nothing changed.
+    // Takes the next frame. Returns whether anything changed.
     virtual bool take(const Frame& frame) = 0;
-    // What the values' axis spans, SI, none before there is a value; and another span for it, of plots that
-    // stand together.
+    // The span of the values' axis, SI; none before there is a value. show() gives it another span, which
+    // plots that stand together share.
     virtual std::optional<std::array<double, 2>> limits() const = 0;
     virtual void show(const std::array<double, 2>& limits) = 0;
-    // Top left corner at (x, y).
+    // Draws the plot with its top left corner at (x, y).
     virtual void draw(cairo_t* on, int x, int y) = 0;
 };
 
-// place: only its size counts. end: s, of the axis of time. expected: SI, of which size the unit of a
-// column's values is at least, beside what the scene says of it.
+// place: only its size counts. end: s, where the axis of time ends. expected: SI, a value that the unit of a
+// column must suit, beside those that the scene lets expect.
 std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlot& plot,
                                          const Rectangle& place, double end, const TypeScale& type,
                                          const Palette& palette, double expected = 0);
 
-// A measure against time, drawn beside the grains while the film goes on.
-
-// What is known before the film begins.
+// What is known of a plot against time before the film begins.
 struct PlotFrame {
     std::string column, label;
     Dimension dimension = Dimension::number;
@@ -49,18 +49,18 @@ struct PlotFrame {
     std::optional<std::array<double, 2>> range;  // SI
     bool smooth = false;        // means over the last period of the drive in place of the rows
     bool from_zero = false;     // the values' axis begins at 0
-    double expected = 0;        // SI, of which size the values' unit is at least
+    double expected = 0;        // SI: a value that the values' unit must suit
     int width = 0, height = 0;  // pixels
 };
-// The frame of a plot that the scene's film shows, without its size.
+// The PlotFrame of a plot of the scene's film, without its size.
 PlotFrame plot_frame(const FilmedScene& scene, const FilmPlot& plot);
 
 class Plot final : public SidePlot {
   public:
     Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette);
 
-    // The rows up to the frame's. Limits only grow, and depend on the rows alone. A row without a value (NaN)
-    // leaves a gap. False when nothing changed.
+    // Takes the rows of measures up to the frame's. Limits only grow, and depend on the rows alone. A row
+    // without a value (NaN) leaves a gap.
     bool take(const Frame& frame) override;
     std::optional<std::array<double, 2>> limits() const override {
         return any_ ? std::optional(limits_) : frame_.range;
@@ -68,7 +68,7 @@ class Plot final : public SidePlot {
     void show(const std::array<double, 2>& limits) override { shown_ = limits; }
     void draw(cairo_t* on, int x, int y) override;
 
-    // Where a moment and a value lie, pixels from the plot's corner.
+    // Where a time and a value lie; pixels from the plot's corner.
     double x_of(double time) const;
     double y_of(double value) const;
 

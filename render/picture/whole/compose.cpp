@@ -43,9 +43,9 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
 
 namespace {
 
-constexpr std::uint32_t kMost = 0xffff;  // of linear light, and moments that its sums hold
+constexpr std::uint32_t kMost = 0xffff;  // of linear light; and of moments, which the sums have room for
 
-// sRGB bytes in linear light, 16 bits.
+// The linear light of each sRGB byte, 16 bits.
 const std::array<std::uint32_t, 256>& linear_of_byte() {
     static const std::array<std::uint32_t, 256> table = [] {
         std::array<std::uint32_t, 256> made{};

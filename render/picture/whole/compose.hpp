@@ -1,4 +1,4 @@
-// Lays the grains over what is behind them, the ground and the background, and under what is before them.
+// Lays the layers of a picture over each other, and the moments of an open shutter.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace grainreel {
 
-// All of the port's size; colours multiplied by alpha.
+// The layers of a picture from the lowest to the highest. All are as large as the port, and have colours
+// multiplied by alpha.
 struct Layers {
     std::uint32_t background;
     const Ground* ground;  // may be null
@@ -26,23 +27,23 @@ struct Layers {
     const std::vector<std::uint32_t>& strengths;  // of grains, 0 to 255, by row; empty: full
 };
 
-// The result goes into the port's part of the picture.
+// Puts the layers into the port's part of the picture.
 void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
 
 // Many moments in one picture, as a shutter that stays open sees them: their mean in linear light.
-
 class Exposure {
   public:
     explicit Exposure(const Rectangle& port);  // the part of the pictures that is exposed
 
-    void add(const Picture& picture);  // at most 65,535 a picture
-    // The mean of what was added, which is forgotten.
+    void add(const Picture& picture);  // at most 65,535 pictures before develop()
+    // Puts the mean of all that was added into the picture, and begins anew.
     void develop(Picture& picture);
 
   private:
     const Rectangle port_;
     std::uint32_t count_ = 0;
-    // A pixel: red, green and blue in linear light times alpha, then alpha; in 255ths of 16 and of 8 bits.
+    // Of each pixel: red, green and blue in linear light times alpha, with 16 bits each, then alpha with 8
+    // bits.
     std::vector<std::uint32_t> sum_;
 };
 

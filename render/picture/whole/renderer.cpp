@@ -25,11 +25,11 @@
 namespace grainreel {
 namespace {
 
-// Adds up where the time of one frame goes; does nothing without a place to put it.
+// Adds up the times of the stages of a frame. It does nothing where `times` is null.
 class Stopwatch {
   public:
     Stopwatch(const gl::Functions& gl, DrawTimes* times) : gl_(gl), times_(times) {}
-    // Everything since the last call, or since the watch was made, belongs to `stage`.
+    // The time since the last call, or since the watch was made, belongs to `stage`.
     void lap(double DrawTimes::*stage) {
         if (!times_) return;
         gl_.Finish();
@@ -78,7 +78,7 @@ struct Renderer::Impl {
           sphere_painter(s, port.width, port.height, team, false),
           words(s.film.width, s.film.height) {
         if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
-        // What grains fall through is no ground.
+        // There is no ground where grains fall through.
         const bool falls_through = (s.container.outlet && !s.container.tray) || !s.exits.empty();
         const bool stands = s.container.shape != Container::Shape::none && s.film.camera.up == Vec3(0, 0, 1);
         if (s.film.look.ground && !s.film.transparent && stands && !falls_through)
@@ -86,12 +86,12 @@ struct Renderer::Impl {
         if (meshes.any()) mesh_painter.emplace(port.width, port.height);
     }
 
-    // What is deleted belongs to the context that is current.
+    // What is deleted belongs to the context, so that must be current.
     ~Impl() {
         try {
             context->make_current();
         } catch (const RunError&) {
-            // Then nothing is current, and what it owns goes with it.
+            // Then nothing is current, and what the context owns goes with it.
         }
     }
 
@@ -109,7 +109,7 @@ struct Renderer::Impl {
     std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
     std::optional<Ground> ground;
     Team team;
-    // Grains that are not hidden; those of them that are no ghosts; and those that marks go by.
+    // The grains that are not hidden, those of them that are no ghosts, and those that have marks.
     ShownGrains shown, solid, beside_cut;
     SceneMeshes meshes;
     MeshProjection mesh_projection;
@@ -138,7 +138,8 @@ struct Renderer::Impl {
     const Layer* draw_before();
     void start_from(const Frame& frame);
     void point_out(PointedOut what);
-    // Without grains that the cut takes away, which leave no marks. A copy is made only if there are any.
+    // The frame without the grains that the cut takes away, which have no marks. A copy is made only where
+    // there are marks.
     const Frame& to_be_marked(const Frame& frame) {
         return has_marks(scene.film.shows) ? beside_cut.of(frame) : frame;
     }
@@ -172,7 +173,7 @@ void Renderer::Impl::start_from(const Frame& frame) {
     started = true;
 }
 
-// All but these grains are ghosts.
+// All grains but these become ghosts.
 void Renderer::Impl::point_out(PointedOut what) {
     point_forces = std::move(what.forces);
     if (what.grains.empty()) return;
@@ -182,7 +183,7 @@ void Renderer::Impl::point_out(PointedOut what) {
     solid = ShownGrains::only(scene, std::move(what.grains));
 }
 
-// Where it has been drawn before, most of the words are there.
+// Copies the words. Most of them are there already in a picture that has been drawn into before.
 void Renderer::Impl::copy_words(Picture& into) const {
     const bool fits = into.width == words.width && into.height == words.height;
     if (!fits) into = words;
@@ -201,7 +202,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
     into.moving.push_back(port);
 }
 
-// Marks are those of the frame itself, in every moment.
+// In all moments of an open shutter the marks are those of the frame itself.
 void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch) {
     if (!exposure) exposure.emplace(port);
     const Frame marked = to_be_marked(shown.of(exaggeration.shown(frame)));
@@ -215,7 +216,7 @@ void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture&
     watch.lap(&DrawTimes::readback);
 }
 
-// marked: whose marks are drawn; the frame's own when null.
+// marked: the frame whose marks are drawn; null: the frame itself.
 void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
                                  Picture& into, Stopwatch& watch) {
     const Frame& frame = exaggeration.shown(true_frame);
@@ -241,10 +242,16 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     draw_point_forces(eye.moved_by(true_frame.container().place - frame.container().place), point_forces,
                       palette, std::max(1.0, scene.film.height / 540.0), shapes.over);
     const Layer* marked_alone = draw_before();
-    compose({background(palette.background, scene.film.transparent), ground ? &*ground : nullptr,
-             walls_behind, mesh_painter ? &mesh_painter->behind() : nullptr, grains, ghosts,
-             mesh_painter ? &mesh_painter->before() : nullptr, before.layer(), marked_alone,
-             exit_fade(scene, eye, port.height, path.meshes())},
+    compose({.background = background(palette.background, scene.film.transparent),
+             .ground = ground ? &*ground : nullptr,
+             .behind = walls_behind,
+             .meshes_behind = mesh_painter ? &mesh_painter->behind() : nullptr,
+             .grains = grains,
+             .ghosts = ghosts,
+             .meshes_before = mesh_painter ? &mesh_painter->before() : nullptr,
+             .before = before.layer(),
+             .marks = marked_alone,
+             .strengths = exit_fade(scene, eye, port.height, path.meshes())},
             port, into, team);
     for (const auto& [place, pixel] : covered) *place = pixel;
     covered.clear();
@@ -252,8 +259,8 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::readback);
 }
 
-// Walls before the grains, less what grains hide of them, with the marks over them; where grains hide some,
-// the marks are a layer of their own, which it gives back.
+// Draws the walls before the grains, without what grains hide of them, and the marks over them. Where grains
+// hide parts of the walls, the marks are a layer of their own, which is returned.
 const Layer* Renderer::Impl::draw_before() {
     const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();
     const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });
@@ -283,7 +290,7 @@ void Renderer::Impl::draw_other_meshes(Stopwatch& watch) {
     watch.lap(&DrawTimes::walls);
 }
 
-// Draws the grains that have been taken.
+// Draws the grains that the painter has taken.
 const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, Stopwatch& watch) {
     painter.find_visible(mesh_painter ? mesh_painter->depth() : SolidDepth());
     painter.find_order(eye, shapes);

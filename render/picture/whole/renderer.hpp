@@ -1,4 +1,6 @@
-// From a frame to a picture: grains, walls and the words around them.
+// From a frame to a picture: the grains, the walls and the words around them. Everything in render/picture is
+// put together here; films and the library know only this header and few others. It includes nothing of
+// Cairo.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +18,9 @@
 
 namespace grainreel {
 
-// ms a frame. Only measured on demand, because OpenGL has to be waited for after each stage. occlusion:
-// finding neighbours and what shades a grain; shading: all light on grains; shadow: the ground's.
+// ms that the stages of a frame take. They are measured only on demand, because OpenGL has to be waited for
+// after each stage. occlusion: to find the neighbours that shade a grain; shading: all light on grains;
+// shadow: that on the ground.
 struct DrawTimes {
     double upload = 0, spheres = 0, shading = 0, occlusion = 0, shadow = 0, walls = 0, overlay = 0,
            readback = 0;
@@ -25,43 +28,45 @@ struct DrawTimes {
 
 // What a picture of one moment points out.
 struct PointedOut {
-    std::vector<std::int32_t> grains;  // ids, rising; all others are seen through. None: as without
-    std::vector<PointForce> forces;    // each an arrow
+    std::vector<std::int32_t> grains;  // ids, rising; all others are seen through. Empty: none is pointed out
+    std::vector<PointForce> forces;    // each is drawn as an arrow
 };
 
 class Renderer {
   public:
-    // Makes an off-screen OpenGL context, current on the calling thread: construct, use and destroy it on one
-    // thread. raster_threads: of the software rasteriser, >= 1. Throws RunError when no context is to be had.
+    // Makes an off-screen OpenGL context that is current on the calling thread. Construct, use and destroy
+    // the renderer on one thread. raster_threads: threads of the software rasteriser, >= 1. Throws RunError
+    // when there is no context.
     Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
-    // Likewise, with a layout other than plan_layout()'s: bare_layout() leaves out all words.
+    // Takes a layout other than that of plan_layout(): bare_layout() leaves out all words.
     Renderer(const FilmedScene& scene, const PictureLayout& layout, int raster_threads,
              gl::Provider provider);
     ~Renderer();
 
-    // playback: what the caption says of time ("slow motion, 1/10 speed"). film_time: s since the film's
-    // first frame, where a camera that moves is. The size is the scene's film size.
+    // Draws a frame in the size of the scene's film. playback: what the caption says of time ("slow motion,
+    // 1/10 speed"). film_time: s since the film's first frame, for a camera that moves.
     const Picture& draw(const Frame& frame, const std::string& playback, double film_time = 0);
 
-    // The same into a picture of one's own: empty, or one that this renderer has drawn into before.
+    // Draws into a picture of the caller's: an empty one, or one that this renderer has drawn into before.
     void draw_into(Picture& picture, const Frame& frame, const std::string& playback, double film_time);
 
     const View& view() const;  // of the last picture
-    // The film's first frame, from which start heights are counted; without a call, the first one drawn.
+    // Tells the film's first frame, which gives grains their heights at the start. Without a call it is the
+    // first one drawn.
     void start_from(const Frame& frame);
-    // Points this out in all pictures from now on.
+    // Points these grains and forces out in all pictures from now on.
     void point_out(PointedOut what);
-    // A frame before the next one drawn, which leaves trails but no picture.
+    // Takes a frame that is not drawn but leaves trails.
     void remember(const Frame& frame);
 
-    // What of all that was drawn lies beyond the ends of the colour bar, and which labels have had no grain;
-    // empty for nothing.
+    // Says how much of what was drawn lies beyond the ends of the colour bar, and which labels have had no
+    // grain. Empty when there is nothing to say.
     std::string last_note() const;
 
     std::string gl_description() const;  // vendor, renderer and version of the context
     std::string gl_note() const;         // why it is not the context one would have expected; mostly empty
 
-    // The same picture, and what each of its stages cost.
+    // Draws the same picture and tells what each of its stages cost.
     DrawTimes draw_timed(const Frame& frame, const std::string& playback);
 
   private:

@@ -1,3 +1,4 @@
+// Blocks of words around a picture: title, scale bar, arrows, axes, drive, clock, notes and the dial.
 #include "render/picture/words/blocks.hpp"
 
 #include <fmt/format.h>
@@ -26,8 +27,8 @@ void dot(const Writer& writer, double x, double y, double radius) {
     cairo_fill(writer.on);
 }
 
-// An arrow about (x, y) along (dx, dy), which is half its length; pixels. The head is drawn at the far end,
-// or at both.
+// Draws an arrow about (x, y) with half its length along (dx, dy); pixels. It has a head at the far end, or
+// at both ends.
 void arrow(const Writer& writer, double x, double y, double dx, double dy, bool both) {
     const double length = std::hypot(dx, dy), width = std::max(1.0, writer.type.main / 12);
     const double head = 3.2 * width;
@@ -47,7 +48,7 @@ void arrow(const Writer& writer, double x, double y, double dx, double dy, bool 
     }
 }
 
-// As draw_lab_marks() has it beside the floor.
+// Draws a sample of the scale that draw_lab_marks() draws beside the floor.
 void lab_mark_sample(const Writer& writer, double x, double y, double reach) {
     const double pen = std::max(1.0, writer.type.main / 16), bar = x, low = 0.8 * reach;
     set_colour(writer.on, writer.palette.faint_ink);
@@ -63,7 +64,7 @@ void lab_mark_sample(const Writer& writer, double x, double y, double reach) {
     cairo_fill(writer.on);
 }
 
-// A direction that the camera looks along: a ring with the arrow's tip in it, or with its feathers.
+// Draws a direction that the camera looks along: a ring with the arrow's tip in it, or with its feathers.
 void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
     const double radius = 0.42 * writer.type.main, width = std::max(1.0, writer.type.main / 12);
     cairo_new_path(writer.on);
@@ -113,7 +114,7 @@ TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View
                  indent = 1.5 * writer.type.main;
     TextSize size;
     if (!scene.film.word_kinds.arrows) return size;
-    // sample(x, y) draws about its middle.
+    // sample(x, y) draws a sample about this point.
     const auto entry = [&](const std::string& label, const auto& sample) {
         const double middle = y + size.height + 0.5 * row;
         if (writer.on) sample(x + 0.5 * indent, middle);
@@ -149,7 +150,7 @@ TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* 
     const double cx = x + 0.5 * side, cy = y + 0.5 * side, pen = std::max(1.0, writer.type.main / 12);
     std::vector<std::pair<Vec3, const char*>> axes = {
         {Vec3::UnitX(), "x"}, {Vec3::UnitY(), "y"}, {Vec3::UnitZ(), "z"}};
-    // The farthest first, so that it is the nearest one that is whole.
+    // The farthest axis is drawn first, so that the nearest one is whole.
     std::sort(axes.begin(), axes.end(), [&](const auto& a, const auto& b) {
         return a.first.dot(view->forward) > b.first.dot(view->forward);
     });
@@ -159,7 +160,7 @@ TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* 
                    mix(writer.palette.ink, writer.palette.background, 0.25 * (1 + axis.dot(view->forward))));
         stroke_line(writer, cx, cy, cx + reach * dx, cy + reach * dy, 1.6 * pen);
         dot(writer, cx + reach * dx, cy + reach * dy, 2 * pen);
-        // Beyond the tip, also of an axis that points at the eye.
+        // The letter stands beyond the tip, also where the axis points at the eye.
         const double seen = std::max(std::hypot(dx, dy), 1e-9), away = reach * seen + 0.8 * writer.type.minor;
         const TextSize letter = measure_text(name, writer.minor());
         writer.write(cx + away * dx / seen - 0.5 * letter.width, cy + away * dy / seen - 0.5 * letter.height,
@@ -200,7 +201,7 @@ std::int64_t count_in_tray(const Frame& frame) {
                          [&](const Vec3& at) { return at.z() < floor; });
 }
 
-// Time first, then the lines below it.
+// The line of the time, then those below it.
 std::vector<std::string> clock_lines(const FilmedScene& scene, const Frame& frame) {
     const WordKinds& kinds = scene.film.word_kinds;
     std::vector<std::string> lines;
@@ -244,12 +245,12 @@ TextSize note_block(const Writer& writer, const std::string& text, double x, dou
     return size;
 }
 
-// The dial: where in its period the drive is, and where in its stroke the floor.
+// The dial shows where in its period the drive is, and where in its stroke the floor is.
 
 namespace {
 
 // The floor's displacement from the middle of its stroke, in amplitudes. A drive that starts without a ramp
-// in mid-period moves about a middle that is not the rest position.
+// in the middle of a period moves about a place that is not the rest position.
 double share_of_stroke(const Drive& drive, const DriveSchedule::Now& now, const Frame& frame) {
     if (now.amplitude <= 0) return 0;
     const double place = frame.floor().place.dot(drive.direction) / now.amplitude;
@@ -258,8 +259,9 @@ double share_of_stroke(const Drive& drive, const DriveSchedule::Now& now, const 
     return place - middle;
 }
 
-// Pixels from the dial's upper left corner. Of a drive that goes up and down the bar stands at the right, of
-// one that goes sideways it lies below; the hand's tip is always as far along it as the drive's sine.
+// Places in the dial's block; pixels from its upper left corner. For a drive that goes up and down the bar
+// stands at the right, for one that goes sideways it lies below. The tip of the hand is always as far along
+// the bar as the sine of the phase.
 struct Dial {
     double radius, pen, bar;  // bar: how far from the corner it lies
     bool sideways;
@@ -273,14 +275,14 @@ struct Dial {
           sign(view && drive.direction.dot(view->right) < 0 ? -1 : 1) {}
 
     Eigen::Vector2d middle() const { return {radius + pen, radius + pen}; }
-    // Place of the hand's tip, at a phase in turns.
+    // The place of the hand's tip at a phase, in turns.
     Eigen::Vector2d tip(double phase) const {
         const double along = radius * std::sin(2 * std::numbers::pi * phase),
                      across = radius * std::cos(2 * std::numbers::pi * phase);
         if (sideways) return middle() + Eigen::Vector2d(sign * along, -across);
         return middle() + Eigen::Vector2d(across, -along);
     }
-    // On the bar, `share` of an amplitude from its middle; `off` pixels beside it.
+    // A place on the bar, `share` of an amplitude from its middle, and `off` pixels beside it.
     Eigen::Vector2d on_bar(double share, double off = 0) const {
         if (sideways) return {middle().x() + sign * share * radius, bar + off};
         return {bar + off, middle().y() - share * radius};
@@ -311,7 +313,7 @@ class Pen {
         cairo_arc(on_, corner_.x() + at.x(), corner_.y() + at.y(), radius, 0, 2 * std::numbers::pi);
         cairo_stroke(on_);
     }
-    // From where the hand is at phase 0 to where it is at `phase`.
+    // Fills the sector from where the hand is at phase 0 to where it is at `phase`.
     void sector(const Dial& dial, double phase, const Colour& c, double alpha) const {
         set_colour(on_, c, alpha);
         cairo_move_to(on_, corner_.x() + dial.middle().x(), corner_.y() + dial.middle().y());

@@ -1,4 +1,6 @@
-// Places the overlay's blocks. Without a surface it only measures, so that layout and drawing share one code.
+// The blocks of words around a picture, and the Writer that they write with. A writer without a surface only
+// measures, so that layout and drawing share their code. legend_block.cpp has legend and colour bars,
+// marks.cpp has the legend of the marks, and blocks.cpp has all others.
 #pragma once
 
 #include <cairo.h>
@@ -17,7 +19,7 @@
 namespace grainreel {
 
 struct Writer {
-    cairo_t* on = nullptr;  // null: measure
+    cairo_t* on = nullptr;  // null: only measures
     const TypeScale& type;
     const Palette& palette;
 
@@ -42,50 +44,56 @@ struct Writer {
 // The lines of a text, which "\n" separates.
 std::vector<std::string> lines_of(const std::string& text);
 
-// Each draws itself with its top left corner at (x, y), pixels, and returns its size.
+// Each of these draws a block with its top left corner at (x, y), pixels, and returns its size. A block with
+// nothing to say has the size 0.
 TextSize title_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap);
-// In as many columns as `wrap` has room for; in one with wrap 0, which sets no limit. Of species that there
-// is no `room` (pixels of height; 0: without end) for it says how many there are; nothing where not one fits.
+// The legend has as many columns as `wrap` has room for; with wrap 0 it has one column of any width. room:
+// pixels of height; 0: no limit. Where there is no room for all species, it says how many more there are;
+// where there is no room for one, it is left out.
 TextSize legend_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap,
                       double room = 0);
 std::size_t species_in_legend(const Writer& writer, const FilmedScene& scene, double wrap, double room);
-// Where the colours are inside the colour bar's block, whose words end at y; whole pixels. Beside them lie
-// the tips of arrows, where an end stands for all values beyond it, too.
+// Where the colours lie in a colour bar's block, in whole pixels. Beside an end that also stands for all
+// values beyond it lies the tip of an arrow.
 struct ColourBarPlace {
     int x = 0, y = 0, width = 0, height = 0;
-    int tip_below = 0, tip_above = 0;  // how long; 0: none
+    int tip_below = 0, tip_above = 0;  // length; 0: no tip
 };
+// y: where the words above the bar end.
 ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type, double x, double y,
                                 double width);
-// What the film has colour bars for: the grains, unless they are coloured by species, and the walls.
+// The scales that the film has colour bars for: that of grains, unless they are coloured by species, and that
+// of walls.
 std::vector<ColourScale> colour_scales(const Film& film);
 inline bool has_colour_bar(const Film& film) {
     return film.word_kinds.legend &&
            (film.shows.colour.by != GrainValue::species || film.look.walls.coloured());
 }
-// Below each other.
+// All colour bars, below each other.
 TextSize colour_bar_block(const Writer& writer, const FilmedScene& scene, double x, double y, double width);
-// What the marks over the grains mean, with a sample of each; nothing without marks. scale: pixels a metre.
+// What the marks over the grains mean, with a sample of each. scale: pixels a metre.
 TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scale, double x, double y,
                      double wrap);
 TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest);
-// Directions of gravity and of the drive as the camera sees them. view: null while measuring.
+// The directions of gravity and of the drive as the camera sees them. view: null while measuring.
 TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
-// x, y and z as the camera sees them, where the film wants them; as above.
+// x, y and z as the camera sees them, where the film wants them. view: null while measuring.
 TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
-// f, Gamma and amplitude, and by how much the motion is exaggerated. frame: null to measure the longest.
+// f, Gamma and amplitude of the drive, and by how much its motion is exaggerated. frame: null to measure the
+// longest lines.
 TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame* frame, double x, double y);
-// The last of these alone; nothing while motion is drawn as it is.
+// By how much the motion is exaggerated, alone.
 TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
-// A hand that turns once a period, and beside it where in its stroke the floor is; without `frame` only the
-// still part. view: tells right from left for a drive that goes sideways; null: seen along -x.
+// A dial whose hand turns once a period, and beside it the place of the floor in its stroke. Without a frame
+// only what stands still is drawn. view: tells right from left for a drive that goes sideways; null: seen
+// along -x.
 TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
                     double y, const View* view = nullptr);
-// Lines of the scene's own words, each in up to `most` lines of the gutter.
+// The scene's own words. Each of their lines may take up to `most` lines of the gutter.
 TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap, int most);
-// All that clock_block would write.
+// All words that clock_block() would write.
 std::string clock_words(const FilmedScene& scene, const Frame& frame);
-// Time and, with a drive, the cycle.
+// The time and, with a drive, the cycle; with a tray also how many grains lie in it.
 TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame& frame, double x, double y);
 
 }  // namespace grainreel

@@ -35,7 +35,7 @@ std::vector<std::string> vibration_lines(double frequency, double amplitude, dou
     return lines;
 }
 
-// A value of a drive that grows, with as many decimals as what it grows to.
+// Rounds a value of a drive that grows to as many decimals as the value that it grows to.
 double rounded_as(double value, double full) {
     if (full <= 0) return value;
     const double digit = std::pow(10, std::floor(std::log10(full)) - 2);
@@ -88,7 +88,7 @@ std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
     const DriveSchedule schedule(scene.drive);
     for (const PeriodStretch& stretch : schedule.times().stretches())
         take(stage_lines(schedule.now(stretch.cycles), gravity));
-    // In a change numbers have three digits, whatever they begin and end with.
+    // While a stage changes into another, numbers have three digits.
     take({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
     return longest;
 }
@@ -108,7 +108,7 @@ std::string frequency_text(double hertz) {
 
 std::string time_text(double seconds, double duration) {
     const Unit unit = duration < 0.1 ? Unit{0.001, "ms"} : Unit{1, "s"};
-    // A minus as wide as a digit, and no "-0.000".
+    // The minus is as wide as a digit, and there is no "-0.000".
     const double value = seconds / unit.size, shown = std::abs(value) < 0.0005 ? 0 : value;
     return fmt::format("t = {}{:.3f} {}", shown < 0 ? "−" : "", std::abs(shown), unit.name);
 }
@@ -129,8 +129,8 @@ double round_length(double longest) {
 }
 
 ShownCycle shown_cycle(const Frame& frame) {
-    // Frames of slow motion land on steps, often a hair before a period's end: the cycle goes with the
-    // rounding.
+    // Frames of slow motion lie at whole steps, often just before the end of a period. The cycle goes with
+    // the rounded phase.
     const double rounded = std::round(100 * frame.phase) / 100;
     const double cycles = frame.cycles + (rounded - frame.phase);
     return {std::max(0LL, static_cast<long long>(std::floor(cycles + 1e-6))), rounded < 1 ? rounded : 0};
@@ -144,7 +144,7 @@ std::string playback_text(const Film& film, const Frame& frame, const std::strin
 
 namespace {
 
-// Parts of a note with an empty line between them.
+// Joins parts of a note, with an empty line between them.
 std::string joined(const std::string& one, const std::string& other) {
     return one.empty() || other.empty() ? one + other : one + "\n\n" + other;
 }
@@ -155,7 +155,7 @@ std::string mass_text(double kilograms) {
                                   : fmt::format("{:.3g} mg", 1e6 * kilograms);
 }
 
-// Says "of how many" only where all are there from the start: some of the grains that are fed are yet to
+// Says of how many grains only where all are there from the start; where grains are fed, some are yet to
 // come.
 std::string outflow_text(const FilmedScene& scene, const FlowedOut& out) {
     const std::int64_t all = scene.grains();

@@ -11,12 +11,13 @@ namespace {
 
 constexpr double endless_room = 1e9;  // pixels
 
-// Blocks that are put below each other while there is room.
+// Puts blocks below each other while there is room.
 class Column {
   public:
     Column(double x, double y, double room, FirstPart& part)
         : box_{x, y, 0, 0}, y_(y), room_(room), part_(part) {}
-    // block(writer, x, y), with a writer that measures first. Left out whole when it does not fit.
+    // Adds block(writer, x, y), or leaves it out when it does not fit. It is first called with a writer that
+    // measures.
     template <class Block>
     void add(const Writer& writer, const char* name, double gap_before, const Block& block) {
         const Writer measure{nullptr, writer.type, writer.palette};
@@ -42,7 +43,7 @@ class Column {
     FirstPart& part_;
 };
 
-// Blocks of the first gutter, in whatever order they are put.
+// The blocks of the first gutter. The three layouts below put them in different orders.
 class Blocks {
   public:
     Blocks(const FilmedScene& scene, const View* view, double scale)
@@ -85,7 +86,8 @@ class Blocks {
     const double scale_;
 };
 
-// A legend with as many species as there is room for, which is said to be left out in part.
+// Adds a legend with as many species as there is room for. Where some are missing, a part of it counts as
+// left out.
 void add_legend(Column& column, const Writer& writer, const Blocks& blocks, double gap, double wrap,
                 double room, FirstPart& part) {
     if (!blocks.scene().film.word_kinds.legend) return;
@@ -98,7 +100,8 @@ void add_legend(Column& column, const Writer& writer, const Blocks& blocks, doub
         part.left_out.emplace_back("a part of the legend");
 }
 
-// Title; legend beside scale and axes; colour bar beside marks. Axes are the first to be left out.
+// In an upright picture: the title; the legend beside scale and axes; the colour bar beside the marks. Axes
+// are the first to be left out.
 FirstPart upright_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
@@ -133,7 +136,7 @@ FirstPart upright_part(const Writer& writer, const Blocks& blocks, double inner,
     return part;
 }
 
-// All beside each other, in a wide picture: title, legend, colour bar, marks, axes, scale.
+// Above a wide picture: title, legend, colour bar, marks, axes and scale beside each other.
 FirstPart row_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
@@ -171,7 +174,7 @@ FirstPart row_part(const Writer& writer, const Blocks& blocks, double inner, dou
     return part;
 }
 
-// What says what is seen at the upper end, what says where and how large at the lower one.
+// At the left: what is seen stands at the upper end, and directions and lengths stand at the lower end.
 FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
@@ -185,7 +188,7 @@ FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, 
     FirstPart part;
     Column upper(x, type.margin, room - below, part);
     upper.add(writer, "title", 0, blocks.title(inner));
-    // What the colours mean goes before the last of the species.
+    // What the colours mean is more important than the last of the species.
     const double after = with_gap(height(blocks.colour_bar(inner))) + with_gap(height(blocks.marks(inner)));
     const double least = upper.end() + 1.2 * type.gap + 5 * type.main;
     add_legend(upper, writer, blocks, 1.2 * type.gap, inner,

@@ -1,4 +1,4 @@
-// The words at the left, or above in an upright picture: what is seen, and how large.
+// The first gutter, at the left or above the container. Its words say what is seen and how large it is.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ struct FirstPart {
         WordBox box;
     };
     std::vector<Block> blocks;
-    double height = 0;                  // that it takes, margins left out
+    double height = 0;                  // pixels that it takes, without margins
     std::vector<WordBox> boxes;         // around what stands together
     std::vector<std::string> left_out;  // what there was no room for
     bool empty() const { return blocks.empty() && left_out.empty(); }
 };
-// Title, legend, colour bar, marks, scale bar, axes and arrows in the first gutter, as far as its height
-// goes; 0: however much they need. view: null while measuring.
+// Puts title, legend, colour bar, marks, scale bar, axes and arrows into the first gutter, as many as its
+// height has room for. A gutter of height 0 takes whatever they need. view: null while measuring.
 FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View* view,
                      const PictureLayout& layout, double width);
 

@@ -1,4 +1,5 @@
-// Words beside single grains, [[film.label]]: each on a plate to the right of its grain, with a line to it.
+// Words beside single grains, [[film.label]]. Each label stands on a plate to the right of its grain, with a
+// line to it.
 #pragma once
 
 #include <string>
@@ -12,9 +13,9 @@
 
 namespace grainreel {
 
-// Draws the labels of a frame as it is drawn. A label whose grain is not there, or lies outside the view, is
-// left out; one that would lie over another moves down below it. found: of each label, whether its grain has
-// been there; grows to 1 where it is in this frame.
+// Draws the labels of a frame. A label whose grain is not there or lies outside the view is left out. A label
+// that would lie over another moves down below it. found: for each label, 1 if its grain has been in a frame;
+// this frame is counted.
 void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
                        const PictureLayout& layout, const Palette& palette, Picture& picture,
                        std::vector<char>& found);

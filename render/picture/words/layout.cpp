@@ -36,14 +36,14 @@ constexpr double endless = 1e9;
 constexpr double shrinks[] = {1, 0.9, 0.8};
 constexpr double least_port = 0.36;  // over the picture's height, between gutters above and below
 
-// Pixels that the container is high where the width is what binds.
+// Pixels: the height of the container where the picture's width decides its scale.
 double natural_height(const FilmedScene& scene, const TypeScale& type, int width) {
     PictureLayout tall;
     tall.port = {0, 0, width, 8 * scene.film.height};
     return framed_height(scene, tall) + 2 * type.margin;
 }
 
-// Plots take the height that the container does not need.
+// Gutters above and below. Plots take the height that the container does not need.
 PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
     const int width = scene.film.width, height = scene.film.height;
@@ -57,7 +57,7 @@ PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writ
         return plan.empty ? 0 : plan.height + type.margin;
     };
     double bottom = std::min(most, needed(0));
-    // Without the plots, where even the lowest are too high.
+    // Plots are left out where even the lowest would be too high.
     if (needed(0) > most) bottom = std::min(0.36 * height, needed(most));
     const double free = height - top - bottom - natural_height(scene, type, width);
     if (free > 0) bottom = std::max(bottom, needed(bottom + free));
@@ -68,7 +68,7 @@ PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writ
     return layout;
 }
 
-// Pixels, of the longest word above a colour bar.
+// Pixels: the width of the longest word above a colour bar.
 double colour_words(const FilmedScene& scene, const Writer& measure) {
     double longest = 0;
     for (const ColourScale& scale : colour_scales(scene.film))
@@ -76,7 +76,7 @@ double colour_words(const FilmedScene& scene, const Writer& measure) {
     return longest;
 }
 
-// Pixels between margins, of words at the left or right that wrap as they like.
+// Pixels: the least width between margins of a gutter at the side with words that wrap.
 double least_column(const FilmedScene& scene, const Writer& measure, const std::string& title) {
     const double width = scene.film.width;
     const bool wraps = !title.empty() || has_colour_bar(scene.film) ||
@@ -87,6 +87,7 @@ double least_column(const FilmedScene& scene, const Writer& measure, const std::
     return std::min((width < 1.4 * scene.film.height ? 0.22 : 0.17) * width, 9 * measure.type.title);
 }
 
+// Gutters at the left and right.
 PictureLayout side_by_side(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
     const int width = scene.film.width, height = scene.film.height;
@@ -113,7 +114,7 @@ struct Judged {
     bool fits = true;  // the words that must be there
 };
 
-// With the names of what has no room in it.
+// Judges a layout, and writes the names of what it has no room for into it.
 Judged judged(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     layout.left_out = first_part(measure, scene, nullptr, layout, layout.first.width).left_out;
     const NumbersPlan plan =
@@ -127,13 +128,13 @@ Judged judged(const FilmedScene& scene, PictureLayout layout, const Writer& meas
     return {std::move(layout), scale, plan.fits};
 }
 
-// Whether the one has the words that the other lacks.
+// Whether one layout leaves out fewer words than the other.
 bool says_more(const Judged& one, const Judged& other) {
     if (one.fits != other.fits) return one.fits;
     return one.layout.left_out.size() < other.layout.left_out.size();
 }
 
-// With the largest letters that leave nothing out, or that leave out the least.
+// The layout with the largest letters that leave nothing out, or that leave out the least.
 Judged largest_letters(const FilmedScene& scene, bool above_and_below) {
     const Palette palette = make_palette(scene.film.background);
     std::optional<Judged> best;
@@ -149,7 +150,7 @@ Judged largest_letters(const FilmedScene& scene, bool above_and_below) {
     return *best;
 }
 
-// Where the container becomes larger, of those that have room for as much.
+// The layout that says more, or, where both say as much, the one in which the container is larger.
 Judged better_of(const FilmedScene& scene) {
     const Judged upright = largest_letters(scene, true), wide = largest_letters(scene, false);
     if (says_more(upright, wide)) return upright;

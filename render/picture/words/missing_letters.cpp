@@ -42,7 +42,7 @@ bool is_emoji(gunichar letter) {
     return letter >= 0x1f000 && letter <= 0x1faff;
 }
 
-// Whose they are and who has them; the letter itself goes to the caller.
+// The script of a letter and the package that has it. The caller fills in the letter itself.
 MissingLetters kind_of(gunichar letter) {
     const GUnicodeScript script = g_unichar_get_script(letter);
     for (const Script& known : east_asian)
@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> texts_of_film(const FilmedScene
     const auto take = [&](const std::string& key, const std::string& text) {
         if (!text.empty()) texts.emplace_back(scene.where(key), text);
     };
-    // Where the film has no title of its own, it has the scene's.
+    // A film without a title of its own has the scene's title.
     take(film.title == scene.title ? "title" : "film.title", shown_title(film));
     for (std::size_t i = 0; i < scene.species.size() && film.word_kinds.legend; ++i)
         take(fmt::format("species[{}].name", i), scene.species[i].name);

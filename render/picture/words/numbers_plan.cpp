@@ -22,7 +22,7 @@ Rectangle whole(double x, double y, double width, double height) {
     return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
 }
 
-// What is left out of the gutter, if need be.
+// Whether arrows and dial are wanted; they are left out where there is no room.
 struct Wanted {
     bool arrows = true, dial = true;
 };
@@ -58,7 +58,7 @@ class Planner {
   private:
     bool has_drive() const { return plan_.has_dial || drive_.height > 0; }
     double count() const { return static_cast<double>(scene_.film.shows.plots.size()); }
-    // Pixels, of the longest words above a plot.
+    // Pixels: the width of the longest words above a plot.
     double titles() const {
         double widest = 0;
         for (const FilmPlot& plot : scene_.film.shows.plots)
@@ -72,7 +72,7 @@ class Planner {
                                note_block(measure_, note, 0, 0, wrap, note_lines(scene_)).height + type_.gap);
         return highest;
     }
-    // Whole pixels inside the gutter.
+    // A part of the gutter in whole pixels.
     Rectangle part(double left, double top, double right, double bottom) const {
         const int x = std::max(0, static_cast<int>(left)), y = std::max(0, static_cast<int>(top));
         const auto end = [](double at, double most) {
@@ -87,13 +87,13 @@ class Planner {
     const FilmedScene& scene_;
     const WordKinds kinds_ = scene_.film.word_kinds;
     const double width_, height_, x_, inner_;
-    const double line_;  // height of a minor one
+    const double line_;  // pixels: height of a line of minor letters
     const TextSize clock_;
     TextSize dial_, drive_, arrows_;
     NumbersPlan plan_;
 };
 
-// Clock, dial, drive and caption below each other, plots at the lower end.
+// At the side: clock, dial, drive and caption below each other, and plots at the lower end.
 NumbersPlan Planner::column() {
     plan_.clock = {x_, type_.margin};
     double y = type_.margin + (clock_.height > 0 ? clock_.height + 0.3 * type_.gap : 0);
@@ -134,7 +134,8 @@ NumbersPlan Planner::column() {
     return plan_;
 }
 
-// All plots beside each other, or none; in what is left of the height, or as high as they must be.
+// Puts all plots beside each other, or none. They take what is left of the height, or are as high as they
+// must be.
 void Planner::plots_in_row(double x, double y, double width, double height) {
     if (count() < 1) return;
     const double least = std::max(least_row * scene_.film.height, least_lines * type_.minor);
@@ -147,7 +148,7 @@ void Planner::plots_in_row(double x, double y, double width, double height) {
     plan_.height = std::max(plan_.height, y + each);
 }
 
-// Clock and caption, dial and numbers, plots: each of them in a row.
+// Below a narrow picture: three rows with clock and caption, dial and numbers, and plots.
 NumbersPlan Planner::rows() {
     const bool has_clock = clock_.height > 0;
     const double top = type_.margin, beside = has_clock ? clock_.width + 2 * type_.gap : 0;
@@ -165,7 +166,7 @@ NumbersPlan Planner::rows() {
         y = std::max(y, plan_.caption.y + 3 * line_) + 0.5 * type_.gap;
         plan_.caption_part = part(std::floor(middle), plan_.caption.y, width_, y);
     } else {
-        // Two lines are kept for the caption, whatever it says, so that nothing moves.
+        // The caption always has two lines, whatever it says, so that nothing moves.
         plan_.clock_part = part(0, 0, width_, y);
         plan_.caption = {x_, y};
         plan_.caption_wrap = inner_;
@@ -200,7 +201,7 @@ NumbersPlan Planner::rows() {
     return plan_;
 }
 
-// All beside each other, where the gutter is wide.
+// Below a wide picture: everything in one row.
 NumbersPlan Planner::row() {
     const double gap = 2 * type_.gap, top = 0.5 * type_.margin;
     double x = x_;

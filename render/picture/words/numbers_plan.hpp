@@ -1,4 +1,5 @@
-// Where the blocks of the second gutter lie: time, dial, drive, caption, plots. Pixels from its corner.
+// The second gutter, at the right or below the container: where time, dial, drive, caption, notes and plots
+// lie in it. Pixels from its corner.
 #pragma once
 
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace grainreel {
 
-// An upper left corner.
+// The upper left corner of a block.
 struct WordPoint {
     double x = 0, y = 0;
 };
@@ -18,21 +19,21 @@ struct NumbersPlan {
     WordPoint clock, caption, note, dial, drive, arrows;
     double caption_wrap = 1, note_wrap = 1;
     int caption_lines = 0;
-    // What changes is drawn anew within these; none lies over another.
+    // What changes is drawn anew within these parts. None of them lies over another.
     Rectangle clock_part, caption_part, note_part, dial_part;
-    Rectangle drive_part;                     // of a drive that changes; else empty
+    Rectangle drive_part;                     // empty unless the drive changes
     std::vector<Rectangle> plots;             // as many as there is room for
     std::vector<WordBox> boxes;               // around what stands together
-    bool has_dial = true, has_arrows = true;  // else there is no room for them
+    bool has_dial = true, has_arrows = true;  // whether there is room for them
     double width = 0, height = 0;             // needed, without the outer margin
-    bool fits = true;                         // clock, drive and words have the room that they need
-    bool wraps = true;                        // has words that break into as many lines as they need
-    bool empty = false;                       // there is nothing to write or draw
+    bool fits = true;                         // whether clock, drive and words have the room that they need
+    bool wraps = true;                        // whether some words may break into lines
+    bool empty = false;                       // whether there is nothing to write or draw
 };
 
-// width: of the gutter. height: of the gutter, where plots fill what is left; 0: as little as they need.
-// stacked: the gutter lies above or below the container. What there is no room for is left out: plots, then
-// arrows, then the dial.
+// width, height: of the gutter. Plots fill the height that is left; with height 0 all take as little as they
+// need. stacked: the gutter lies below the container. Where there is not enough room, first plots are left
+// out, then arrows, then the dial.
 NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, double width, double height,
                          bool stacked);
 

@@ -94,7 +94,8 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     const CairoContext on(cairo_create(second_.get()));
     cairo_rectangle(on.get(), part.x, part.y, part.width, part.height);
     cairo_clip(on.get());
-    cairo_set_operator(on.get(), CAIRO_OPERATOR_SOURCE);  // what was there goes, also without a background
+    cairo_set_operator(on.get(),
+                       CAIRO_OPERATOR_SOURCE);  // replaces what was there, also without a background
     cairo_set_source_surface(on.get(), still_.get(), 0, 0);
     cairo_paint(on.get());
     cairo_set_operator(on.get(), CAIRO_OPERATOR_OVER);
@@ -103,7 +104,7 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
 }
 
 void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback, const View& view) {
-    // Axes, arrows and scale are as this view has them.
+    // Axes, arrows and scale depend on the view.
     if (view.eye != drawn_for_.eye || view.forward != drawn_for_.forward || view.focal != drawn_for_.focal)
         draw_still(view);
     if (!written_ && layout_.plates) {
@@ -139,7 +140,7 @@ void Overlay::write(Picture& picture, const Frame& frame, const std::string& pla
         renew(picture, plan_.drive_part, [&](cairo_t* on) {
             drive_block({on, type_, palette_}, scene_, &frame, plan_.drive.x, plan_.drive.y);
         });
-    // The hand is drawn where the drive is; before the drive there is none.
+    // The hand shows the phase of the drive. Before the drive begins there is no hand.
     const double angle = frame.time < 0 ? -1 : frame.phase;
     const double stroke = frame.floor().place.dot(scene_.drive.direction);
     if (plan_.has_dial && (!written_ || angle != angle_ || stroke != stroke_))

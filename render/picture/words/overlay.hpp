@@ -1,5 +1,5 @@
-// The words around the picture, in gutters that no grain is drawn in, or on plates over it. What never
-// changes is drawn once, and of the rest only what has changed since the frame before.
+// The words around the picture, in gutters that no grain is drawn in or on plates over the picture. What
+// never changes is drawn once. Of the rest, only what has changed since the frame before is drawn.
 #pragma once
 
 #include <cairo.h>
@@ -22,13 +22,13 @@ class Overlay {
   public:
     Overlay(const FilmedScene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
 
-    // Writes the gutters into the picture: all of them the first time, then only what changes; or the plates,
-    // which lay_over() puts into it. view: before it follows anything.
+    // Writes the gutters into the picture: all of them the first time, then only what changes. Plates are
+    // only prepared here; lay_over() puts them into the picture. view: the view before it follows anything.
     void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
-    // After the picture was drawn: the plates, if there are any.
+    // Lays the plates, if there are any, over a picture that is drawn.
     void lay_over(Picture& picture) const;
 
-    // As Picture has them; of the gutters.
+    // What Picture::still and Picture::moving are for the gutters.
     std::uint64_t still() const { return still_number_; }
     std::vector<Rectangle> moving() const;
 
@@ -37,9 +37,9 @@ class Overlay {
     void draw_still(const View& view);
     void draw_still_numbers(const View& view);
     void make_plots();
-    // A part of a gutter's surface where it belongs in the picture.
+    // Puts a part of a gutter's surface where it belongs in the picture.
     void put(cairo_surface_t* from, const Rectangle& part, const Rectangle& gutter, Picture& picture) const;
-    // Draws over the still part inside a rectangle of the second gutter, and puts it into the picture.
+    // Draws a rectangle of the second gutter anew over what stands still, and puts it into the picture.
     template <class Draw>
     void renew(Picture& picture, const Rectangle& part, const Draw& draw);
     void renew_plots(Picture& picture, const Frame& frame);
