@@ -34,7 +34,7 @@ Frame FrameArchive::first_whole() const {
         try {
             return grains(i);
         } catch (const DamagedFrame&) {
-            continue;  // whoever draws it says so
+            continue;  // the damage is reported when the frame is drawn
         }
     }
     return grains(moments().size() - 1);

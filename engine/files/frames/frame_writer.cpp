@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/fields_file.hpp"
 
-// All writers, a line each: FrameFormat NAME_format() in engine/files/frames/writers.
+// All formats. NAME stands for a function FrameFormat NAME_format() in engine/files/frames/writers.
 #define GRAINREEL_FRAME_FORMATS(one)                                                             \
     one(trajectory) one(lammps_dump) one(lammps_data) one(xyz_writer) one(csv) one(vtk) one(stl) \
         one(gsd_writer) one(gltf) one(blender) one(grain_table)
@@ -86,7 +86,7 @@ std::uintmax_t bytes_of(const fs::path& path) {
     return bytes;
 }
 
-// A name beside the wanted one, which goes away again unless it was renamed.
+// A path beside the wanted one. The file there is removed at the end unless it was renamed.
 class PartName {
   public:
     explicit PartName(const fs::path& path)

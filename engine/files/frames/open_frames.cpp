@@ -11,7 +11,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 
-// All readers, a line each, in the order in which they are asked: FrameReader NAME_reader() in
+// All readers in the order in which they are asked. NAME stands for a function FrameReader NAME_reader() in
 // engine/files/frames/readers.
 #define GRAINREEL_FRAME_READERS(one) \
     one(run_folder) one(trajectory) one(checkpoint) one(grain_table) one(foreign)
@@ -71,7 +71,8 @@ const FrameReader* reader_of(const fs::path& path) {
 
 namespace {
 
-// By a reader that the calling program has given; null where none takes the file, and mostly none is given.
+// Opens the file by a reader that the calling program has added; null where none reads it. Mostly there is
+// none.
 std::unique_ptr<FrameArchive> open_by_own_reader(const fs::path& path, const FrameRequest& request) {
     const std::vector<std::shared_ptr<const OwnReader>> readers = own_readers();
     if (readers.empty()) return nullptr;

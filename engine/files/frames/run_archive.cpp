@@ -41,7 +41,7 @@ RunArchive::RunArchive(const fs::path& folder, const Scene& scene, bool for_ques
     check_meshes(scene_, world_of(trajectory_.info()), name);
     read_moments();
     clock_ = clock_of(scene_, moments_);
-    if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // with one moment at step 0
+    if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // for a single moment at step 0
     MeasuresFile measures = read_measures_file(name_of("measures.csv"));
     measures_ = measures.table;
     if (!measures.fault.empty())
@@ -51,7 +51,7 @@ RunArchive::RunArchive(const fs::path& folder, const Scene& scene, bool for_ques
     find_periods();
 }
 
-// What the trajectory says of itself counts: the scene beside it may be another run's.
+// What the trajectory says about its world has precedence, because the scene beside it may be of another run.
 void RunArchive::make_world() {
     world_ = world_of(scene_);
     const World said = world_of(trajectory_.info());
@@ -180,7 +180,7 @@ void RunArchive::use_contacts(bool alone) {
     check_contacts_of_run();
 }
 
-// Those of a file that was cut off are not all there, and those of a damaged row are not known.
+// In a file that was cut off some contacts are missing, and those in a damaged row are not known.
 bool RunArchive::has_contacts_of(std::size_t index) const {
     if (!contacts_ || !contacts_->has_all(places_.at(index))) return false;
     try {
@@ -207,7 +207,8 @@ std::shared_ptr<const FieldsReader> RunArchive::fields() const {
     return std::make_shared<const FieldsReader>(folder_ / "fields.nc");
 }
 
-// A run that goes on writes a frame's contacts after the frame.
+// A run that is still going on writes the contacts of a frame after the frame, so the last ones may be
+// missing.
 void RunArchive::leave_out_unfinished_contacts() {
     if (moments_.size() < 2 || !FolderLock::holder(folder_)) return;
     if (!contacts_->touches(places_.back()).empty()) return;
@@ -227,13 +228,13 @@ void RunArchive::check_contacts_of_run() const {
             frame = grains(i);
             touches = contacts_->touches(places_[i]);
         } catch (const UserError&) {
-            continue;  // damage; whoever draws it says so
+            continue;  // the frame is damaged, which is reported when it is drawn
         }
     }
     check_contacts(scene_, touches, frame, name_of("contacts.nc"));
 }
 
-// A question gets the row that is nearest, however far that is.
+// Questions get the nearest row, however far it is, so gaps in the measures are among the faults.
 void RunArchive::look_at_measures() {
     const std::string name = name_of("measures.csv");
     const auto time = measures_ ? column_of(*measures_, "time_s") : std::nullopt;
@@ -256,7 +257,7 @@ void RunArchive::look_at_measures() {
 void RunArchive::find_periods() {
     if (!measures_ || measures_->rows() == 0) return;
     const std::optional<std::size_t> column = column_of(*measures_, "bed_periods");
-    if (!column) return;  // of a run before there was one
+    if (!column) return;  // a run of an earlier version, without this column
     const std::size_t last = measures_->rows() - 1;
     const double found = measures_->values(*column, last, last + 1).front();
     if (found >= 1 && found <= PeriodMultiple::kMost) periods_ = static_cast<int>(found);

@@ -1,5 +1,6 @@
-// The folder of a run as a record of frames: its trajectory, and what lies beside it. One that was stopped,
-// was killed or still goes on will do: what is whole is read. All its files must be of one run.
+// RunArchive reads a run's folder as an archive of frames: its trajectory, contacts, fields and measures. The
+// run may have been stopped or killed, or may still be going on; all that is whole is read. All files must be
+// of one run.
 #pragma once
 
 #include <filesystem>
@@ -18,28 +19,28 @@
 
 namespace grainreel {
 
-// In the folder of a run that was made of another program's files: what was guessed and derived, a line each.
+// A file in the folder of an imported run that says what was guessed and derived, a line for each.
 inline constexpr const char* kImportNews = "import_news.txt";
 
 class RunArchive final : public FrameArchive {
   public:
-    // folder: as folder_of_run() gives it. scene: that of the folder. Throws UserError when there is no
-    // trajectory.nc that holds a frame, and when the files are of two runs.
+    // folder: from folder_of_run(). scene: of the folder. Throws UserError when there is no trajectory.nc
+    // with a frame, and when the files are of two runs.
     //
-    // for_questions: what is missing beside the trajectory is a fault, and contacts that cannot be used are
-    // left out with a line of faults(): they can be brought back.
+    // for_questions: other missing files are among faults(), and so are contacts that cannot be used. The
+    // caller can restore them by running parts of the scene again.
     RunArchive(const std::filesystem::path& folder, const Scene& scene, bool for_questions);
 
-    // Contacts are read when somebody wants them. alone: what the kept frames lack is to be had nowhere else,
-    // and is complained of: throws UserError when there are none.
+    // Makes contacts available. alone: there is no other source of contacts, so this throws UserError when
+    // there are none.
     void read_contacts(bool alone);
-    // Reads all there is and leaves out the frames whose grains are damaged, with a line of news, so that no
-    // damage shows up when half a film is made. Throws UserError when none is left, or contacts are damaged.
-    // brought_back: their moments are had from elsewhere.
+    // Reads all frames and leaves out those with damaged grains, with a line of news, so that damage is found
+    // before a film is half made. Throws UserError when no frame is left or contacts are damaged.
+    // brought_back: the moments that are left out come from another source.
     void leave_out_damaged(bool brought_back);
-    // Somebody says after how many periods the bed repeats itself.
+    // Sets after how many periods the bed repeats itself, if the caller knows better.
     void set_periods(int periods) { periods_ = periods; }
-    // A line of news that whoever uses it has found.
+    // Adds a line of news that the caller has found.
     void note(std::string line) { news_.push_back(std::move(line)); }
 
     const std::filesystem::path& path() const override { return folder_; }
@@ -52,7 +53,7 @@ class RunArchive final : public FrameArchive {
     std::optional<std::vector<ContactRecord>> contacts(std::size_t index) const override;
     bool has_contacts_of(std::size_t index) const override;
     std::shared_ptr<const FieldsReader> fields() const override;
-    // The row of measures.csv that is nearest to the moment; none without rows.
+    // The row of measures.csv nearest to the moment; none without rows.
     std::optional<MeasuredRow> measured_near(std::size_t index) const override;
     std::size_t place(std::size_t index) const override { return places_.at(index); }
     int periods() const override { return periods_; }
@@ -61,20 +62,20 @@ class RunArchive final : public FrameArchive {
     std::vector<std::string> news() const override;
 
     const Clock& clock() const { return clock_; }
-    // Damage of the files, which makes answers poorer than the run was. They are among the news too.
+    // Damage of the files, because of which something of the run is missing. It is also among the news.
     const std::vector<std::string>& faults() const { return faults_; }
-    // Whether contacts are read.
+    // Whether contacts are available.
     bool has_contacts() const { return contacts_.has_value(); }
-    // Rows of measures.csv; null when there are none.
+    // The rows of measures.csv; null when there are none.
     const std::shared_ptr<const MeasureTable>& measures() const { return measures_; }
-    // The moment at that time (s), when there is one: frames lie on steps, and so do moments that are wanted.
+    // The moment at exactly that time (s), if there is one. Frames and wanted times both lie on steps.
     std::optional<std::size_t> index_at(double time) const;
     std::string name_of(const char* file) const { return (folder_ / file).string(); }
 
   private:
     void make_world();
     void read_moments();
-    // Reads each of places_ and keeps those that are not damaged.
+    // Calls `read` for each of places_ and keeps those that are not damaged.
     void keep_those(const std::function<void(std::size_t)>& read, bool brought_back = false);
     void check_same_run() const;
     void use_contacts(bool alone);
@@ -89,7 +90,7 @@ class RunArchive final : public FrameArchive {
     TrajectoryReader trajectory_;
     World world_;
     std::optional<ContactsReader> contacts_;
-    std::vector<std::size_t> places_;  // in the trajectory, of the moments
+    std::vector<std::size_t> places_;  // number of each moment's frame in the trajectory
     std::vector<Frame> moments_;
     Clock clock_;
     int periods_ = 1;

@@ -21,7 +21,7 @@ constexpr double same_size = 1e-4;   // relative; an early version kept radii as
 constexpr double same_time = 1e-6;   // relative, and in turns
 constexpr double same_place = 1e-6;  // of the drive's amplitude or speed, or of a diameter
 constexpr double same_angle = 1e-6;  // rad
-constexpr double same_shape = 1e-9;  // of a mesh's extent
+constexpr double same_shape = 1e-9;  // relative to a mesh's extent
 
 [[noreturn]] void of_two_runs(const std::string& what) {
     throw UserError(what + "; they are of two runs");
@@ -76,7 +76,7 @@ void check_own_pose(const BodyPose& is, const BodyPose& by_scene, const std::str
                             apart * 180 / std::numbers::pi, (is.place - by_scene.place).norm()));
 }
 
-// Those of the container where it turns, and of the meshes.
+// Checks the pose of the container, if it turns, and of the meshes.
 void check_own_poses(const Scene& scene, const Pose& drive, const Frame& moment, const std::string& frame) {
     const std::vector<Body> bodies = bodies_of(scene);
     if (scene.container.turn)
@@ -134,7 +134,7 @@ void check_grains(const Scene& scene, const World& world, const Frame& frame, co
                                     trajectory, frame.id[i], species.name, diameter));
     }
     for (std::size_t s = 0; s < count.size(); ++s)
-        if (count[s] > scene.species[s].count && !world.traffic)  // fewer when some have gone
+        if (count[s] > scene.species[s].count && !world.traffic)  // there are fewer when some have left
             of_two_runs(fmt::format("{}: has {} grains of '{}', but scene.toml beside it has {}", trajectory,
                                     count[s], scene.species[s].name, scene.species[s].count));
 }
@@ -158,7 +158,7 @@ void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, co
 
 namespace {
 
-// Places of the rows that have a step of the trajectory, the last first: row and frame.
+// The rows whose step is also in the trajectory, from the last on: number of the row and of the frame.
 struct Pair {
     std::size_t row, frame;
 };
@@ -195,7 +195,7 @@ void check_heights(const Scene& scene, const MeasureTable& table, std::size_t ro
     }
 }
 
-// Checks that rows follow each other, and that each has the time of its step.
+// Checks that the steps of rows rise and that each row has the time of its step.
 void check_rows(double step_length, const std::vector<double>& steps, const std::vector<double>& times,
                 const std::string& measures) {
     for (std::size_t row = 0; row < steps.size(); ++row) {
@@ -239,14 +239,14 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
         try {
             return check_heights(scene, table, row, trajectory.grains(index), measures);
         } catch (const DamagedFrame&) {
-            continue;  // whoever draws it says so
+            continue;  // the damage is reported when the frame is drawn
         }
     }
 }
 
 void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
                     const std::string& contacts) {
-    constexpr double room = 1.05;  // over the radii; overlaps are what carries force
+    constexpr double room = 1.05;  // times the sum of radii; grains in contact overlap
     const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
     const auto index_of = [&](std::int32_t id) -> std::optional<std::size_t> {
         const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
@@ -260,7 +260,7 @@ void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const
     };
     for (const Touch& touch : touches) {
         const auto first = index_of(touch.first);
-        const auto second = touch.second < 0 ? first : index_of(touch.second);  // a wall
+        const auto second = touch.second < 0 ? first : index_of(touch.second);  // it is a wall
         if (first && second && (touch.second < 0 || !apart(*first, *second))) continue;
         of_two_runs(
             fmt::format("{}: has grains {} and {} push each other at {:.6g} s, but in trajectory.nc "

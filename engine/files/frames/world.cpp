@@ -39,8 +39,8 @@ World world_of(const Scene& scene) {
 
 namespace {
 
-// The meshes of a world, at rest. Bodies are numbered with the planes before the meshes, and of planes
-// nothing is known but where they are; with some of them a scene cannot number the meshes.
+// The meshes of a world at rest. Planes have lower numbers than meshes, and only the poses of planes are
+// known. So a scene can number the meshes only if there are no planes.
 std::vector<SceneMesh> meshes_of(const World& world) {
     std::vector<SceneMesh> meshes;
     for (std::size_t body = kFirstPlaneBody; body < world.bodies.size(); ++body) {
@@ -149,16 +149,16 @@ std::vector<std::string> faults_of(const TrajectoryReader& trajectory, const std
 
 namespace {
 
-constexpr int kFacets = 96;  // of a cylinder; of a hole's rim half as many
+constexpr int kFacets = 96;  // of a cylinder; the rim of a hole has half as many
 
 using Polygon = std::vector<Vec3>;
 
 struct HalfSpace {
-    Vec3 normal;      // into the part that is kept
+    Vec3 normal;      // points into the part that is kept
     double distance;  // normal . x >= distance
 };
 
-// Sutherland and Hodgman 1974, Comm. ACM 17, 32.
+// The part of a polygon in a half-space (Sutherland and Hodgman 1974, Comm. ACM 17, 32).
 Polygon clipped(const Polygon& polygon, const HalfSpace& side) {
     Polygon kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -207,7 +207,7 @@ void add_plane(const Face& face, const std::vector<HalfSpace>& sides, double siz
     if (face.along.norm() > 0) polygon = clipped(polygon, {face.along, face.along.dot(face.edge)});
     if (face.gap > 0 && face.round_gap) return add_around_hole(polygon, face, mesh);
     if (face.gap > 0) {
-        // A slot along x, on both sides of which the plane goes on.
+        // A slot along x, with the plane on both sides.
         const Vec3 y(0, 1, 0);
         add_fan(clipped(polygon, {y, face.point.y() + face.gap}), mesh);
         add_fan(clipped(polygon, {-y, -(face.point.y() - face.gap)}), mesh);
@@ -232,7 +232,7 @@ void add_cylinder(const Face& face, double low, double high, TriangleMesh& mesh)
     }
 }
 
-// What a face is cut by: the endless planes beside it, and the world's corners.
+// The half-spaces that cut a face: the other infinite planes and the sides of the world.
 std::vector<HalfSpace> sides_for(const World& world, const Face& face, const std::vector<const Face*>& all) {
     const double margin = 1e-9 * (world.high - world.low).norm();
     std::vector<HalfSpace> sides;
@@ -249,7 +249,7 @@ std::vector<HalfSpace> sides_for(const World& world, const Face& face, const std
     return sides;
 }
 
-// A disc in place of a square where a cylinder stands on the plane.
+// The half-spaces that cut a plane to a disc inside a cylinder.
 std::vector<HalfSpace> inside_cylinder(const Face& cylinder) {
     std::vector<HalfSpace> sides;
     for (int k = 0; k < kFacets; ++k) {

@@ -1,4 +1,4 @@
-// Imports that are kept in the user's cache folder and found again.
+// Keeps imports in the user's cache folder and finds them again.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -25,13 +25,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // of all imports together
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // for all imports together
 
 fs::path temporary_imports() {
     return fs::temp_directory_path() / fmt::format("grainreel-imports-{}", ::getuid());
 }
 
-// The folder of all imports, made where it is not there.
+// The folder of all imports, which is made if it does not exist.
 fs::path import_folder() {
     std::error_code error;
     const fs::path cache = cache_folder(), imports = cache / "imports";
@@ -41,7 +41,7 @@ fs::path import_folder() {
     return temporary_imports();
 }
 
-// All files that may have a say in what is imported.
+// All files on which the import may depend.
 std::vector<fs::path> files_behind(const fs::path& from, const ReadingOptions& options) {
     std::vector<fs::path> files;
     const auto add = [&](const fs::path& path) {
@@ -80,7 +80,7 @@ std::string text_of(const ReadingOptions& o) {
     return text;
 }
 
-// A file by what changes when somebody writes it.
+// Identifies a file by what changes when it is written.
 std::string key_of(const ImportRequest& request) {
     std::string text = request.program_version + "\n" + fs::absolute(request.from).string() + "\n" +
                        text_of(request.reading);
@@ -102,14 +102,15 @@ std::uintmax_t size_of(const fs::path& folder) {
     return bytes;
 }
 
-// Another process may be at work on it. What is older than a day was left by one that was killed.
+// Whether another process may be working on an unfinished import. Older than a day, it is of a process that
+// was killed.
 bool is_being_made(const fs::path& folder) {
     std::error_code error;
     return folder.extension() == ".part" &&
            fs::file_time_type::clock::now() - fs::last_write_time(folder, error) < std::chrono::hours(24);
 }
 
-// Removes what was not used for longest.
+// Removes the imports that were not used for the longest time.
 void make_room(const fs::path& imports, const fs::path& keep) {
     struct One {
         fs::path folder;
@@ -157,7 +158,7 @@ ImportedRun cached_import(ImportRequest request) {
     std::error_code error;
     if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kImportNews, error))
         return found(place / name);
-    // Each process makes its own, and the first that is done gives it the name.
+    // Each process makes its own import, and the first that is finished gives it its name.
     const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
     fs::remove_all(part, error);
     request.folder = part / name;

@@ -21,8 +21,8 @@ namespace grainreel {
 
 namespace {
 
-// Those that work on a state that was put together by hand. Energies are left out: stiffness and mass of
-// another program's contacts are not known.
+// The observers that only need a state made from a frame. Energies are left out, because stiffness and mass
+// of another program's contacts are not known.
 std::vector<ObserverEntry> entries(const FrameSupply& supply) {
     std::vector<ObserverEntry> all{
         entry_of<observers::Times>(),         entry_of<observers::CentreOfMass>(),
@@ -84,7 +84,7 @@ void show(const Frame& frame, const std::vector<Touch>& touches,
     }
 }
 
-// The plan of a start from a file asks for that file, and there is none.
+// The scene without its start from a file. A plan would read that file, and there is none.
 Scene as_layers(Scene scene) {
     if (scene.start.method == Start::Method::file) scene.start = Start();
     return scene;
@@ -136,7 +136,7 @@ Measures ImportMeasures::row(const Frame& frame, const std::vector<Touch>& touch
 
 namespace {
 
-// The column of a meaning in what a wall says of its triangles at its first moment.
+// The column with a meaning in the table of a wall's triangles at its first moment.
 std::optional<std::size_t> column_of(const std::string& meaning, const MovingWall& wall) {
     if (wall.cells.empty()) return std::nullopt;
     return column_for(meaning, wall.cells.front(), {}, wall.name);
@@ -149,8 +149,8 @@ Vec3 middle_of(const TriangleMesh& mesh, std::size_t triangle) {
     return sum / 3;
 }
 
-// Which triangle of the file each triangle of the scene's mesh was. Mending drops some and keeps the order of
-// the others, and moves corners by 1e-5 of the extent at most.
+// For each triangle of the scene's mesh: its number in the file. Mending removes some triangles and keeps the
+// order of the others. It moves corners by at most 1e-5 of the extent.
 std::vector<std::size_t> origins(const TriangleMesh& from, const TriangleMesh& to) {
     Vec3 low = Vec3::Constant(1e300), high = -low;
     for (const Vec3& vertex : from.vertices) low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);
@@ -169,8 +169,8 @@ std::vector<std::size_t> origins(const TriangleMesh& from, const TriangleMesh& t
 
 struct ImportWear::Impl {
     struct Wall {
-        std::optional<std::size_t> pressure, wear;  // columns of its cells
-        std::vector<std::size_t> origin;            // of each triangle of the scene's mesh
+        std::optional<std::size_t> pressure, wear;  // numbers of these columns in its table
+        std::vector<std::size_t> origin;  // for each triangle of the scene's mesh: its number in the file
     };
 
     Impl(const Scene& scene, const ForeignArchive& from) : archive(from) {
@@ -219,7 +219,7 @@ struct ImportWear::Impl {
     std::size_t first_wall = 0;
     FieldSet set;
     std::optional<FieldsWriter> file;
-    double last = 0;  // s, when the record before ended
+    double last = 0;  // s, the end of the last record
 };
 
 bool ImportWear::known(const ForeignArchive& archive) {

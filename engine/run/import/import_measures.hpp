@@ -1,5 +1,5 @@
-// What the observers of a run say of frames that another program wrote: all those that need places,
-// velocities or contacts alone.
+// Measures of a run that another program wrote: ImportMeasures makes measures.csv from the frames, ImportWear
+// makes fields.nc from stress and wear in the files of walls.
 #pragma once
 
 #include <filesystem>
@@ -16,13 +16,14 @@
 
 namespace grainreel {
 
+// Runs those observers that need only places, velocities or contacts.
 class ImportMeasures {
   public:
     ImportMeasures(const Scene& scene, const Clock& clock, const FrameSupply& supply);
     ~ImportMeasures();
 
     const std::vector<std::string>& names() const;
-    // One row of measures.csv.
+    // The row of measures.csv for a frame.
     Measures row(const Frame& frame, const std::vector<Touch>& touches);
 
   private:
@@ -30,24 +31,23 @@ class ImportMeasures {
     std::unique_ptr<Impl> impl_;
 };
 
-// Stress and wear that another program wrote on the triangles of its walls, as fields.nc of a run has them,
-// so that films colour walls by them. LIGGGHTS: dump mesh/vtk with `stress` and `wear`.
-
+// Writes stress and wear of walls, which another program gives for each triangle, as the fields.nc of a run,
+// so that films can colour walls by them. LIGGGHTS writes them by dump mesh/vtk with `stress` and `wear`.
 class ImportWear {
   public:
     // Whether some wall has stress or wear at each of its moments.
     static bool known(const ForeignArchive& archive);
 
-    // scene: of the import; the walls of the archive are its last meshes. Throws RunError where the file
-    // cannot be made.
+    // scene: of the imported run; its last meshes are the walls of the archive. Throws RunError where the
+    // file cannot be made.
     ImportWear(const std::filesystem::path& file, const Scene& scene, const ForeignArchive& archive,
                const std::string& program_version);
     ~ImportWear();
 
-    // The values that hold at a moment of the archive, and from the moment before until then.
+    // Writes the values at a moment of the archive. They count from the moment before until this one.
     void write(std::size_t moment);
 
-    // What the user is to know of them, a line each.
+    // What the user should know about them, a line for each.
     std::vector<std::string> news() const;
 
   private:

@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* ranges_name = "ranges.csv";
-constexpr double classes_a_power = 100;  // of ten
-constexpr int no_size = -1'000'000;      // the class of 0
+constexpr double classes_a_power = 100;  // classes for each power of ten
+constexpr int no_size = -1'000'000;      // the class of the value 0
 
-// J: of translation, and of rotation with 2/5 m r2 of a solid sphere.
+// The kinetic energy in J of translation and rotation, with 2/5 m r2 for a solid sphere.
 double energy_of(const Frame& frame, std::size_t i, const Scene& scene) {
     const double r = frame.radius[i];
     const double mass = scene.species[static_cast<std::size_t>(frame.species[i])].density * 4.0 / 3.0 *
@@ -28,7 +28,7 @@ double energy_of(const Frame& frame, std::size_t i, const Scene& scene) {
     return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
 }
 
-// To two digits, so that a colour bar has round ends.
+// A value rounded up to two digits, so that a colour bar has round ends.
 double rounded_up(double value) {
     if (!(value > 0)) return 0;
     const double unit = std::pow(10, std::floor(std::log10(value)) - 1);

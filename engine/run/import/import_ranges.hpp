@@ -1,5 +1,6 @@
-// Between which values the grains of an imported run lie. Scenes of ours estimate that from drive and bed;
-// files of other programs have neither, so the frames themselves are asked.
+// The ranges of speeds, heights, forces and other quantities in an imported run, for colour bars. For our own
+// scenes they are estimated from drive and bed. Files of other programs have neither, so they are taken from
+// the frames.
 #pragma once
 
 #include <array>
@@ -17,13 +18,13 @@
 
 namespace grainreel {
 
-// Which value 99 of 100 stay below, of any number of them in a little memory: sizes are counted by 100
-// classes a power of ten, so that the answer is at most 2.4 % too large.
+// Finds the value that 99 of 100 values do not exceed, for any number of values and with little memory.
+// Values are counted in 100 classes for each power of ten, so the answer is at most 2.4 % too large.
 class TopOfMost {
   public:
-    // value: not negative; other values do not count.
+    // Adds a value. Negative values do not count.
     void add(double value);
-    // 0 where there was none, or where 99 of 100 are 0.
+    // 0 where there were no values, or where 99 of 100 are 0.
     double value() const;
 
   private:
@@ -31,13 +32,14 @@ class TopOfMost {
     std::int64_t all_ = 0;
 };
 
+// Collects the ranges frame by frame.
 class ImportRanges {
   public:
     ImportRanges(const Scene& scene, const FrameSupply& supply) : scene_(scene), supply_(supply) {}
-    // Heights are those of the first frame that has grains.
+    // Adds a frame. Heights are taken only from the first frame with grains.
     void add(const Frame& frame, const std::vector<Touch>& touches);
-    // ranges.csv in the run's folder: quantity, low and high in SI. What the files say nothing of, and what
-    // is 0 always, has no row. Throws RunError where it cannot be written.
+    // Writes ranges.csv into the run's folder: quantity, low and high in SI. A quantity that is unknown or
+    // always 0 has no row. Throws RunError where the file cannot be written.
     void write(const std::filesystem::path& folder) const;
 
   private:
@@ -51,11 +53,11 @@ class ImportRanges {
 };
 
 // The range of a quantity in a run's folder: "speed", "vertical-velocity", "start-height", "spin",
-// "kinetic-energy" or "contact-force"; none where the run was not imported, or its files do not say.
+// "kinetic-energy" or "contact-force". None where the run was not imported or the quantity is unknown.
 std::optional<std::array<double, 2>> imported_range(const std::filesystem::path& run,
                                                     std::string_view quantity);
 
-// Whether a run was imported and its files do not say this quantity, which is one of those above.
+// Whether a run was imported and one of these quantities is unknown in it.
 bool import_lacks(const std::filesystem::path& run, std::string_view quantity);
 
 }  // namespace grainreel

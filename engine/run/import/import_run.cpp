@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A new folder that goes away again unless it is kept.
+// A new folder that is removed at the end unless it is kept.
 class NewFolder {
   public:
     explicit NewFolder(fs::path path) : path_(std::move(path)) {
@@ -73,7 +73,7 @@ ImportSurvey survey_of(const ForeignArchive& archive, const std::function<void(s
             survey.high = survey.high.cwiseMax(frame.position[i] + frame.radius[i] * Vec3::Ones());
             ++count[s];
         }
-        // Most frames have the grains of the one before, which are in order.
+        // Most frames have the same grains as the frame before, in the same order.
         for (const std::int32_t id : frame.id) ids.insert(ids.end(), id);
         for (std::size_t s = 0; s < species; ++s) survey.most[s] = std::max(survey.most[s], count[s]);
         told(k);
@@ -83,8 +83,8 @@ ImportSurvey survey_of(const ForeignArchive& archive, const std::function<void(s
     return survey;
 }
 
-// A frame as a run of the scene would have it at that moment: with the drive's clock, and with poses of the
-// container's bodies.
+// Completes a frame as a run of the scene would write it: with the drive's clock and the poses of the
+// container.
 class AsRun {
   public:
     AsRun(const Scene& scene, const std::vector<Frame>& moments, bool with_container)
@@ -98,7 +98,7 @@ class AsRun {
         frame.cycles = clock_.cycles(frame.step);
         frame.phase = clock_.phase(frame.step);
         const Pose drive = WallMotion(scene_.drive, clock_).at(frame.step);
-        // The motions of the files' walls are part of the scene, and go through each moment.
+        // The motions of the files' walls are part of the scene and pass through each moment.
         frame.bodies = poses_of(bodies_, drive);
         if (!with_container_ || scene_.drive.moves != Drive::Moves::container) return;
         for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -127,8 +127,8 @@ std::vector<ContactRecord> records_of(const std::vector<Touch>& touches, const F
         ContactRecord one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
         if (touch.second >= 0) {
             const std::optional<std::size_t> second = row(touch.second);
-            // What does not touch in the frame (a contact across a periodic side, another moment) is left
-            // out.
+            // Contacts of grains that do not touch in the frame are left out: those across a periodic side or
+            // of another moment.
             if (!second) continue;
             const Vec3 between = frame.position[*second] - frame.position[*first];
             const double reach = frame.radius[*first] + frame.radius[*second];
@@ -140,7 +140,7 @@ std::vector<ContactRecord> records_of(const std::vector<Touch>& touches, const F
     return records;
 }
 
-// The scene that was written a moment ago. What is wrong with it came from the files or the options.
+// Reads the scene that was just written. Errors in it come from the files or the options.
 Scene scene_of(const fs::path& file, const ImportRequest& request) {
     try {
         return read_scene(file, {}, measurable_in);
@@ -172,7 +172,7 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
     World world = world_of(scene);
     world.title = archive.world().title;
     world.program_version = request.program_version;
-    world.traffic = true;  // of a run of somebody else any grain may come and go
+    world.traffic = true;  // in a run of another program any grain may come and go
     world.most_grains = static_cast<std::size_t>(std::max<std::int64_t>(1, survey.ids));
     if (archive.world().cell) world.cell = archive.world().cell;
     FrameSupply supply = archive.supply();
@@ -192,7 +192,7 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
     std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
     for (std::size_t k = 0; k < archive.moments().size(); ++k) {
         Frame frame = archive.grains(k);
-        if (frame.step <= last_step && k > 0) continue;  // two frames of one moment
+        if (frame.step <= last_step && k > 0) continue;  // a second frame of the same moment
         if (!archive.world().time_known && archive.moments().size() == 1) frame.step = 0;
         last_step = frame.step;
         as_run.complete(frame);
@@ -214,7 +214,8 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
 
 }  // namespace
 
-// In long files only some frames are asked which types there are. Where another one has more, all are asked.
+// In long files types are looked for only in some frames. If another frame has more types, all frames are
+// looked at.
 ImportedRun import_run(const ImportRequest& request) {
     try {
         return import_of(request, ForeignArchive(request.from, request.reading));

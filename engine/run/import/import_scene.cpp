@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kDensity = 2500;  // kg/m3, of glass, where nobody says another
+constexpr double kDensity = 2500;  // kg/m3, of glass, where the density is not known
 
 std::string quoted(const std::string& text) {
     std::string out = "\"";
@@ -72,7 +72,7 @@ std::string species_text(const ForeignArchive& archive, const ImportSurvey& surv
     return text;
 }
 
-// ASCII STL with all digits: the shape must come back as it is in the trajectory.
+// Writes STL as text with all digits, so that the shape is read back exactly as it is in the trajectory.
 void write_ply(const fs::path& file, const TriangleMesh& mesh) {
     std::string text = fmt::format(
         "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
@@ -88,7 +88,7 @@ void add_row(std::string& text, double time, const BodyPose& pose) {
                         pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
 }
 
-// A name that a [[mesh]] may have: not that of a container's face, of a species or of another mesh.
+// A name that a [[mesh]] may have: no face of the container, species or other mesh has it.
 std::string mesh_name(const std::string& wanted, const std::vector<std::string>& taken) {
     std::string bare = wanted;
     std::replace(bare.begin(), bare.end(), '_', ' ');
@@ -104,8 +104,8 @@ std::string mesh_name(const std::string& wanted, const std::vector<std::string>&
     return name;
 }
 
-// Rows of a motion's file: the pose of each moment, and between moments so many that no turn from row to row
-// is larger than a radian. Before the first moment the wall stands.
+// The rows of a file with a wall's motion: the pose at each moment, and more rows between moments so that no
+// rotation from row to row is larger than a radian. Before the first moment the wall stands still.
 std::string path_text(const ForeignArchive& archive, std::size_t wall) {
     constexpr double largest = 1;  // rad
     const std::vector<Frame>& moments = archive.moments();
@@ -131,7 +131,7 @@ std::string path_text(const ForeignArchive& archive, std::size_t wall) {
     return text;
 }
 
-// Whether the motion's file can be read back; news: why not.
+// Whether the file of a motion can be read back. news: gets the reason if not.
 bool is_smooth(const fs::path& file, const std::string& wall, std::vector<std::string>& news) {
     try {
         MotionPath::read(file);
@@ -143,7 +143,7 @@ bool is_smooth(const fs::path& file, const std::string& wall, std::vector<std::s
     }
 }
 
-// Tables of a scene's text that say what its walls are and how they move.
+// The tables of the scene's text for its walls and their motions.
 std::string walls_and_drive(const std::string& text) {
     std::string kept;
     bool keep = false;
@@ -166,7 +166,7 @@ std::string walls_and_drive(const std::string& text) {
     return kept;
 }
 
-// m3, of the grains that the species' tables name: of a spread of diameters the mean of d^3.
+// The volume (m3) of all grains in the tables of species. For a spread of diameters it uses the mean of d^3.
 double solid_of(const ImportSurvey& survey) {
     double solid = 0;
     for (std::size_t s = 0; s < survey.most.size(); ++s) {
@@ -176,10 +176,10 @@ double solid_of(const ImportSurvey& survey) {
     return solid;
 }
 
-// The box around all grains. It is larger where they lie closer than a scene may pack them: nothing is packed
-// here, and the box tells the camera alone what to show.
+// The box around all grains. It is made larger if they lie closer than a scene may pack them. Nothing is
+// packed here; the box only tells the camera what to show.
 std::string region_text(const ImportSurvey& survey) {
-    constexpr double most_solid = 0.5;  // a scene may have 0.55
+    constexpr double most_solid = 0.5;  // a scene may have up to 0.55
     const Vec3 size = (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
     const double solid = solid_of(survey) / (most_solid * size.prod());
     const double grown = std::max(1e-9, 0.5 * (std::cbrt(solid) - 1));
@@ -188,14 +188,14 @@ std::string region_text(const ImportSurvey& survey) {
                        triple(survey.high + margin));
 }
 
-// Discs in a plane: all grains lie within the thickness of the largest.
+// Whether the grains are discs in a plane: all lie within the thickness of the largest one.
 bool is_flat(const ImportSurvey& survey) {
     const double largest = *std::max_element(survey.largest.begin(), survey.largest.end());
     return largest > 0 && survey.high.z() - survey.low.z() <= (1 + 1e-9) * largest;
 }
 
-// One picture a frame, and no words that the files say nothing of: times where there are none, and the
-// direction of gravity. A flat bed is seen from above.
+// The tables for the film: a picture for each frame, and no words for what the files do not say, such as
+// times or the direction of gravity. A flat bed is seen from above.
 std::string film_text(const ForeignArchive& archive, const ImportSurvey& survey, bool has_container) {
     const std::vector<Frame>& moments = archive.moments();
     const double span = moments.back().time - moments.front().time;
@@ -225,7 +225,7 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
     if (!options.container.empty()) {
         const Scene scene = read_scene(options.container, {}, measurable_in);
         const std::string kept = walls_and_drive(written_scene(scene)) + "\n";
-        // Gravity may be a list in brackets, too.
+        // Gravity may also be a list in brackets.
         const std::size_t line = kept.find("\n[");
         const std::size_t tables = kept.front() == '['         ? 0
                                    : line == std::string::npos ? kept.size()
@@ -253,7 +253,7 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
     }
     const Frame& one = moments.back().step != 0 ? moments.back() : moments.front();
     const double step = one.step != 0 && one.time != 0 ? one.time / static_cast<double>(one.step) : 1e-6;
-    // The container of a scene may be fuller than what can be packed: a start from a file is not checked.
+    // The container may be fuller than what can be packed, because a start from a file is not checked.
     const std::string start =
         options.container.empty() ? region_text(survey) : "method = \"file\"\nfile = \"final.csv\"\n";
     const std::string begin = fmt::format("\n[start]\n{}\n[run]\nduration = {}\nstep = {}\n", start,

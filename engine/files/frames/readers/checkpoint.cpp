@@ -1,5 +1,5 @@
-// A checkpoint: the grains of one moment, and the scene that they are of. What the step loop keeps in it is
-// left alone, so no laws are needed. Its forces and measures come from the run itself, once it is restored.
+// Reads a checkpoint as one frame: its grains and its scene. The state of the step loop is not read, so no
+// laws are needed. Forces and measures of that moment can be had only by restoring the run.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -42,7 +42,7 @@ CheckpointFile whole_file(const fs::path& path) {
     return file;
 }
 
-// By rising id, as frames have them.
+// Sorts grains by rising id, as in all frames.
 Frame frame_of(const Grains& grains, double period) {
     std::vector<std::size_t> order(grains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

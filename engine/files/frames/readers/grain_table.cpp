@@ -1,5 +1,5 @@
-// The table of grains of a final.csv: one moment of a run, without time or walls. Names, masses and walls are
-// those of the scene.toml beside it, where one lies there.
+// Reads a table of grains (final.csv) as one frame. It has neither time nor walls. Names, densities and walls
+// are those of the scene.toml beside it, if there is one.
 #include <algorithm>
 #include <numeric>
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int32_t most_types = 1000;
 
-// Questions find grains by their ids, so the rows come by rising id.
+// Sorts the rows by rising id, because questions find grains by their ids.
 Frame by_id(const Frame& table) {
     std::vector<std::size_t> order(table.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -37,7 +37,7 @@ Frame by_id(const Frame& table) {
     return frame;
 }
 
-// Species of a table that lies alone.
+// The species of a table without a scene.
 std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
     std::vector<WorldSpecies> types(static_cast<std::size_t>(last) + 1);
     for (std::size_t type = 0; type < types.size(); ++type)
@@ -104,7 +104,7 @@ class GrainTable final : public FrameArchive {
         check_all_are_there();
     }
 
-    // Where no grain comes or goes, the table of a run has as many as its scene.
+    // If no grain comes or goes, the table has as many grains as the scene.
     void check_all_are_there() const {
         const bool traffic = !scene_->feeds.empty() || grains_leave(*scene_);
         const auto grains = static_cast<std::int64_t>(frame_.size());
