@@ -10,7 +10,7 @@
 
 #include "engine/laws/row-inl.hpp"
 #include "engine/state/grains.hpp"
-#include "engine/vector/records-inl.hpp"
+#include "engine/vector/bundles-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -56,12 +56,12 @@ HWY_INLINE void each_of(int count, const Work& work) {
 }
 
 template <int size>
-HWY_INLINE void add(double* load, const Record<size>& more) {
-    put(record_at<size>(load) + more, load);
+HWY_INLINE void add(double* load, const Bundle<size>& more) {
+    put(bundle_at<size>(load) + more, load);
 }
 template <int size>
-HWY_INLINE void take_off(double* load, const Record<size>& less) {
-    put(record_at<size>(load) - less, load);
+HWY_INLINE void take_off(double* load, const Bundle<size>& less) {
+    put(bundle_at<size>(load) - less, load);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -89,7 +89,7 @@ HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, do
     store_as(force.x, rows[0]), store_as(force.y, rows[1]), store_as(force.z, rows[2]);
     const auto* at_end = reinterpret_cast<const double*>(in.walls.motion.data()) + 4;
     for (int k = 0; k < L::count; k += kLanes) {
-        const auto v = load_records(at_end, sizeof(FaceMotion) / sizeof(double), in.contacts.second + c + k);
+        const auto v = load_bundles(at_end, sizeof(FaceMotion) / sizeof(double), in.contacts.second + c + k);
         const Triple<Lanes> on_wall{load(rows[0] + k), load(rows[1] + k), load(rows[2] + k)};
         store(on_wall.dot({v.a, v.b, v.c}) * Lanes(-in.step), work + k);
     }

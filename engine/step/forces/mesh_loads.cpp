@@ -47,7 +47,7 @@ HWY_INLINE void add_register(const WallForces& in, const WallPose& pose, int c) 
         if (chunk.rolling) couple = wide_triple<Number>(chunk.rolling->torque, c);
         torque = plain_cross(k, across) * wide_row<Number>(chunk.touch->first_arm, c) + couple;
     }
-    const auto place = load_records(numbers(in.grains.place), 4, chunk.first + c);
+    const auto place = load_bundles(numbers(in.grains.place), 4, chunk.first + c);
     const Lanes reach = Lanes(place.d) - wide_row<Number>(chunk.touch->overlap, c);
     const Triple<Lanes> from = triple(place) + k * reach - all_lanes(pose.now.place),
                         spin = all_lanes(pose.now.spin);

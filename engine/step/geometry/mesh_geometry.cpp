@@ -46,9 +46,9 @@ void meshes_chunk(const GeometryInput& in, const MeshTouch* at, TouchChunk& out)
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const std::int32_t* i = in.first + c;
         const double* const touch = reinterpret_cast<const double*>(at + c);
-        const auto part = [&](int first) HWY_ATTR { return load_records(touch + first, 16, in_turn); };
+        const auto part = [&](int first) HWY_ATTR { return load_bundles(touch + first, 16, in_turn); };
         const auto place = part(0);
-        const Lanes distance(place.d), radius(load_records(numbers(in.grains->place), 4, i).d);
+        const Lanes distance(place.d), radius(load_bundles(numbers(in.grains->place), 4, i).d);
         const Lanes overlap = select(distance < Lanes(MeshTouch::kApart), radius - distance, Lanes(-1.0));
         put<Number>(overlap, out.overlap, c);
         const LanesMask touching = overlap > zero;
@@ -59,14 +59,14 @@ void meshes_chunk(const GeometryInput& in, const MeshTouch* at, TouchChunk& out)
         if (in.radius) put<Number>(radius, out.effective_radius, c);
         if (wants == Wants::overlap && !in.mass) continue;
 
-        const auto motion_one = load_records(motion, 8, i);
+        const auto motion_one = load_bundles(motion, 8, i);
         if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
         if constexpr (wants == Wants::overlap) continue;
 
         Triple<Lanes> velocity = triple(motion_one) - triple(part(8));
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
-            const Triple<Lanes> kept = triple(part(4)), spin = triple(load_records(motion + 4, 8, i)),
+            const Triple<Lanes> kept = triple(part(4)), spin = triple(load_bundles(motion + 4, 8, i)),
                                 of_wall = triple(part(12));
             const LanesMask is_new = (kept.x == zero) & (kept.y == zero) & (kept.z == zero);
             const Triple<Lanes> before = in.step == 0 ? k : select(is_new, k, as_held<Number>(kept));

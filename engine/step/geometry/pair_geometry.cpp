@@ -53,7 +53,7 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
     out.touching = 0;
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         out.fetch_some();
-        const auto one = load_records(place, 1, at.first + c), two = load_records(place, 1, at.second + c);
+        const auto one = load_bundles(place, 1, at.first + c), two = load_bundles(place, 1, at.second + c);
         Triple<Lanes> apart = triple(two) - triple(one);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
         const Lanes radius_one(one.d), radius_two(two.d), distance = root(apart.squared());
@@ -127,8 +127,8 @@ void sweep_radii(const GeometryInput& in, const Places& at, TouchChunk& out) {
             one = row_at<L>(out.first_arm, c), two = row_at<L>(out.second_arm, c);
         } else {
             const float* from = velocities<L>(*in.grains) + 4;
-            one = load_records<Floats>(from, 2, at.first + c).d;
-            two = load_records<Floats>(from, 2, at.second + c).d;
+            one = load_bundles<Floats>(from, 2, at.first + c).d;
+            two = load_bundles<Floats>(from, 2, at.second + c).d;
         }
         put<Number>(one * two / (one + two), out.effective_radius, c);
     }
@@ -161,8 +161,8 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
     const L turn(0.5 * in.turns_for), half_step(0.5 * in.step);
     for (int c = 0; c < in.count; c += L::count) {
         out.fetch_some();
-        const auto first = load_records<typename L::Tag>(from, 2, at.first + c);
-        const auto second = load_records<typename L::Tag>(from, 2, at.second + c);
+        const auto first = load_bundles<typename L::Tag>(from, 2, at.first + c);
+        const auto second = load_bundles<typename L::Tag>(from, 2, at.second + c);
         const Triple<L> one = triple(first), two = triple(second);
         const Triple<L> k = triple_at<L>(out.normal, c), velocity = triple_at<L>(out.velocity, c);
         const L inverse = row_at<L>(out.inverse_distance, c);

@@ -22,7 +22,7 @@ std::int32_t near_ones(const Grains& grains, std::int32_t i, double skin, double
     for (int c = count; c % kLanes != 0; ++c) candidates[c] = i;  // i is not above itself, so it is not kept
     std::int32_t kept = 0;
     for (int c = 0; c < count; c += kLanes) {
-        const auto other = load_records(place, sizeof(Place) / sizeof(double), candidates + c);
+        const auto other = load_bundles(place, sizeof(Place) / sizeof(double), candidates + c);
         Triple<Lanes> apart = triple(other) - centre;
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
         const Lanes limit = reach + Lanes(other.d);

@@ -6,15 +6,15 @@
 #define GRAINREEL_STEP_PLACES_INL
 #endif
 
-#include "engine/vector/records-inl.hpp"
+#include "engine/vector/bundles-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// The records as an array of doubles.
-template <class Records>
-HWY_INLINE const double* numbers(const Records& records) {
-    return reinterpret_cast<const double*>(records.data());
+// The bundles as an array of doubles.
+template <class Bundles>
+HWY_INLINE const double* numbers(const Bundles& bundles) {
+    return reinterpret_cast<const double*>(bundles.data());
 }
 
 template <class D>

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "engine/step/motion/integrate.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/vector/record-inl.hpp"
+#include "engine/vector/bundle-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -58,27 +58,27 @@ struct Numbers {
 template <bool rubs>
 struct MotionRecord {
     static constexpr int size = rubs ? 8 : 4;
-    static HWY_INLINE Record<size> of(const Record<4>& first, const Record<4>& second) {
+    static HWY_INLINE Bundle<size> of(const Bundle<4>& first, const Bundle<4>& second) {
         if constexpr (rubs)
             return both(first, second);
         else
             return first;
     }
     // (x, x, x, fourth), twice. With fourth = 0 a kick leaves mass and inertia as they are.
-    static HWY_INLINE Record<size> of(double x, double fourth = 0) {
-        const Record<4> four = record_of(Vec3(x, x, x), fourth);
+    static HWY_INLINE Bundle<size> of(double x, double fourth = 0) {
+        const Bundle<4> four = bundle_of(Vec3(x, x, x), fourth);
         return of(four, four);
     }
-    // Velocity, spin and radius: the record that mixed precision reads.
-    static HWY_INLINE Record<8> with_radius(const Record<size>& motion, double radius) {
+    // Velocity, spin and radius: the bundle that mixed precision reads.
+    static HWY_INLINE Bundle<8> with_radius(const Bundle<size>& motion, double radius) {
         if constexpr (rubs)
             return with_last(motion, radius);
         else
-            return both(motion, with_last(record_of(0.0), radius));
+            return both(motion, with_last(bundle_of(0.0), radius));
     }
     // Each half filled with its own fourth number.
-    static HWY_INLINE Record<size> fourths(const double* from) {
-        return of(record_of(from[3]), record_of(from[7]));
+    static HWY_INLINE Bundle<size> fourths(const double* from) {
+        return of(bundle_of(from[3]), bundle_of(from[7]));
     }
 };
 
@@ -89,29 +89,29 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
     using Whole = MotionRecord<rubs>;
     constexpr int size = Whole::size;
     const Numbers at(grains, in);
-    const Record<4> zero = record_of(0.0), whole = record_of(Vec3(in.drift, in.drift, in.drift));
-    const Record<4> closing = record_of(Vec3(in.closing_drift, in.closing_drift, in.closing_drift));
-    const Record<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
-    const Record<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
+    const Bundle<4> zero = bundle_of(0.0), whole = bundle_of(Vec3(in.drift, in.drift, in.drift));
+    const Bundle<4> closing = bundle_of(Vec3(in.closing_drift, in.closing_drift, in.closing_drift));
+    const Bundle<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
+    const Bundle<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
     const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // the same bits as with a load of zero
-    const Record<size> gravity = Whole::of(record_of(no_minus_zero), zero);
-    const Record<size> frame = Whole::of(record_of(in.frame), zero);
-    Record<4> fastest = zero;
+    const Bundle<size> gravity = Whole::of(bundle_of(no_minus_zero), zero);
+    const Bundle<size> frame = Whole::of(bundle_of(in.frame), zero);
+    Bundle<4> fastest = zero;
     const auto go_on = [&](std::ptrdiff_t i, auto has_load) HWY_ATTR {
         double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
-        Record<size> now = record_at<size>(motion), gains = gravity;
-        if (has_load.value) gains = multiply_add(record_at<size>(load), Whole::fourths(motion), gravity);
+        Bundle<size> now = bundle_at<size>(motion), gains = gravity;
+        if (has_load.value) gains = multiply_add(bundle_at<size>(load), Whole::fourths(motion), gravity);
         if (ends) now = multiply_add(last, gains, now);
         if (ends && drags) now = now * keep;
         if (begins) {
             now = multiply_add(next, gains, now);
             double* place = at.place + 4 * i;
             const double radius = place[3];
-            Record<4> moved = record_at<4>(place);
+            Bundle<4> moved = bundle_at<4>(place);
             if (closes) moved = multiply_add(closing, first_four(now), moved);
             put(multiply_add(whole, first_four(now), moved), place);
             if (has_load.value) put(nothing, load);
-            const Record<size> relative = now - frame;
+            const Bundle<size> relative = now - frame;
             fastest = larger_size(fastest, first_four(relative));
             if (at.rounded) put_rounded(Whole::with_radius(relative, radius), at.rounded + 8 * i);
         }
@@ -158,10 +158,10 @@ Vec3 both_halves(Grains& grains, const KickInput& in, std::int32_t begin, std::i
 
 void only_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     const Numbers at(grains, in);
-    const Record<4> whole = record_of(Vec3(in.drift, in.drift, in.drift));
+    const Bundle<4> whole = bundle_of(Vec3(in.drift, in.drift, in.drift));
     for (std::ptrdiff_t i = begin; i < end; ++i) {
         double* place = at.place + 4 * i;
-        put(multiply_add(whole, record_at<4>(at.motion + 8 * i), record_at<4>(place)), place);
+        put(multiply_add(whole, bundle_at<4>(at.motion + 8 * i), bundle_at<4>(place)), place);
     }
 }
 

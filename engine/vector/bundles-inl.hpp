@@ -1,14 +1,14 @@
-// Four numbers a record in memory, one number a lane in registers: loads records that lie anywhere.
-#if defined(GRAINREEL_VECTOR_RECORDS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef GRAINREEL_VECTOR_RECORDS_INL
-#undef GRAINREEL_VECTOR_RECORDS_INL
+// Four numbers a bundle in memory, one number a lane in registers: loads bundles that lie anywhere.
+#if defined(GRAINREEL_VECTOR_BUNDLES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRAINREEL_VECTOR_BUNDLES_INL
+#undef GRAINREEL_VECTOR_BUNDLES_INL
 #else
-#define GRAINREEL_VECTOR_RECORDS_INL
+#define GRAINREEL_VECTOR_BUNDLES_INL
 #endif
 
 #include <utility>
 
-#include "engine/vector/record-inl.hpp"
+#include "engine/vector/bundle-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -18,21 +18,21 @@ struct Four {
     hn::Vec<D> a, b, c, d;
 };
 
-// As many records as there are lanes.
+// As many bundles as there are lanes.
 template <int size>
 struct Rows {
-    Record<size> records[kLanes];
+    Bundle<size> bundles[kLanes];
 
     template <int k>
-    HWY_INLINE Record<size> row() const {
-        return records[k];
+    HWY_INLINE Bundle<size> row() const {
+        return bundles[k];
     }
 };
 
 #if HWY_TARGET == HWY_SCALAR
 
 template <class D = Doubles>
-HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
+HWY_INLINE Four<D> load_bundles(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
     const D d;
     const auto* at = base + stride * static_cast<std::size_t>(*index);
     return {hn::Load(d, at), hn::Load(d, at + 1), hn::Load(d, at + 2), hn::Load(d, at + 3)};
@@ -42,7 +42,7 @@ HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, c
 template <class D = Doubles>
 HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* a,
                                  const std::int32_t* b) {
-    const Four<D> one = load_records<D>(base, stride, a), two = load_records<D>(base, stride, b);
+    const Four<D> one = load_bundles<D>(base, stride, a), two = load_bundles<D>(base, stride, b);
     return {hn::Sub(one.a, two.a), hn::Sub(one.b, two.b), hn::Sub(one.c, two.c), hn::Add(one.d, two.d)};
 }
 
@@ -59,8 +59,8 @@ struct FloatRows {
     hn::Vec<Floats> part[size];
 
     template <int>
-    HWY_INLINE Record<size> row() const {
-        Record<size> r;
+    HWY_INLINE Bundle<size> row() const {
+        Bundle<size> r;
         for (int p = 0; p < size; ++p) r.part[p] = hn::PromoteTo(Doubles(), part[p]);
         return r;
     }
@@ -74,7 +74,7 @@ HWY_INLINE FloatRows<8> float_rows_of(const Four<Floats>& f, const Four<Floats>&
 
 #else
 
-// Rows of 128-bit blocks: on entry row k holds the blocks (a b)(c d) of records k and k + 4; on return `a`
+// Rows of 128-bit blocks: on entry row k holds the blocks (a b)(c d) of bundles k and k + 4; on return `a`
 // holds the first number of all of them, and so on. The same steps undo it.
 template <class D>
 HWY_INLINE Four<D> transposed(D d, const Four<D>& r) {
@@ -125,7 +125,7 @@ HWY_INLINE hn::Vec<D> every_fourth(D d, const float* const* at) {
     }
 }
 
-// Row k of the four has records k, k + 4, ... in its blocks of 128 bits; transposed, `a` has the first number
+// Row k of the four has bundles k, k + 4, ... in its blocks of 128 bits; transposed, `a` has the first number
 // of all of them, and so on. The same steps undo it.
 template <class D>
 HWY_INLINE Four<D> transposed_floats(D d, const Four<D>& r) {
@@ -150,17 +150,17 @@ requires(sizeof(hn::TFromD<D>) == sizeof(float)) HWY_INLINE Four<D> transposed_r
     return transposed_floats(d, r);
 }
 
-// Records index[0] .. index[lanes - 1] of `stride` numbers each, their first four numbers.
+// Bundles index[0] .. index[lanes - 1] of `stride` numbers each, their first four numbers.
 template <class D>
-HWY_INLINE Four<D> rows_of_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
+HWY_INLINE Four<D> rows_of_bundles(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
     const hn::TFromD<D>* at[hn::MaxLanes(D())];
     for (std::size_t k = 0; k < hn::MaxLanes(D()); ++k)
         at[k] = base + stride * static_cast<std::size_t>(index[k]);
     return rows_at(D(), at);
 }
 template <class D = Doubles>
-HWY_INLINE Four<D> load_records(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
-    return transposed_rows(D(), rows_of_records<D>(base, stride, index));
+HWY_INLINE Four<D> load_bundles(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
+    return transposed_rows(D(), rows_of_bundles<D>(base, stride, index));
 }
 
 // a - b for the first three numbers, a + b for the fourth: half as many shuffles as for both apart.
@@ -170,7 +170,7 @@ HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, 
     using T = hn::TFromD<D>;
     HWY_ALIGN static constexpr T signs[16] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
     const D d;
-    const Four<D> one = rows_of_records<D>(base, stride, a), two = rows_of_records<D>(base, stride, b);
+    const Four<D> one = rows_of_bundles<D>(base, stride, a), two = rows_of_bundles<D>(base, stride, b);
     constexpr bool split = hn::MaxLanes(D()) < 4;  // c and d have the third and fourth numbers
     const auto low = hn::Load(d, signs), high = hn::Load(d, signs + (split ? 2 : 0));
     return transposed_rows(d, Four<D>{hn::MulAdd(two.a, low, one.a), hn::MulAdd(two.b, low, one.b),
@@ -192,25 +192,25 @@ HWY_INLINE auto some_of(D, hn::Vec<D> v) {
     }
 }
 
-// As many records of four or eight floats as a register has lanes: four to four registers as
-// transposed_floats() leaves them, eight to as many, of which two follow each other for records k and k + 4.
+// As many bundles of four or eight floats as a register has lanes: four to four registers as
+// transposed_floats() leaves them, eight to as many, of which two follow each other for bundles k and k + 4.
 template <int size>
 struct FloatRows {
     hn::Vec<Floats> part[size];
 
     template <int k>
-    HWY_INLINE Record<size> row() const {
+    HWY_INLINE Bundle<size> row() const {
         return [this]<int... p>(std::integer_sequence<int, p...>) HWY_ATTR {
-            using R = Record<size>;
+            using R = Bundle<size>;
             return R{{hn::PromoteTo(typename R::D(), some_of<R::lanes, at(k, p * R::lanes) % lanes>(
                                                          Floats(), part[at(k, p * R::lanes) / lanes]))...}};
         }
-        (std::make_integer_sequence<int, Record<size>::parts>());
+        (std::make_integer_sequence<int, Bundle<size>::parts>());
     }
 
   private:
     static constexpr int lanes = static_cast<int>(hn::MaxLanes(Floats()));
-    // Where number m of record k is, counted through all registers.
+    // Where number m of bundle k is, counted through all registers.
     static constexpr int at(int k, int m) {
         const int row = k % 4, block = k / 4;
         if (size == 4) return row * lanes + block * 4 + m;
@@ -249,23 +249,23 @@ HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     if constexpr (hn::MaxLanes(D()) == 8) {
         const Four<D> r = transposed(d, f);
         const hn::Half<D> half;
-        rows.records[0].part[0] = hn::LowerHalf(half, r.a),
-        rows.records[4].part[0] = hn::UpperHalf(half, r.a);
-        rows.records[1].part[0] = hn::LowerHalf(half, r.b),
-        rows.records[5].part[0] = hn::UpperHalf(half, r.b);
-        rows.records[2].part[0] = hn::LowerHalf(half, r.c),
-        rows.records[6].part[0] = hn::UpperHalf(half, r.c);
-        rows.records[3].part[0] = hn::LowerHalf(half, r.d),
-        rows.records[7].part[0] = hn::UpperHalf(half, r.d);
+        rows.bundles[0].part[0] = hn::LowerHalf(half, r.a),
+        rows.bundles[4].part[0] = hn::UpperHalf(half, r.a);
+        rows.bundles[1].part[0] = hn::LowerHalf(half, r.b),
+        rows.bundles[5].part[0] = hn::UpperHalf(half, r.b);
+        rows.bundles[2].part[0] = hn::LowerHalf(half, r.c),
+        rows.bundles[6].part[0] = hn::UpperHalf(half, r.c);
+        rows.bundles[3].part[0] = hn::LowerHalf(half, r.d),
+        rows.bundles[7].part[0] = hn::UpperHalf(half, r.d);
     } else if constexpr (hn::MaxLanes(D()) == 4) {
         const Four<D> r = transposed(d, f);
-        rows.records[0].part[0] = r.a, rows.records[1].part[0] = r.b;
-        rows.records[2].part[0] = r.c, rows.records[3].part[0] = r.d;
+        rows.bundles[0].part[0] = r.a, rows.bundles[1].part[0] = r.b;
+        rows.bundles[2].part[0] = r.c, rows.bundles[3].part[0] = r.d;
     } else {
-        rows.records[0].part[0] = hn::InterleaveLower(d, f.a, f.b);
-        rows.records[0].part[1] = hn::InterleaveLower(d, f.c, f.d);
-        rows.records[1].part[0] = hn::InterleaveUpper(d, f.a, f.b);
-        rows.records[1].part[1] = hn::InterleaveUpper(d, f.c, f.d);
+        rows.bundles[0].part[0] = hn::InterleaveLower(d, f.a, f.b);
+        rows.bundles[0].part[1] = hn::InterleaveLower(d, f.c, f.d);
+        rows.bundles[1].part[0] = hn::InterleaveUpper(d, f.a, f.b);
+        rows.bundles[1].part[1] = hn::InterleaveUpper(d, f.c, f.d);
     }
     return rows;
 }
@@ -277,17 +277,17 @@ HWY_INLINE Rows<8> rows_of(const Four<D>& f, const Four<D>& g) {
     if constexpr (hn::MaxLanes(D()) == 8) {
         const D d;
         const Four<D> r = transposed(d, f), s = transposed(d, g);
-        rows.records[0].part[0] = hn::ConcatLowerLower(d, s.a, r.a);
-        rows.records[1].part[0] = hn::ConcatLowerLower(d, s.b, r.b);
-        rows.records[2].part[0] = hn::ConcatLowerLower(d, s.c, r.c);
-        rows.records[3].part[0] = hn::ConcatLowerLower(d, s.d, r.d);
-        rows.records[4].part[0] = hn::ConcatUpperUpper(d, s.a, r.a);
-        rows.records[5].part[0] = hn::ConcatUpperUpper(d, s.b, r.b);
-        rows.records[6].part[0] = hn::ConcatUpperUpper(d, s.c, r.c);
-        rows.records[7].part[0] = hn::ConcatUpperUpper(d, s.d, r.d);
+        rows.bundles[0].part[0] = hn::ConcatLowerLower(d, s.a, r.a);
+        rows.bundles[1].part[0] = hn::ConcatLowerLower(d, s.b, r.b);
+        rows.bundles[2].part[0] = hn::ConcatLowerLower(d, s.c, r.c);
+        rows.bundles[3].part[0] = hn::ConcatLowerLower(d, s.d, r.d);
+        rows.bundles[4].part[0] = hn::ConcatUpperUpper(d, s.a, r.a);
+        rows.bundles[5].part[0] = hn::ConcatUpperUpper(d, s.b, r.b);
+        rows.bundles[6].part[0] = hn::ConcatUpperUpper(d, s.c, r.c);
+        rows.bundles[7].part[0] = hn::ConcatUpperUpper(d, s.d, r.d);
     } else {
         const Rows<4> r = rows_of(f), s = rows_of(g);
-        for (int k = 0; k < kLanes; ++k) rows.records[k] = both(r.records[k], s.records[k]);
+        for (int k = 0; k < kLanes; ++k) rows.bundles[k] = both(r.bundles[k], s.bundles[k]);
     }
     return rows;
 }
