@@ -1,14 +1,16 @@
-// The verb `doctor`: what this machine has, what is missing, and how to get it.
-#include "render/app/verbs/doctor.hpp"
-
+// The verb `doctor`: what this machine has, what is missing, and how to get it. Each thing is found by using
+// it: a context is made, an encoder is opened, a lattice is stepped.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
@@ -29,49 +31,13 @@ namespace grainreel {
 
 namespace {
 
-std::string line_of(const Finding& finding, std::size_t width) {
-    const char* mark = finding.good ? "ok     " : finding.needed ? "MISSING" : "absent ";
-    std::string line = fmt::format("{}  {:<{}}  {}\n", mark, finding.what, width, finding.state);
-    if (!finding.good) line += fmt::format("{:{}}{}\n", "", 9 + width + 2, finding.remedy);
-    return line;
-}
-
-class Doctor final : public Verb {
-  public:
-    Doctor()
-        : Verb("doctor", "Tell what this machine has for films, what is missing, and how to get it",
-               "Exit status: 0 films can be made, 1 something that they need is missing.") {}
-
-    void add_options(CLI::App&) override {}
-
-    int run(Reporter&) override {
-        std::vector<Finding> all{{"program", where_program_is(), true, true, ""}};
-        for (std::vector<Finding> found :
-             {find_processors(), find_room(output_base()), find_drawing(), find_films(), find_letters(),
-              find_programs(), find_imports(), find_packings()})
-            all.insert(all.end(), found.begin(), found.end());
-        std::size_t width = 0;
-        for (const Finding& finding : all) width = std::max(width, finding.what.size());
-        std::string text;
-        for (const Finding& finding : all) text += line_of(finding, width);
-        const bool films =
-            std::all_of(all.begin(), all.end(), [](const Finding& one) { return one.good || !one.needed; });
-        text += films ? "Films can be made here.\n"
-                      : "Films cannot be made here before what is MISSING is there.\n";
-        print_result(text);
-        return films ? 0 : 1;
-    }
-
-    bool ends_in_good_order() const override { return false; }
+struct Finding {
+    std::string what;      // "OpenGL by OSMesa"
+    std::string state;     // what was found, or why it was not
+    bool good = true;      // it is there and enough
+    bool needed = true;    // without it there are no films; otherwise something less is missing
+    std::string remedy{};  // what to do when it is not good
 };
-
-}  // namespace
-
-std::unique_ptr<Verb> doctor_verb() {
-    return std::make_unique<Doctor>();
-}
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -139,8 +105,6 @@ fs::path existing(fs::path folder) {
     while (!fs::is_directory(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
     return folder;
 }
-
-}  // namespace
 
 std::vector<Finding> find_processors() {
     const int usable = usable_processors();
@@ -244,6 +208,48 @@ std::vector<Finding> find_room(const fs::path& out) {
              fmt::format("{:.1f} GB free in {}{}", free / gigabyte, folder.string(),
                          writable ? "" : ", which you may not write to"),
              writable && free > least_room, true, "choose another folder with --out"}};
+}
+
+std::string line_of(const Finding& finding, std::size_t width) {
+    const char* mark = finding.good ? "ok     " : finding.needed ? "MISSING" : "absent ";
+    std::string line = fmt::format("{}  {:<{}}  {}\n", mark, finding.what, width, finding.state);
+    if (!finding.good) line += fmt::format("{:{}}{}\n", "", 9 + width + 2, finding.remedy);
+    return line;
+}
+
+class Doctor final : public Verb {
+  public:
+    Doctor()
+        : Verb("doctor", "Tell what this machine has for films, what is missing, and how to get it",
+               "Exit status: 0 films can be made, 1 something that they need is missing.") {}
+
+    void add_options(CLI::App&) override {}
+
+    int run(Reporter&) override {
+        std::vector<Finding> all{{"program", where_program_is(), true, true, ""}};
+        for (std::vector<Finding> found :
+             {find_processors(), find_room(output_base()), find_drawing(), find_films(), find_letters(),
+              find_programs(), find_imports(), find_packings()})
+            all.insert(all.end(), found.begin(), found.end());
+        std::size_t width = 0;
+        for (const Finding& finding : all) width = std::max(width, finding.what.size());
+        std::string text;
+        for (const Finding& finding : all) text += line_of(finding, width);
+        const bool films =
+            std::all_of(all.begin(), all.end(), [](const Finding& one) { return one.good || !one.needed; });
+        text += films ? "Films can be made here.\n"
+                      : "Films cannot be made here before what is MISSING is there.\n";
+        print_result(text);
+        return films ? 0 : 1;
+    }
+
+    bool ends_in_good_order() const override { return false; }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> doctor_verb() {
+    return std::make_unique<Doctor>();
 }
 
 }  // namespace grainreel

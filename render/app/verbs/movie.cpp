@@ -1,23 +1,25 @@
 // The verb `movie`: one scene becomes a film and the files beside it.
-#include "render/app/verbs/movie.hpp"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/handover/carry.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/messages/result.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
@@ -25,11 +27,87 @@
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"
+#include "render/page/live/server.hpp"
 #include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 
 namespace {
+
+// The live page of a run that this process computes, shown by a process of its own. So visitors slow the run
+// no more than another program would, and its files are read as anybody reads them.
+class WatchChild {
+  public:
+    // Throws RunError when no process can be made.
+    WatchChild(const std::filesystem::path& run, const std::string& host, Listening listening,
+               const ReporterOptions& report);
+    // The run is over: waits until the visitors have heard it, which takes some seconds at most.
+    ~WatchChild();
+    WatchChild(const WatchChild&) = delete;
+    WatchChild& operator=(const WatchChild&) = delete;
+
+  private:
+    pid_t process_ = -1;
+    int alive_ = -1;  // our end of a pipe, which closes with us
+};
+
+// In the new process, before the program is another one: nothing but system calls. It has a process group of
+// its own, so that Ctrl-C comes to the run alone.
+[[noreturn]] void become(char* const* words, int nothing, int socket, int alive, pid_t parent) {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != parent) ::_exit(1);  // it has died already
+    ::dup2(nothing, STDIN_FILENO);
+    ::dup2(nothing, STDOUT_FILENO);
+    ::fcntl(socket, F_SETFD, 0);
+    ::fcntl(alive, F_SETFD, 0);
+    ::execv("/proc/self/exe", words);
+    ::_exit(127);
+}
+
+std::vector<std::string> words_of(const std::filesystem::path& run, const std::string& host, int socket,
+                                  int alive, const ReporterOptions& report) {
+    std::vector<std::string> words = {"grainreel",
+                                      "watch",
+                                      run.string(),
+                                      "--watch-host",
+                                      host,
+                                      "--socket",
+                                      std::to_string(socket),
+                                      "--until",
+                                      std::to_string(alive)};
+    if (report.quiet) words.emplace_back("--quiet");
+    if (report.form == ReporterOptions::Form::json) words.insert(words.end(), {"--progress", "json"});
+    return words;
+}
+
+WatchChild::WatchChild(const std::filesystem::path& run, const std::string& host, Listening listening,
+                       const ReporterOptions& report) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0)
+        throw RunError(fmt::format("--watch: no pipe: {}", std::strerror(errno)));
+    std::vector<std::string> words = words_of(run, host, listening.socket(), ends[0], report);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    const pid_t parent = ::getpid();
+    process_ = nothing < 0 ? -1 : ::fork();
+    if (process_ == 0) become(pointers.data(), nothing, listening.socket(), ends[0], parent);
+    const int why = errno;
+    if (nothing >= 0) ::close(nothing);
+    ::close(ends[0]);
+    alive_ = ends[1];
+    if (process_ > 0) return;
+    ::close(alive_);
+    throw RunError(fmt::format("--watch: no process for the page: {}", std::strerror(why)));
+}
+
+WatchChild::~WatchChild() {
+    ::close(alive_);
+    int status = 0;
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
+}
 
 class Movie final : public Verb {
   public:
@@ -119,68 +197,6 @@ class Movie final : public Verb {
 
 std::unique_ptr<Verb> movie_verb() {
     return std::make_unique<Movie>();
-}
-
-namespace {
-
-// In the new process, before the program is another one: nothing but system calls. It has a process group of
-// its own, so that Ctrl-C comes to the run alone.
-[[noreturn]] void become(char* const* words, int nothing, int socket, int alive, pid_t parent) {
-    ::setpgid(0, 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != parent) ::_exit(1);  // it has died already
-    ::dup2(nothing, STDIN_FILENO);
-    ::dup2(nothing, STDOUT_FILENO);
-    ::fcntl(socket, F_SETFD, 0);
-    ::fcntl(alive, F_SETFD, 0);
-    ::execv("/proc/self/exe", words);
-    ::_exit(127);
-}
-
-std::vector<std::string> words_of(const std::filesystem::path& run, const std::string& host, int socket,
-                                  int alive, const ReporterOptions& report) {
-    std::vector<std::string> words = {"grainreel",
-                                      "watch",
-                                      run.string(),
-                                      "--watch-host",
-                                      host,
-                                      "--socket",
-                                      std::to_string(socket),
-                                      "--until",
-                                      std::to_string(alive)};
-    if (report.quiet) words.emplace_back("--quiet");
-    if (report.form == ReporterOptions::Form::json) words.insert(words.end(), {"--progress", "json"});
-    return words;
-}
-
-}  // namespace
-
-WatchChild::WatchChild(const std::filesystem::path& run, const std::string& host, Listening listening,
-                       const ReporterOptions& report) {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0)
-        throw RunError(fmt::format("--watch: no pipe: {}", std::strerror(errno)));
-    std::vector<std::string> words = words_of(run, host, listening.socket(), ends[0], report);
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    const pid_t parent = ::getpid();
-    process_ = nothing < 0 ? -1 : ::fork();
-    if (process_ == 0) become(pointers.data(), nothing, listening.socket(), ends[0], parent);
-    const int why = errno;
-    if (nothing >= 0) ::close(nothing);
-    ::close(ends[0]);
-    alive_ = ends[1];
-    if (process_ > 0) return;
-    ::close(alive_);
-    throw RunError(fmt::format("--watch: no process for the page: {}", std::strerror(why)));
-}
-
-WatchChild::~WatchChild() {
-    ::close(alive_);
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
 }
 
 }  // namespace grainreel
