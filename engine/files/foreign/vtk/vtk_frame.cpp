@@ -8,7 +8,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/vtk/vtk_walls.hpp"
 
 namespace grainreel {
 

@@ -1,4 +1,4 @@
-#include "engine/files/foreign/vtk/vtk_walls.hpp"
+#include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <span>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {
