@@ -2,12 +2,11 @@
 // foreign_files.cpp, and walls are followed in foreign_walls.cpp.
 #include "engine/files/foreign/foreign_archive.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/names.hpp"

@@ -1,7 +1,7 @@
 // Walls of another program's run. The first half follows surfaces from moment to moment; the second is the
 // part of ForeignArchive that reads the files of walls and finds the pose of each wall at each moment of the
 // grains.
-#include "engine/files/foreign/foreign_walls.hpp"
+#include "engine/files/foreign/foreign_archive.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/SVD>
@@ -10,8 +10,6 @@
 #include <map>
 #include <numeric>
 #include <tuple>
-
-#include "engine/files/foreign/foreign_archive.hpp"
 
 namespace grainreel {
 
