@@ -16,7 +16,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/netcdf/netcdf_header.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
 
 namespace grainreel {
 

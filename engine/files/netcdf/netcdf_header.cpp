@@ -1,4 +1,4 @@
-#include "engine/files/netcdf/netcdf_header.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
 
 #include <netcdf.h>
 

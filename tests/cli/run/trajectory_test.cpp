@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/contacts_file.hpp"
-#include "engine/files/netcdf/netcdf_header.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
