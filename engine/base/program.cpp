@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 #include <link.h>
 #include <sys/stat.h>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
+
+#include "engine/base/error.hpp"
 
 namespace grainreel {
 
@@ -55,6 +59,11 @@ std::string build_identity() {
     if (identity.empty() && ::stat("/proc/self/exe", &facts) == 0)
         identity = fmt::format("{} {}.{}", facts.st_size, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec);
     return identity;
+}
+
+void check_failed(const char* condition, const char* file, int line) {
+    std::fprintf(stderr, "grainreel: bug: %s:%d: %s does not hold\n", file, line, condition);
+    std::abort();
 }
 
 }  // namespace grainreel
