@@ -1,4 +1,5 @@
-// Warnings that the film gives beside those of the plan.
+// Warnings that the film gives beside those of the plan. They need the engine's plan, so this is a file of
+// its own: programs that only draw do not link it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-// A default colour repeats another species' when the palette has none left.
+// Where the palette has no colour left, a default colour repeats that of another species.
 void warn_of_colours(const FilmedScene& scene, Warnings& warnings) {
     const std::vector<Species>& species = scene.species;
     const std::vector<Colour>& colours = scene.colours;

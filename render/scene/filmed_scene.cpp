@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-// What the film shows is measured, and orientations are kept where it shows how grains turn.
+// The wishes of a film: what it shows is measured, and orientations are kept where it shows how grains turn.
 Wishes wishes_of(const FilmedScene& scene) {
     Wishes wishes;
     const auto take_instrument = [&](const std::string& name) {

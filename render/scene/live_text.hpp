@@ -1,7 +1,7 @@
 // Words of the user's own with values that change from frame to frame:
 //   "mixing {lacey}\nkinetic energy {kinetic:mJ}"
-// A value is a column of measures.csv, with or without its unit, and after a colon the unit to show it in; SI
-// without. Three significant digits. "{{" is a brace.
+// A value is a column of measures.csv, named with or without its unit. After a colon stands the unit to show
+// it in; without one it is shown in SI. It has three significant digits. "{{" is a brace.
 #pragma once
 
 #include <optional>
@@ -12,25 +12,25 @@
 
 namespace grainreel {
 
-// Words, and then a value; the last ones have none.
+// Words and the value that follows them. The last words have no value.
 struct LiveWords {
     std::string words;
-    std::string column;    // of measures.csv; empty for none
+    std::string column;    // of measures.csv; empty: no value
     std::string unit;      // shown after the value; empty for a pure number
     double unit_size = 1;  // SI
     bool operator==(const LiveWords&) const = default;
 };
 
-// The column that a name means, with or without its unit ("kinetic_J", "kinetic"); null for none. Those that
-// count steps and time mean nothing here.
+// The column that a name means, with or without its unit ("kinetic_J", "kinetic"); null when there is none.
+// Columns that count steps and time are not among them.
 const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name);
-// "lacey, kinetic_J, ...": those that are always there.
+// "lacey, kinetic_J, ...": the names of the columns that are always there.
 std::string column_names(const std::vector<MeasureColumn>& columns);
 
-// Throws UserError, which says what is wrong with the text.
+// Throws UserError that says what is wrong with the text.
 std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns);
 
-// value(column): of a row of measures.csv, none when there is no row yet.
+// value(column): the value of a column in the row to show; none when there is no row yet.
 template <class ValueOf>
 std::string live_text(const std::vector<LiveWords>& all, const ValueOf& value);
 std::string live_value(const std::optional<double>& value, const LiveWords& as);

@@ -3,19 +3,61 @@
 #include <fmt/format.h>
 
 #include "render/scene/film.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 
 const std::vector<Purpose>& purposes() {
     constexpr std::int64_t MB = 1'000'000;
     static const std::vector<Purpose> all{
-        {"talk", 1920, 1080, 30, FilmFormat::mp4, 18, "fast", {}, {0, 0}},
-        // What every publisher takes: IOP H.264 up to 10 MB, Elsevier up to 720 lines and from 15 frames/s.
-        {"journal", 1280, 720, 25, FilmFormat::mp4, 18, "slow", 10 * MB, {0, 0}},
-        {"web", 1280, 720, 30, FilmFormat::mp4, 23, "medium", {}, {0, 0}},
+        {.name = "talk",
+         .width = 1920,
+         .height = 1080,
+         .rate = 30,
+         .format = FilmFormat::mp4,
+         .quality = 18,
+         .preset = "fast",
+         .max_size = {},
+         .sheet = {0, 0}},
+        // A film that every publisher takes: IOP takes H.264 up to 10 MB, Elsevier up to 720 lines and from
+        // 15 frames/s.
+        {.name = "journal",
+         .width = 1280,
+         .height = 720,
+         .rate = 25,
+         .format = FilmFormat::mp4,
+         .quality = 18,
+         .preset = "slow",
+         .max_size = 10 * MB,
+         .sheet = {0, 0}},
+        {.name = "web",
+         .width = 1280,
+         .height = 720,
+         .rate = 30,
+         .format = FilmFormat::mp4,
+         .quality = 23,
+         .preset = "medium",
+         .max_size = {},
+         .sheet = {0, 0}},
         // Stills for print: 3840 pixels are 33 cm at 300 dpi.
-        {"poster", 3840, 2160, 5, FilmFormat::png, 18, "veryfast", {}, {4, 3}},
-        {"4k", 3840, 2160, 30, FilmFormat::mp4, 20, "fast", {}, {0, 0}},
+        {.name = "poster",
+         .width = 3840,
+         .height = 2160,
+         .rate = 5,
+         .format = FilmFormat::png,
+         .quality = 18,
+         .preset = "veryfast",
+         .max_size = {},
+         .sheet = {4, 3}},
+        {.name = "4k",
+         .width = 3840,
+         .height = 2160,
+         .rate = 30,
+         .format = FilmFormat::mp4,
+         .quality = 20,
+         .preset = "fast",
+         .max_size = {},
+         .sheet = {0, 0}},
     };
     return all;
 }

@@ -1,4 +1,4 @@
-// What films are made for, and the defaults that fit. docs/guide/films.md has the same table with its
+// What films are made for, and the defaults that suit it. docs/guide/films.md has the same table with its
 // reasons.
 #pragma once
 
@@ -26,10 +26,10 @@ struct Purpose {
 const std::vector<Purpose>& purposes();
 std::vector<std::string> purpose_names();
 
-// What it stands for, as assignments to the keys of a scene that has values for all of them.
+// The defaults of a purpose as assignments to keys, for a scene that has values for all of them.
 std::vector<std::string> assignments_of(const Purpose& purpose);
 
-// nullptr when there is none of that name.
+// Null when there is no purpose of that name.
 const Purpose* find_purpose(const std::string& name);
 
 }  // namespace grainreel

@@ -15,7 +15,7 @@
 namespace grainreel {
 namespace {
 
-// Smallest distance from the camera to where it looks, as a share of the scene's size. Below it rounding
+// The smallest distance from the camera to where it looks, as a share of the scene's size. Below it rounding
 // decides the direction.
 constexpr double closest_camera = 1e-6;
 
@@ -49,7 +49,7 @@ void check_film(const FilmedScene& scene) {
              "out");
 }
 
-// Fills the film of the scene that the engine's reader fills at the same time.
+// Fills the film of the scene, while the engine's reader fills the rest.
 class FilmReader final : public TableReader {
   public:
     explicit FilmReader(FilmedScene& scene) : scene_(scene) {}
@@ -69,7 +69,7 @@ class FilmReader final : public TableReader {
     void check() const override { check_film(scene_); }
 
   private:
-    // Species without a colour get those that the others leave.
+    // Species without a colour of their own get colours that the others leave.
     void choose_colours() {
         std::vector<Colour> taken;
         for (std::size_t i = 0; i < own_.size(); ++i)

@@ -1,4 +1,5 @@
-// From a scene file to a scene with its film.
+// Reads a scene file into a scene with its film. The engine's reader does most of it; the keys of [film] are
+// in keys/.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +11,11 @@
 
 namespace grainreel {
 
-// All keys of a scene file: the engine's and those of [film].
+// All keys of a scene file: those of the engine and those of [film].
 const std::vector<Key>& filmed_scene_keys();
 
-// As read_scene() of engine/scene/scene_file.hpp, with [film] and the species' colours. measurable: what
-// plots and live words may name, too.
+// These read as read_scene() of engine/scene/scene_file.hpp does, and also [film] and the species' colours.
+// measurable: columns that plots and live words may name.
 FilmedScene read_filmed_scene(const std::filesystem::path& file, const Assignments& sets = {},
                               const MeasurableIn& measurable = nullptr);
 FilmedScene read_filmed_scene_text(std::string_view text, const std::filesystem::path& file,

@@ -12,10 +12,11 @@ namespace grainreel {
 
 namespace {
 
-// Solid fraction of a bed between walls that are not far apart, corners and a rough surface counted in.
+// The solid fraction of a bed between walls that are not far apart, with its corners and its rough surface.
 constexpr double packing = 0.5;
 
-// m/s: the drive's; without one that of the fastest listed grain, or that of a fall through the container.
+// m/s: the speed of the drive. Without a drive it is that of the fastest listed grain, or of a fall through
+// the container.
 double speed_scale(const Scene& scene) {
     if (scene.drive.present) return scene.drive.top_speed();
     double fastest = std::sqrt(2 * scene.gravity.norm() * scene.container.height);
@@ -29,11 +30,12 @@ double drop_below(const Scene& scene) {
     return c.tray ? c.tray->depth : c.outlet ? c.outlet->exit_depth : 0.0;
 }
 
-// Over the drive's speed a w, what 99 of 100 grains stay below in the course of a film. In a deep bed that is
-// 1.3 to 1.6 (in six beds of 5 to 14 layers, restitution 0.5 to 0.8, Gamma 2.5 to 5). Few layers of grains
-// that lose little gather speed from blow to blow, until <v2> = (1 + e) / (1 - e) (a w)2 / 2 for a single
-// ball, and with e to the power of 2 n - 1 for n layers (as in the plan). There it is 2.0 for 1.8 layers, e =
-// 0.8; 2.4 for a ball, e = 0.7; 2.4 for a gas, e = 0.85. The line holds all of these.
+// The speed that 99 of 100 grains stay below in the course of a film, over the drive's speed a w. In a deep
+// bed it is 1.3 to 1.6 (six beds of 5 to 14 layers, restitution 0.5 to 0.8, Gamma 2.5 to 5). Few layers of
+// grains that lose little gather speed from blow to blow, until <v2> = (1 + e) / (1 - e) (a w)2 / 2 for a
+// single ball, and with e to the power of 2 n - 1 for n layers (as in the plan). There the measured speeds
+// are 2.0 for 1.8 layers with e = 0.8, 2.4 for a ball with e = 0.7, and 2.4 for a gas with e = 0.85. The
+// straight line below is above all of these.
 double thrown_faster(const Scene& scene) {
     constexpr double deep = 1.8, slope = 0.75, liveliest = 0.98;
     double restitution = 0;
@@ -44,7 +46,7 @@ double thrown_faster(const Scene& scene) {
     return deep + slope * (std::sqrt((1 + whole) / (2 * (1 - whole))) - std::sqrt(0.5));
 }
 
-// m/s, that 99 of 100 grains stay below.
+// m/s: the speed that 99 of 100 grains stay below.
 double top_speed(const Scene& scene) {
     const double gravity = scene.gravity.norm(), below = drop_below(scene);
     double fastest =
@@ -63,8 +65,9 @@ double mass_of(const Species& species) {
     return species.density * std::numbers::pi / 6 * mean_cube(species.diameter);
 }
 
-// J, that 99 of 100 grains stay below where speeds are normally distributed and 1 in 100 is faster than
-// `speed`: of each species 0.01 to the power of (energy over that of such a grain) have more.
+// J: the energy that 99 of 100 grains stay below, if speeds are normally distributed and 1 grain in 100 is
+// faster than `speed`. Then the share of a species with more energy is 0.01 to the power of the energy over
+// that of a grain with this speed.
 double top_energy(const Scene& scene, double speed) {
     constexpr double rare = 0.01;
     const double all = std::max(1.0, static_cast<double>(scene.grains()));
@@ -88,7 +91,7 @@ double top_energy(const Scene& scene, double speed) {
     return high;
 }
 
-// m: of centres, when the film begins.
+// m: the height of the topmost centres when the film begins.
 double top_of_bed(const Scene& scene) {
     if (scene.start.method == Start::Method::grains) {
         double highest = 0;
@@ -106,7 +109,7 @@ double smallest_diameter(const Scene& scene) {
     return smallest;
 }
 
-// N: what the bed's weight under the drive's peak acceleration presses on a grain of mean volume with.
+// N: the force on a grain of mean volume under the weight of the bed, at the drive's peak acceleration.
 double force_scale(const Scene& scene) {
     const double gravity = scene.gravity.norm();
     const double peak =
@@ -117,8 +120,8 @@ double force_scale(const Scene& scene) {
     return pressure * area;
 }
 
-// N, that 99 of 100 grains stay below. At rest 11 and 14 of these scales hold as many (an hourglass, a heap);
-// blows of the drive are short and hard: 7 to 26 (seven beds).
+// N: the force that 99 of 100 grains stay below. At rest it was 11 and 14 times force_scale() (an hourglass,
+// a heap); under the blows of a drive, which are short and hard, 7 to 26 times (seven beds).
 double top_force(const Scene& scene) {
     constexpr double at_rest = 14, under_blows = 28;
     return (scene.drive.present ? under_blows : at_rest) * force_scale(scene);
@@ -128,7 +131,8 @@ double top_force(const Scene& scene) {
 
 std::array<double, 2> usual_range(GrainValue value, const Scene& scene) {
     const double speed = top_speed(scene);
-    // Locked looks at a bed that flies: of five beds, 99 of 100 grains came less than four amplitudes.
+    // A locked film looks at a bed that flies. In five beds 99 of 100 grains came less far than four
+    // amplitudes.
     const double way = std::max(smallest_diameter(scene), 4 * scene.drive.largest_amplitude());
     switch (value) {
         case GrainValue::speed:
@@ -184,24 +188,25 @@ std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& pl
 
 namespace {
 
-// Solid fraction of a bed at rest.
-constexpr double packing = 0.6;
+// The solid fraction of a bed at rest.
+constexpr double resting_packing = 0.6;
 
-// m: of the grains as they lie in the container; without one, of a heap that is as high as it is wide.
+// m: the height of the grains in the container. Without a container it is that of a heap that is as high as
+// it is wide.
 double bed_height(const Scene& scene) {
-    if (scene.container.shape != Container::Shape::none) return fill_height(scene, packing);
-    return std::cbrt(solid_volume(scene) / packing);
+    if (scene.container.shape != Container::Shape::none) return fill_height(scene, resting_packing);
+    return std::cbrt(solid_volume(scene) / resting_packing);
 }
 
-// Pa, under the bed's weight.
+// Pa: the pressure under the bed's weight.
 double weight_pressure(const Scene& scene) {
     const double volume = solid_volume(scene);
     if (!(volume > 0)) return 0;
     const double height = std::max(bed_height(scene), mean_diameter(scene));
-    return total_mass(scene) / volume * packing * scene.gravity.norm() * height;
+    return total_mass(scene) / volume * resting_packing * scene.gravity.norm() * height;
 }
 
-// m: from the axis of a turn to the farthest place where the mesh may be.
+// m: the distance of the farthest point of the mesh from the axis of its turn.
 double rim_of(const SceneMesh& mesh, const BodyTurn& turn) {
     double rim = 0;
     for (const Vec3& at : mesh.surface->mesh().vertices)
@@ -209,7 +214,7 @@ double rim_of(const SceneMesh& mesh, const BodyTurn& turn) {
     return rim;
 }
 
-// m/s
+// m/s: the highest speed of a mesh.
 double top_speed(const Scene& scene, const SceneMesh& mesh) {
     double speed = mesh.velocity.norm();
     if (mesh.turn) speed += std::abs(mesh.turn->rate) * rim_of(mesh, *mesh.turn);
@@ -218,7 +223,8 @@ double top_speed(const Scene& scene, const SceneMesh& mesh) {
     return speed;
 }
 
-// m/s, at which grains rub on meshes; where all of these stand, that of grains that fall by their diameter.
+// m/s: the speed at which grains rub on meshes. Where all meshes stand, it is that of grains that fall by
+// their diameter.
 double rubbing_speed(const Scene& scene) {
     double speed = 0;
     for (const SceneMesh& mesh : scene.meshes)

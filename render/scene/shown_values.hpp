@@ -1,4 +1,5 @@
-// The quantities that can colour grains: their words, dimensions and units.
+// The quantities that pictures show of grains and walls, with their words, units and usual ranges, and the
+// words that scenes use for other choices of their film.
 #pragma once
 
 #include <array>
@@ -11,6 +12,19 @@
 #include "render/scene/film.hpp"
 
 namespace grainreel {
+
+inline const Words<FilmLook::Style> style_words{
+    {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
+inline const Words<CameraFrame> camera_frame_words{
+    {"container", CameraFrame::container}, {"bed", CameraFrame::bed}, {"reach", CameraFrame::reach}};
+inline const Words<WordPlace> word_place_words{{"automatic", WordPlace::automatic},
+                                               {"gutters", WordPlace::gutters},
+                                               {"plates", WordPlace::plates},
+                                               {"none", WordPlace::none}};
+inline const Words<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},   {"webm", FilmFormat::webm},
+                                                 {"av1", FilmFormat::av1},   {"gif", FilmFormat::gif},
+                                                 {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},
+                                                 {"y4m", FilmFormat::y4m}};
 
 inline const Words<GrainValue> grain_value_words{{"species", GrainValue::species},
                                                  {"speed", GrainValue::speed},
@@ -47,24 +61,24 @@ inline Dimension dimension_of(GrainValue value) {
     return Dimension::number;
 }
 
-// Has two signs: wants a diverging map and a range that is even on both sides.
+// Whether values have two signs, and so want a diverging map and a range that is even on both sides.
 inline bool is_signed(GrainValue value) {
     return value == GrainValue::vertical_velocity || value == GrainValue::rise;
 }
 
-// Low and high of the colours when the scene does not say: of the whole film, from the scene alone, so that a
-// colour means the same in every frame, while the run goes on and when it is drawn again. Estimated such that
-// 99 of 100 grains lie between in the course of the film. {0, 0} when the scene gives no scale.
+// The ends of the range of colours where the scene gives none. They hold for the whole film and follow from
+// the scene alone, so that a colour means the same in every frame, while the run goes on and when it is drawn
+// again. They are estimated such that 99 of 100 grains lie between them in the course of the film. {0, 0}
+// when the scene gives no scale.
 std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
-// N of a contact whose line is as wide as lines of force get.
+// N: from this force on, the line of a contact has its full width.
 double widest_chain_force(const Scene& scene);
-// m/s, of a fast circulation: a grain's diameter in five periods. Of velocities of a moment: the drive's
-// speed, or that of a fall from the outlet's half-width if it is larger. 0 when the scene gives no scale.
+// m/s. period: the speed of a fast circulation, a grain's diameter in five periods. Otherwise, for velocities
+// of a moment, the speed of the drive, or that of a fall from the outlet's half-width if it is larger. 0 when
+// the scene gives no scale.
 double usual_flow_speed(const Scene& scene, bool period);
-// The values' axis of a profile that has no range of its own.
+// The range of the values' axis of a profile that has no range of its own.
 std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot);
-
-// The quantities that can colour meshes: their words, units and usual ranges.
 
 inline const Words<FilmWalls::Colour> wall_colour_words{{"plain", FilmWalls::Colour::plain},
                                                         {"pressure", FilmWalls::Colour::pressure},
@@ -74,13 +88,12 @@ inline Dimension dimension_of(FilmWalls::Colour colour) {
     return colour == FilmWalls::Colour::wear ? Dimension::stiffness : Dimension::pressure;  // J/m2 is N/m
 }
 
-// Low and high of the colours when the scene does not say, Pa or J/m2: of the whole film, from the scene
-// alone, so that a colour means the same in every frame, while the run goes on and when it is drawn again.
-// Three powers of ten, around the pressure that the bed's weight makes, or the work of rubbing under it at
-// the speed of the fastest mesh. {0, 0} when the scene gives no scale.
+// Pa or J/m2: the ends of the range of walls' colours where the scene gives none, from the scene alone as
+// above. They span three powers of ten around the pressure under the bed's weight, or up to the work of
+// rubbing under it at the speed of the fastest mesh. {0, 0} when the scene gives no scale.
 std::array<double, 2> usual_range(FilmWalls::Colour colour, const Scene& scene);
 
-// What the colour bar counts in.
+// The unit of the walls' colour bar.
 struct WallUnit {
     std::string name;  // "kPa"
     double size = 1;   // SI

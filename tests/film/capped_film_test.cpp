@@ -12,6 +12,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/scene/film.hpp"
+#include "render/scene/shown_values.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 

@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/scene/film.hpp"
+#include "render/scene/shown_values.hpp"
 #include "tests/film/film_fixture.hpp"
 #include "tests/film/film_reading.hpp"
 

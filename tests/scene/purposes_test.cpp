@@ -10,6 +10,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/scene/film.hpp"
+#include "render/scene/shown_values.hpp"
 #include "tests/scene/scene_text.hpp"
 
 namespace grainreel {

@@ -13,6 +13,7 @@
 #include "engine/base/text.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

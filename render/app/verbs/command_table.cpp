@@ -7,6 +7,7 @@
 #include "engine/files/foreign/names.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

@@ -26,6 +26,7 @@
 #include "render/picture/gl/context.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/film.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

@@ -15,6 +15,7 @@
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/codec/join_films.hpp"
 #include "render/scene/film.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

@@ -1,4 +1,5 @@
-// Triangles into rows of pixels: the hot loops of drawing meshes, compiled for each instruction set.
+// The hot loops of drawing meshes, from triangles to rows of pixels. They are compiled for each instruction
+// set.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +8,8 @@
 
 namespace grainreel {
 
-// Places in a pixel, from its middle, at which what is solid is asked for: a square turned by 27 degrees, so
-// that edges along rows and columns have five steps.
+// The samples in a pixel for what is solid, from its middle. They are a square turned by 27 degrees, so that
+// edges along rows and columns have five steps.
 constexpr int kMeshSamples = 4;
 constexpr float kSampleX[kMeshSamples] = {-0.125f, 0.375f, -0.375f, 0.125f};
 constexpr float kSampleY[kMeshSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
@@ -32,13 +33,13 @@ struct ScreenTriangle {
     Edge edge[3];
     float x = 0, y = 0;  // of one corner, from which the planes count
     ScreenPlane near, shade;
-    float colour[3], brighter[3];        // 0 to 255, at shade 0, and what comes on top at shade 1
+    float colour[3], brighter[3];        // 0 to 255: at shade 0, and what is added at shade 1
     float tint = 0;                      // of glass: thickness, in panes seen straight
-    std::uint32_t number = 0;            // of the triangle, for who asks; from 1 on
+    std::uint32_t number = 0;            // of the triangle's plane in MeshProjection, from 1 on
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels that it may touch; high ends excluded
 };
 
-// Rows of a band, `stride` numbers each; pixels up to 15 past a row's end may be read and written.
+// Rows of a band, `stride` numbers each. Up to 15 pixels past the end of a row may be read and written.
 struct MeshRows {
     float* near[kMeshSamples];            // at the samples, of what is nearest so far
     std::uint32_t* colour[kMeshSamples];  // opaque
@@ -60,17 +61,18 @@ struct MeshKernels {
     // Rows y0 to y1 (excluded) of the picture, which lie in the band.
     void (*solid)(const ScreenTriangle&, const MeshRows&, int y0, int y1);
     void (*glass)(const ScreenTriangle&, const GlassRows&, int y0, int y1);
-    // The mean of the samples of a row: colours multiplied by their alpha; z of the pixel's middle, infinite
-    // where there is nothing. Bits are set, 64 to a word, where samples differ: not all are covered, or they
-    // lie apart by more than `apart` of the nearest's depth (orthographic: m).
+    // Takes the mean of the samples of a row: colours multiplied by alpha, and z of the pixel's middle, which
+    // is infinite where there is nothing. Bits, 64 to a word, are set where samples differ: not all are
+    // covered, or their depths differ by more than `apart` times the nearest depth (orthographic: by more
+    // than `apart` m).
     void (*gather)(const MeshRows&, int row, int x0, int x1, bool orthographic, float apart,
                    std::uint32_t* colours, float* away, std::uint64_t* differ);
-    // Glass of one colour (0 to 255 each) over a row of pixels.
+    // Lays glass of one colour (0 to 255 each) over a row of pixels.
     void (*tint)(const float* thickness, const float* colour, int count, std::uint32_t* pixels);
 };
 const MeshKernels& mesh_kernels();
 
-// Alpha of glass so thick, in panes: 0.05 for one, never more than 0.25.
+// These give the alpha of glass by its thickness in panes: 0.05 for one pane, and never more than 0.25.
 constexpr float kMostTint = 0.25f, kPaneShare = 0.25f;
 
 }  // namespace grainreel

@@ -21,7 +21,7 @@ float depth_of(const Sight& sight, float near) {
     return sight.orthographic ? -near : 1 / near;
 }
 
-// A quarter of an opaque pixel for each sample.
+// What one sample adds to a pixel: a quarter of an opaque one.
 std::uint32_t quarters(std::uint32_t opaque) {
     return scaled(opaque, 64);
 }
@@ -33,7 +33,7 @@ std::uint32_t sum_of(std::uint32_t a, std::uint32_t b) {
     return sum;
 }
 
-// A share of a pixel as it is in what is left of the pixel.
+// A share of a pixel, as it looks in the rest of the pixel when `taken` of 255 is taken away.
 std::uint32_t in_the_rest(std::uint32_t pixel, std::uint32_t taken) {
     if (taken >= 255) return 0;
     std::uint32_t out = 0;
@@ -142,7 +142,7 @@ void MeshPainter::draw_solid_band(int band, const MeshProjection& meshes, const 
     }
 }
 
-// What lies between an odd crossing of the outline and the next one, in a row of samples.
+// Fills a row of samples from each odd crossing of the outline to the next crossing.
 void MeshPainter::fill(const MeshSection& section, std::uint32_t colour, const MeshRows& rows, int y0, int y1,
                        std::vector<float>& crossings) {
     const auto fill_row = [&](int row, float dx, float dy, float* near, std::uint32_t* out,
@@ -219,7 +219,7 @@ bool MeshPainter::hidden_by_solid(const Eigen::Vector3f& at, int x, int y, const
     return plane.normal.dot(at) - plane.distance < -kOnThePlane * pixel;
 }
 
-// Round at its ends, so that lines that meet make one.
+// A line is round at its ends, so that lines that meet look like one.
 void MeshPainter::draw_line(const ScreenLine& line, int y0, int y1, const Job& job, Worker& worker) const {
     const float reach = line.half_width + 0.5f;
     const Eigen::Vector2f from = line.from.head<2>(), along = line.to.head<2>() - from;
@@ -258,7 +258,7 @@ void MeshPainter::draw_line(const ScreenLine& line, int y0, int y1, const Job& j
     }
 }
 
-// Where an outline of grains is drawn over what is solid and nearer, that is laid over it again.
+// Where the outline of a grain is drawn over something solid that is nearer, the solid is laid over it again.
 void MeshPainter::bring_forward(int y, const Job& job, Worker& worker, const Columns& columns) {
     if (columns.empty()) return;
     const Visibility& seen = job.seen;
@@ -314,7 +314,8 @@ void MeshPainter::draw_rest_band(int band, const Job& job, Worker& worker) {
     }
 }
 
-// The part that is nearer than the grain goes before it; what is left of the pixel shows the rest.
+// The part of the pixel that is nearer than the grain goes before it. The rest of the pixel shows what is
+// behind.
 void MeshPainter::split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker) {
     const float grain = grain_depth(seen, pixel.x, pixel.y);
     if (grain == kNothing || pixel.near_away >= grain) return;

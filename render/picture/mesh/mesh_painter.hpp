@@ -1,10 +1,11 @@
-// Two layers of meshes, one to be laid under the grains and one over them, pixel by pixel in the right order.
+// Two layers of meshes, one that is laid under the grains and one over them, so that each pixel has the right
+// order.
 //
-// First what is solid: four samples a pixel. Where it stands before grains, these are not drawn at all
-// (Visibility takes its depth). Where the outlines of both meet, the share of a pixel that stands before the
-// grain goes into the layer over the grains. Then glass, thinly laid over whatever is behind it, and lines
-// along edges, which are seen unless a solid plane is before them. Rows are worked on in bands; the team's
-// size does not show in the picture.
+// What is solid is drawn first, with four samples a pixel. Grains behind it are not drawn at all, since
+// Visibility takes its depth. Where the outlines of a grain and of something solid meet, the share of the
+// pixel that stands before the grain goes into the layer over the grains. Then glass is thinly laid over
+// whatever is behind it, and lines are drawn along edges unless a solid plane is before them. Threads work on
+// bands of rows; the picture does not depend on the team's size.
 #pragma once
 
 #include <algorithm>
@@ -28,11 +29,11 @@ class MeshPainter {
         std::array<float, 3> glass{}, line{};
     };
 
-    // One after the other. What is solid:
+    // Draws what is solid. draw_rest() comes after it.
     void draw_solid(const MeshProjection& meshes, const Sight& sight, Team& team);
-    // m, z in the middle of each pixel.
+    // m: z of what is solid in the middle of each pixel.
     SolidDepth depth() const { return {away_.data(), stride_}; }
-    // What depends on the grains, which `seen` knows; it was made with depth().
+    // Draws what depends on the grains. seen: was made with depth().
     void draw_rest(const MeshProjection& meshes, const Sight& sight, const Visibility& seen, const Inks& inks,
                    Team& team);
 
@@ -41,13 +42,13 @@ class MeshPainter {
 
   private:
     static constexpr int kBand = MeshProjection::kBand;
-    // Samples of one pixel that are not alike: those nearer, and those farther away by a step.
+    // A pixel whose samples are not alike: those that are nearer, and those that are farther away by a step.
     struct Mixed {
         int x, y;
         std::uint32_t near, far;    // colours, multiplied by the share of the samples
         float near_away, far_away;  // m, z
     };
-    // Columns that something is drawn in; high end excluded.
+    // The columns that something is drawn in; the high end is excluded.
     struct Columns {
         int x0 = 0, x1 = 0;
         bool empty() const { return x0 >= x1; }
@@ -85,7 +86,7 @@ class MeshPainter {
     void draw_rest_band(int band, const Job& job, Worker& worker);
     void draw_line(const ScreenLine& line, int y0, int y1, const Job& job, Worker& worker) const;
     bool hidden_by_solid(const Eigen::Vector3f& at, int x, int y, const Job& job) const;
-    // m, z of the grain seen in a pixel, or else beside it; infinite where there is none.
+    // m: z of the grain that is seen in a pixel, or else beside it; infinite where there is none.
     static float grain_depth(const Visibility& seen, int x, int y);
     void bring_forward(int y, const Job& job, Worker& worker, const Columns& columns);
     void split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker);

@@ -11,18 +11,18 @@ namespace {
 
 constexpr float kKeyShare = 0.62f;  // of the light on walls; the sky gives the rest
 
-// Share of its strength that a colour keeps, turned away from the light, where it must still be found on the
-// colour bar.
+// The share of its strength that a colour keeps when it is turned away from the light, since it must still be
+// found on the colour bar.
 constexpr float kDarkColour = 0.7f;
 
-// Lines: what share of a main line's width, and how strong.
+// Widths of lines, as shares of a main line's, and their strengths.
 constexpr float kFeatureWidth = 0.8f, kOutlineWidth = 1;
 constexpr float kSolidLine = 0.85f, kGlassLine = 0.42f, kOutline = 0.7f;
-// An edge becomes one of glass while its last solid face turns edge-on; the sine of the angle that this
+// An edge becomes one of glass while its last solid face turns edge-on. This is the sine of the angle that it
 // takes.
 constexpr float kFade = 0.14f;
 
-// More of the pane is in the way where it is seen at a slant.
+// A pane that is seen at a slant is thicker to the eye.
 float panes_seen(float cosine) {
     const float slant = 1 - cosine;
     return 1 + 3 * slant * slant * slant;
@@ -33,7 +33,7 @@ float smooth(float share) {
     return s * s * (3 - 2 * s);
 }
 
-// How near the points of a plane are, from the pixel (0, 0) on.
+// How near the points of a plane are, as a plane over the pixels from (0, 0) on.
 ScreenPlane nearness_of(const Sight& sight, const Eigen::Vector3f& normal, float distance) {
     const float per_pixel = 1 / sight.focal;
     const float x = normal.x() * per_pixel, y = -normal.y() * per_pixel;
@@ -87,7 +87,7 @@ MeshProjection::Seen MeshProjection::look_at(const MeshShape& shape, std::size_t
         (vertices_[static_cast<std::size_t>(a)] + vertices_[static_cast<std::size_t>(b)] +
          vertices_[static_cast<std::size_t>(c)]) /
         3;
-    // By a corner, so that the side changes just where the triangle is edge-on.
+    // This goes by a corner, so that the side changes just where the triangle is edge-on.
     const float height =
         sight_.orthographic ? normal.z() : normal.dot(vertices_[static_cast<std::size_t>(a)]);
     const float length = sight_.orthographic ? 1 : std::max(middle.norm(), 1e-30f);
@@ -122,7 +122,7 @@ void MeshProjection::take_mesh(const DrawnMesh& mesh, Team& team) {
     add_sections(shares);
 }
 
-// In the order of the members, which is that of the triangles.
+// Joins the shares in the order of the members, which is that of the triangles.
 void MeshProjection::join(std::vector<Share>& shares) {
     for (Share& share : shares) {
         const auto first = static_cast<std::uint32_t>(planes_.size());
@@ -158,7 +158,7 @@ void MeshProjection::add_triangle(const DrawnMesh& mesh, std::size_t t, Share& s
     if (piece.count >= 3 && seen.face != Face::unseen) add_piece(mesh, t, seen, piece, share);
 }
 
-// Where a cut goes through a triangle.
+// Adds the line where a cut goes through a triangle.
 void MeshProjection::add_section_line(int half, const std::array<Eigen::Vector3f, 2>& ends, const Seen& seen,
                                       bool material, Share& share) const {
     ScreenLine line{};
@@ -172,7 +172,7 @@ void MeshProjection::add_section_line(int half, const std::array<Eigen::Vector3f
             {line.from.x(), line.from.y(), line.to.x(), line.to.y()});
 }
 
-// A section is seen from the side that is taken away.
+// Adds the sections. They are seen from the side that is taken away.
 void MeshProjection::add_sections(std::vector<Share>& shares) {
     for (int i = sight_.orthographic ? 0 : 1; i < space_.count; ++i) {
         MeshSection section;
@@ -230,7 +230,7 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
     }
 }
 
-// Larger than 0 where the smooth surface turns to the eye with its front.
+// Is larger than 0 where the front of the smooth surface turns to the eye.
 float MeshProjection::towards_eye(const MeshShape& shape, std::int32_t triangle, std::size_t corner) const {
     const auto t = static_cast<std::size_t>(triangle);
     const Eigen::Vector3f normal = turn_ * shape.corners[t][corner];
@@ -238,8 +238,8 @@ float MeshProjection::towards_eye(const MeshShape& shape, std::int32_t triangle,
     return -normal.dot(vertices_[static_cast<std::size_t>(shape.triangles[t][corner])]);
 }
 
-// Whether a smooth surface turns away from the eye there, and not only single triangles of it. The outline of
-// a twisted one goes through its triangles and not along their edges: it has no line.
+// Whether the smooth surface turns away from the eye at an edge, and not only single triangles of it. The
+// outline of a twisted surface goes through its triangles and not along their edges, so it has no line.
 bool MeshProjection::is_outline(const MeshShape& shape, const MeshShape::Edge& edge) const {
     if (edge.right < 0 || edge.rippled) return false;
     if (seen_[static_cast<std::size_t>(edge.left)].front == seen_[static_cast<std::size_t>(edge.right)].front)
@@ -249,7 +249,7 @@ bool MeshProjection::is_outline(const MeshShape& shape, const MeshShape::Edge& e
            0;
 }
 
-// Feature edges wherever a face at them is to be seen; others where they are outlines.
+// Adds feature edges wherever a face at them is seen, and other edges where they are outlines.
 void MeshProjection::add_edge(const MeshShape& shape, const MeshShape::Edge& edge, Share& share) const {
     const Seen& left = seen_[static_cast<std::size_t>(edge.left)];
     const Seen* right = edge.right >= 0 ? &seen_[static_cast<std::size_t>(edge.right)] : nullptr;

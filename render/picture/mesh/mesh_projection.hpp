@@ -1,5 +1,5 @@
-// Meshes as the camera sees them at one moment: solid and glass triangles and the lines along their edges, in
-// pixels, sorted into bands of rows.
+// Meshes as the camera sees them at one moment: triangles, solid or of glass, and the lines along their
+// edges, in pixels and sorted into bands of rows. The file is hot.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace grainreel {
 struct DrawnMesh {
     std::shared_ptr<const MeshShape> shape;
     BodyPose pose;
-    // sRGB, 0 to 255, of each triangle where a quantity is shown on it; below 0, or null: as walls look.
-    // Glass stays glass.
+    // sRGB, 0 to 255, of each triangle that shows a quantity. Where it is below 0, or null, triangles look as
+    // walls do. Glass stays glass.
     const std::vector<std::array<float, 3>>* colours = nullptr;
 };
 
@@ -30,7 +30,7 @@ struct MeshPaints {
     float pen = 1;                   // pixels, the width of a main line
 };
 
-// Where a cut opens the material of a mesh: what is inside an odd number of times.
+// The section where a cut opens the material of a mesh: the area inside an odd number of its outlines.
 struct MeshSection {
     struct Edge {
         float x0, y0, x1, y1;  // pixels
@@ -48,14 +48,14 @@ class MeshProjection {
     void take(const View& view, const Sight& sight, const Cut& cut, const std::vector<DrawnMesh>& meshes,
               const MeshPaints& paints, Team& team);
 
-    // The plane that a solid triangle lies in, numbered from 1, with its normal towards the eye. View
-    // coordinates.
+    // The plane of a solid triangle, in view coordinates, with its normal towards the eye. Numbers begin
+    // with 1.
     struct Plane {
         Eigen::Vector3f normal;
         float distance;
     };
     const Plane& plane(std::uint32_t number) const { return planes_[number - 1]; }
-    // What there is in each band, by rising number.
+    // What there is in each band of rows, by rising number.
     struct Band {
         std::vector<std::uint32_t> solid, glass, lines;
     };
@@ -75,7 +75,7 @@ class MeshProjection {
         bool front;
         float cosine;  // of the angle between its normal and the line of sight, > 0
     };
-    // What one thread makes.
+    // What one thread makes of a mesh.
     struct Share {
         std::vector<ScreenTriangle> solid, glass;
         std::vector<Plane> planes;
@@ -103,7 +103,7 @@ class MeshProjection {
     PortSize port_{1, 1};
     MeshPaints paints_;
     Eigen::Matrix3f turn_;  // of the mesh at hand, from rest into the view
-    Eigen::Vector3f up_;    // against gravity's usual direction, in the view
+    Eigen::Vector3f up_;    // where the light of the sky comes from, in the view
     std::vector<Eigen::Vector3f> vertices_;
     std::vector<char> whole_;  // a vertex: within the drawn space
     std::vector<Seen> seen_;

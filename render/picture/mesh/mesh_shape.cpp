@@ -27,8 +27,8 @@ double fold_at(const Surface& surface, std::int32_t t, int e) {
     return height > 0 ? -turn_of(surface, t, beyond) : turn_of(surface, t, beyond);
 }
 
-// Twisted surfaces that are cut into triangles fold up and down from one to the next. No such fold is an
-// edge.
+// A twisted surface that is cut into triangles folds up and down from one triangle to the next. Such a fold
+// is no edge.
 bool is_ripple(const Surface& surface, std::int32_t t, int e) {
     constexpr double kMostRipple = std::numbers::pi / 3;
     constexpr double kFlat = std::numbers::pi / 90;
@@ -76,7 +76,7 @@ bool go_round(const Surface& surface, const EdgeFlags& features, std::int32_t st
     return false;
 }
 
-// The mean of the normals around a corner, up to the next feature edges.
+// Gives each corner the mean of the normals around it, up to the next feature edges.
 void add_corner_normals(const Surface& surface, const EdgeFlags& features, MeshShape& shape) {
     shape.corners.resize(shape.triangles.size());
     for (std::int32_t t = 0; t < surface.size(); ++t)
@@ -103,7 +103,7 @@ EdgeFlags feature_edges(const Surface& surface, double edge_angle) {
     return features;
 }
 
-// Triangles: whether they stand for parts of a twisted surface.
+// For each triangle: whether it stands for a part of a twisted surface.
 std::vector<char> rippled_triangles(const Surface& surface) {
     std::vector<char> rippled(static_cast<std::size_t>(surface.size()), 0);
     for (std::int32_t t = 0; t < surface.size(); ++t)

@@ -1,5 +1,5 @@
-// What is drawn of a mesh, found once: its vertices, its normals at corners, its edges, and which of its
-// sides are solid and which are glass.
+// What is drawn of a mesh, which is found once: its vertices, normals at corners and edges (mesh_shape.cpp),
+// and which of its sides are solid and which are glass (mesh_sides.cpp).
 #pragma once
 
 #include <array>
@@ -21,11 +21,11 @@ struct MeshShape {
         std::int32_t from, to;                   // vertices
         std::int32_t left, right;                // triangles; right is -1 at an open edge
         std::uint8_t left_corner, right_corner;  // of each, the corner that is not on the edge
-        bool feature;  // drawn wherever it is in sight, else only as part of an outline
-        bool rippled;  // of a triangle that stands for a twisted surface
+        bool feature;  // drawn wherever it is seen; other edges only as part of an outline
+        bool rippled;  // its triangle stands for a part of a twisted surface
     };
-    // How a triangle looks from the side that its normal points to, and from the other one. Material that
-    // fills a closed surface is on the unseen side.
+    // How a triangle looks from the side that its normal points to, and from the other side. Where material
+    // fills a closed surface, it is on the unseen side.
     enum class Face : std::uint8_t { solid, glass, unseen };
     struct Sides {
         Face front = Face::solid, back = Face::solid;
@@ -42,16 +42,15 @@ struct MeshShape {
 // edge_angle: rad; edges whose faces turn more are feature edges.
 std::shared_ptr<const MeshShape> mesh_shape(const Surface& surface, double edge_angle, MeshLook look);
 
-// Triangles that hang together without a feature edge between them: a number for each triangle, from 0 on.
+// Numbers the patches of triangles that hang together without a feature edge between them: the number of each
+// triangle's patch, from 0 on.
 std::vector<std::int32_t> smooth_patches(const Surface& surface, double edge_angle);
 
 // rad, between the planes of a triangle and its neighbour across an edge.
 double turn_of(const Surface& surface, std::int32_t triangle, const Neighbour& neighbour);
 
-// Which sides of a mesh look into something that it encloses, and which look out.
-
-// The sides of each triangle. A side is told by how much of what is around it is surface again: a few rays
-// from each patch say so.
+// The sides of each triangle: which of them look into something that the mesh encloses, and which look out. A
+// few rays from each patch tell how much of what a side sees is surface again.
 std::vector<MeshShape::Sides> find_sides(const Surface& surface, double edge_angle, MeshLook look);
 
 }  // namespace grainreel

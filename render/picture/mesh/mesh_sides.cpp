@@ -17,7 +17,8 @@ constexpr int kRays = 12;              // to each side of a place
 constexpr std::size_t kPlaces = 4000;  // that are asked, at most
 constexpr std::size_t kPlacesOfPatch = 8;
 
-// A side looks into a room when so much of what it sees is surface; of what is not said to be a vessel.
+// A side looks into a room when at least this share of what it sees is surface. The second share is for
+// meshes that are not said to be vessels.
 constexpr double kEnclosed = 0.5, kSurelyEnclosed = 0.6;
 // How much more one side of an open sheet must see than the other.
 constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
@@ -25,7 +26,7 @@ constexpr double kHoldsRoom = 0.5,
                  kInRoom = 0.9;       // of a closed part: the room is within it, or all around it
 constexpr double kShellShare = 0.15;  // of the area of walls with a thickness, that looks into the room
 
-// Directions around z, as a matt surface takes its light.
+// Directions around z, spread as a matt surface takes its light.
 std::array<Vec3, kRays> make_directions() {
     std::array<Vec3, kRays> directions;
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -37,7 +38,7 @@ std::array<Vec3, kRays> make_directions() {
     return directions;
 }
 
-// What was seen from the places asked of one patch, or of all that hangs together.
+// What was seen from the places asked, of one patch or of a part that hangs together.
 struct Seen {
     double area = 0;                       // m2, of all
     double weight = 0;                     // of the places asked
@@ -88,7 +89,7 @@ class SideFinder {
   private:
     using Face = MeshShape::Face;
 
-    // Parts that hang together, and the triangles of each patch.
+    // Finds the parts that hang together, and the triangles of each patch.
     void find_parts() {
         const std::vector<std::int32_t> part = smooth_patches(surface_, std::numbers::pi);
         const auto count = [](const std::vector<std::int32_t>& numbers) {
@@ -185,8 +186,9 @@ class SideFinder {
         return visible_share(patch_seen_[patch], part_of_patch_[patch]) >= kEnclosed;
     }
 
-    // Settles a closed part of a vessel that has the room on one of its sides: a sheet around it, whatever
-    // its bars and dents see of each other from outside, or a body in it. Returns whether it is one.
+    // Settles a closed part of a vessel that has the room on one of its sides. It is a sheet around the room,
+    // whatever its bars and dents see of each other from outside, or a body in the room. Returns whether the
+    // part is one of these.
     bool settle_beside_room(std::size_t part) {
         const Seen& seen = part_seen_[part];
         const bool in_front = seen.room_front > seen.room_back;

@@ -68,7 +68,7 @@ const std::vector<DrawnMesh>& SceneMeshes::at(const Frame& frame) {
     return drawn_;
 }
 
-// Light walls on light backgrounds, and on dark ones lighter than these.
+// Walls are light on a light background. On a dark one they are lighter than the background.
 MeshPaints mesh_paints(const Palette& palette, const Vec3& up, int picture_height) {
     const bool dark = luminance(palette.background) <= 0.18;
     const auto between = [&](double share) { return bytes(mix(palette.background, palette.solid, share)); };

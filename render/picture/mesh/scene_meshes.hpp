@@ -1,4 +1,4 @@
-// The meshes of a scene, ready to be drawn where a frame has them.
+// The meshes of a scene, ready to be drawn where a frame has them, with their looks, paints and colours.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace grainreel {
 
-// What a mesh looks like: as film.walls says, a vessel where grains are in it, else by its shape.
+// How a mesh looks: as film.walls says; otherwise as a vessel where grains are in it, or else by its shape.
 MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh);
 
 class SceneMeshes {
@@ -22,11 +22,11 @@ class SceneMeshes {
     explicit SceneMeshes(const FilmedScene& scene);
 
     bool any() const { return !drawn_.empty(); }
-    // By what the grains do to them in this frame, where the film wants it; until the next one.
+    // Colours the meshes by what the grains do to them in this frame, where the film wants it.
     void colour_by(const Frame& frame);
     // How many of the triangles that it has coloured lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }
-    // Where they are in a frame.
+    // The meshes where they are in a frame.
     const std::vector<DrawnMesh>& at(const Frame& frame);
 
   private:

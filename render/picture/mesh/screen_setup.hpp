@@ -1,4 +1,5 @@
-// From corners in view coordinates to triangles and lines in pixels.
+// From corners in view coordinates to triangles and lines in pixels, cut off where nothing is drawn. The file
+// is hot.
 #pragma once
 
 #include <array>
@@ -10,14 +11,14 @@
 
 namespace grainreel {
 
-// View coordinates, m, and how brightly it is lit, 0 to 1.
+// A corner in view coordinates (m), and how brightly it is lit, 0 to 1.
 struct LitCorner {
     Eigen::Vector3f at;
     float shade = 0;
 };
 
-// The part of space that is drawn: half-spaces x . p >= d; the first keeps what is before the eye, the others
-// are those of a cut.
+// The part of space that is drawn: what lies in all these half-spaces x . p >= d. In perspective the first
+// keeps what is before the eye; the others are those of a cut.
 struct DrawnSpace {
     struct Half {
         Eigen::Vector3f normal;
@@ -34,27 +35,28 @@ struct DrawnSpace {
     }
 };
 
-// A convex piece of a plane, at most a triangle cut by three planes.
+// A convex piece of a plane: a triangle that at most three planes have cut.
 struct Piece {
     std::array<LitCorner, 8> corner;
     int count = 0;
 };
-// What of it lies in one half-space. The two points in which its border is crossed come back in `section`, if
-// wanted; returns whether there are two. A point on an edge is the same, to the bit, for both its triangles.
+// Keeps what lies in one half-space. section: if not null, gets the two points where the border of the
+// half-space is crossed; returns whether there are two. A point on an edge is the same, to the bit, for both
+// its triangles.
 bool clip(const DrawnSpace::Half& half, Piece& piece, std::array<Eigen::Vector3f, 2>* section);
 
 struct PortSize {
     int width, height;
 };
 
-// Fills in all but colours and number. False where nothing of it can be seen.
+// Fills in all of a triangle but colours and number. Returns false where nothing of it can be seen.
 bool set_up(const Sight& sight, const PortSize& port, const LitCorner& a, const LitCorner& b,
             const LitCorner& c, ScreenTriangle& triangle);
 
-// Pixels from the top left, and how near (see ScreenTriangle).
+// Pixels from the top left, and how near the point is (see kNowhereNear).
 Eigen::Vector3f on_screen(const Sight& sight, const Eigen::Vector3f& at);
 
-// A straight line as wide as a pen, seen where nothing solid hides it.
+// A straight line that is seen where nothing solid hides it.
 struct ScreenLine {
     Eigen::Vector3f from, to;            // on the screen
     Eigen::Vector3f view_from, view_to;  // m
@@ -62,8 +64,8 @@ struct ScreenLine {
     float strength;                      // 0 to 1
     bool glass;                          // of glass alone
 };
-// Cuts it off at the borders of the space, but for one that it lies in (-1: none). False where nothing is
-// left.
+// Cuts a line off at the borders of the space, except for the border in_border that it lies in (-1: none).
+// Returns false where nothing is left.
 bool set_up(const Sight& sight, const DrawnSpace& space, Eigen::Vector3f from, Eigen::Vector3f to,
             int in_border, ScreenLine& line);
 

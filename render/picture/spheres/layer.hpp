@@ -1,4 +1,6 @@
-// A picture to be laid over others: 8-bit sRGB, multiplied by its alpha.
+// A layer is a picture that is laid over others: 8-bit sRGB, multiplied by its alpha. Here are its pixels and
+// how they are laid over each other, one by one, or by rows (lay_over.cpp, compiled for each instruction
+// set).
 #pragma once
 
 #include <cstdint>
@@ -7,7 +9,7 @@
 namespace grainreel {
 
 struct Layer {
-    // Part of a row from the first pixel that is not clear to after the last.
+    // The part of a row from the first pixel that is not clear to after the last one.
     struct Span {
         int begin = 0, end = 0;
     };
@@ -24,9 +26,7 @@ struct Layer {
     const std::uint32_t* row(int y) const { return pixels.data() + static_cast<std::size_t>(y) * width; }
 };
 
-// Pixels of 8 bits a channel, multiplied by their alpha: red in the lowest byte, alpha in the highest.
-
-// All four channels times share / 255, rounded; two in each half.
+// A pixel with all four channels multiplied by share / 255 and rounded; two channels are computed at once.
 inline std::uint32_t scaled(std::uint32_t pixel, std::uint32_t share) {
     constexpr std::uint32_t kEven = 0x00ff00ffu, kHalf = 0x00800080u;
     const auto pair = [&](std::uint32_t two) {
@@ -47,8 +47,6 @@ inline std::uint32_t over(std::uint32_t top, std::uint32_t below) {
 inline std::uint32_t faded(std::uint32_t pixel, float share) {
     return scaled(pixel, static_cast<std::uint32_t>(share * 255 + 0.5f));
 }
-
-// Row upon row of pixels, as over() and scaled() of pixel.hpp have it, many at once.
 
 // below[i] = over(scaled(top[i], strength), below[i]) for `count` pixels; strength: 0 to 255.
 void lay_over(std::uint32_t* below, const std::uint32_t* top, int count, std::uint32_t strength = 255);

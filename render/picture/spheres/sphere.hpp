@@ -1,5 +1,5 @@
-// Spheres, lines of sight and cuts as the kernels take them. View coordinates, m: x right, y up, z away from
-// the eye. Pixels from the top left of the port.
+// Spheres, lines of sight and cuts as the kernels take them, in view coordinates (m): x right, y up, z away
+// from the eye. Pixels count from the top left of the port.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@ struct ViewSphere {
     float x = 0, y = 0, z = 0, radius = 0;
 };
 
-// From a pixel to its line of sight: where that goes at z = 1 (perspective), or anywhere (orthographic, m).
+// From a pixel to its line of sight: x and y of the line at z = 1 (perspective), or at any z (orthographic,
+// m).
 struct Sight {
     bool orthographic = false;
     float focal = 1;  // pixels a unit of slope
@@ -28,7 +29,7 @@ struct Cut {
     int planes = 0;
     Plane plane[2];
 
-    // Share of a sphere that is kept, along its diameter: 1 kept, 0 cut away.
+    // The share of a sphere's diameter that is kept: 1 for all of it, 0 for a sphere that is cut away.
     float share(const ViewSphere& s) const {
         float kept = 1;
         for (int i = 0; i < planes; ++i)
@@ -37,7 +38,7 @@ struct Cut {
     }
 };
 
-// High ends excluded.
+// A box of pixels; high ends are excluded.
 struct PixelBox {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     bool empty() const { return x0 >= x1 || y0 >= y1; }

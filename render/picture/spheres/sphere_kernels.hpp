@@ -1,4 +1,5 @@
-// What is done to many pixels at once: the hot loops of drawing, compiled for each instruction set.
+// The hot loops of drawing spheres, which work on many pixels at once and are compiled for each instruction
+// set. They are written in the files *-inl.hpp of this folder.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +10,8 @@
 
 namespace grainreel {
 
-// Rows of the picture that a sphere is drawn into. Rows may be read and written up to 15 pixels past
-// their end.
+// The rows of the picture that spheres are drawn into. Up to 15 pixels past the end of a row may be read and
+// written.
 struct DepthRows {
     const float* slope_x;  // of the columns' middles
     float* depth;          // z of what is nearest so far
@@ -19,9 +20,10 @@ struct DepthRows {
     int first_row;  // of the picture, that `depth` and `seen` begin with
 };
 
-// Sixteen pixels on edges, and who may be seen there.
+// Sixteen pixels on edges, and the grains that may be seen there.
 constexpr int kPointBlock = 16, kCandidates = 4;
-// Eight points in each, at the places of Direct3D's standard multisample pattern, in sixteenths of a pixel.
+// Each pixel has eight points, at the places of Direct3D's standard multisample pattern, in sixteenths of a
+// pixel.
 constexpr int kPoints = 8;
 constexpr float kPointX[kPoints] = {1, -1, 5, -3, -5, -7, 3, 7};
 constexpr float kPointY[kPoints] = {-3, 3, 1, -5, 5, -1, 7, -7};
@@ -29,14 +31,15 @@ constexpr float kNoGrain = 1e30f;  // m: depth where none is met
 struct alignas(64) EdgeBlock {
     float x[kPointBlock], y[kPointBlock];  // pixels, of the middle
     ViewSphere candidate[kCandidates][kPointBlock];
-    // Out: share of the pixel that shows each, and the mean place of the points that do, against the middle.
+    // Results: the share of the pixel that shows each candidate, and the mean place of the points that show
+    // it, from the middle.
     float share[kCandidates][kPointBlock];
     float mean_x[kCandidates][kPointBlock], mean_y[kCandidates][kPointBlock];
     float nearest[kPoints][kPointBlock];  // m, depth of what is seen at a point
-    int candidates = 0;                   // used, in the pixel that has most; unused ones have radius < 0
+    int candidates = 0;                   // the most that any of the pixels has; unused ones have radius < 0
 };
 
-// A grain near another one, from whose centre x, y, z are counted.
+// A grain near another one. x, y and z count from the centre of the other.
 struct NearGrain {
     float x, y, z, radius;
     float inverse_radius, square;  // 1/m, m2
@@ -56,10 +59,10 @@ struct LitGrain {
     NeighbourSpan occluders, casters;
 };
 
-// Points of one grain, any number; rooms for a multiple of 16 each.
+// Any number of points of one grain. Each array has room for a multiple of 16.
 struct LitPoints {
     const float *x, *y;         // pixels
-    float *red, *green, *blue;  // out: linear
+    float *red, *green, *blue;  // results: linear light
     int count;
 };
 
@@ -68,8 +71,9 @@ struct SphereKernels {
                  std::uint32_t number);
     // The largest depth in a box.
     float (*farthest)(const DepthRows&, const PixelBox&);
-    // Bits of a row of `count` pixels, 64 to a word, the first the lowest: set where a pixel differs from the
-    // one before it; or from one of its four neighbours. Pixels past the row's ends are read, see Visibility.
+    // Both write a bit for each of `count` pixels of a row, 64 to a word and the first in the lowest bit.
+    // mark_changes sets it where a pixel differs from the one before it, mark_edges where it differs from one
+    // of its four neighbours. Pixels past the row's ends are read, see Visibility.
     void (*mark_changes)(const std::uint32_t* row, int count, std::uint64_t* bits);
     void (*mark_edges)(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below,
                        int count, std::uint64_t* bits);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-// Where a sphere's silhouette begins and ends along one picture axis, as x/z: the tangents from the eye,
-// (c - s z)^2 = r^2 (1 + s^2) (after Mara & McGuire 2013). Needs z > r.
+// Where a sphere's silhouette begins and ends along one axis of the picture, as x/z: at the tangents from the
+// eye, (c - s z)^2 = r^2 (1 + s^2) (after Mara & McGuire 2013). z must be larger than r.
 struct Span {
     double low, high;
 };
@@ -58,8 +58,8 @@ void Visibility::place(const Sight& sight, const Cut& cut, const std::vector<Vie
     });
 }
 
-// By the nearest point, coarsely: what is drawn first hides what comes later, and that is all the order is
-// for.
+// Sorts grains coarsely by their nearest points. The order only serves speed: what is drawn first hides what
+// comes later.
 void Visibility::sort_nearest_first(const std::vector<ViewSphere>& spheres) {
     constexpr std::size_t kSlices = 4096;
     float low = kNothing, high = -kNothing;
@@ -86,8 +86,8 @@ void Visibility::fill_bands() {
         for (int band = box_[i].y0 / kBand; band * kBand < box_[i].y1; ++band) band_[band].push_back(i);
 }
 
-// Whether all tiles that the box touches are filled with what is nearer. What a tile shows at its farthest is
-// found anew now and then: too old a figure only draws what need not be.
+// Whether all tiles that the box touches are filled with what is nearer. The farthest depth of a tile is
+// found anew only now and then. An old one does no harm: it only draws grains that need not be drawn.
 bool Visibility::hidden(Worker& worker, int band, const PixelBox& box, float nearest, const DepthRows& rows) {
     constexpr int kStale = 6;  // grains
     for (int tile = box.x0 / kTile; tile * kTile < box.x1; ++tile) {
@@ -102,7 +102,7 @@ bool Visibility::hidden(Worker& worker, int band, const PixelBox& box, float nea
     return true;
 }
 
-// Depth of the band's first pixel. Without anything solid, depths are forgotten with the band.
+// Gives the depth of the band's first pixel. Without anything solid, depths are kept only for the band.
 float* Visibility::depth_of_band(int band, Worker& worker, const SolidDepth& solid) {
     if (!solid.away) {
         worker.depth.assign(kBand * stride_, kNothing);
@@ -138,7 +138,8 @@ void Visibility::draw_band(int band, Worker& worker, const Sight& sight, const C
     note_shown(band, worker);
 }
 
-// Also makes the pixels beside each row as those at its ends, so that no edge is seen there.
+// Notes which grains are seen in the band. It also copies the pixels at the ends of each row to those beside
+// it, so that no edge is seen there.
 void Visibility::note_shown(int band, Worker& worker) {
     for (int y = band * kBand; y < std::min(height_, (band + 1) * kBand); ++y) {
         std::uint32_t* own = seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;

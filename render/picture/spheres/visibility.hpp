@@ -1,8 +1,9 @@
-// Which grain is seen in the middle of each pixel: exact spheres, met by the pixel's line of sight.
+// Which grain is seen in the middle of each pixel, and which may be seen in a pixel on an edge. Grains are
+// exact spheres that the pixel's line of sight meets.
 //
-// This runs on the processor's vector units, not in OpenGL: the depth of a sphere is known only pixel by
-// pixel, which costs a software rasteriser its early depth test. docs/notes/rendering.md has the
-// measurements.
+// This runs on the processor's vector units and not in OpenGL. The depth of a sphere is known only pixel by
+// pixel, so a software rasteriser could not use its early depth test. docs/notes/rendering.md has the
+// measurements. The file is hot: time it after a change (`grainreel bench`).
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace grainreel {
 
 class RowBits {
   public:
-    // Room for a row of `width` pixels, all to be written before they are read.
+    // Gives room for a row of `width` pixels. All of them must be written before they are read.
     std::uint64_t* room(int width) {
         width_ = width;
         words_.resize(static_cast<std::size_t>(width) / 64 + 1);
@@ -43,7 +44,7 @@ class RowBits {
     std::vector<std::uint64_t> words_;
 };
 
-// What stands before grains: z in the middle of each pixel, infinite where there is nothing; m. Rows of
+// m: z of what stands before grains, in the middle of each pixel; infinite where there is nothing. Rows have
 // `stride` numbers.
 struct SolidDepth {
     const float* away = nullptr;  // null: nothing anywhere
@@ -52,11 +53,11 @@ struct SolidDepth {
 
 class Visibility {
   public:
-    // Pixels, >= 1.
+    // width, height: pixels, >= 1.
     Visibility(int width, int height);
 
-    // Numbers are indices + 1. The team's size does not show in the result. With something solid, grains are
-    // seen only where they are nearer than that, and depths are kept.
+    // The number of a grain is its index + 1. The result does not depend on the team's size. With something
+    // solid, grains are seen only where they are nearer than that, and depths are kept.
     void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team,
                 const SolidDepth& solid = {});
 
@@ -65,14 +66,15 @@ class Visibility {
     const std::uint32_t* row(int y) const {
         return seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
     }
-    // m, of a row: z of what is seen in the middle of each pixel, grain or solid. Only with something solid.
+    // m: z of what is seen in the middle of each pixel of a row, grain or solid. Only kept with something
+    // solid.
     const float* depth(int y) const { return depth_.data() + static_cast<std::size_t>(y) * stride_ + kPad; }
     std::size_t stride() const { return stride_; }  // from row to row
-    // Indices of the grains that are seen at all, rising.
+    // The indices of the grains that are seen at all, rising.
     const std::vector<std::uint32_t>& shown() const { return shown_; }
-    // The pixels that a sphere covers, of this picture.
+    // The pixels of this picture that a sphere covers.
     PixelBox bounds(const Sight& sight, const ViewSphere& sphere) const;
-    // The pixels that a grain may be seen in; none for one that is cut away.
+    // The pixels that a grain may be seen in; none for a grain that is cut away.
     const PixelBox& box(std::size_t grain) const { return box_[grain]; }
     // The share of a grain's outline that shows it.
     double seen_share(std::size_t grain) const;
@@ -83,9 +85,9 @@ class Visibility {
     static constexpr int kPad = 16, kBand = 32, kTile = 32;  // pixels
     struct Worker {
         std::vector<float> depth;
-        std::vector<float> far;              // a tile: nothing behind it can be seen
-        std::vector<int> drawn;              // a tile: grains since `far` was found
-        std::vector<std::uint32_t> seen_in;  // a grain: the last band in which it was seen
+        std::vector<float> far;              // for each tile: nothing behind this depth can be seen
+        std::vector<int> drawn;              // for each tile: grains drawn since `far` was found
+        std::vector<std::uint32_t> seen_in;  // for each grain: the last band in which it was seen
         std::vector<std::uint32_t> shown;
         RowBits changes;
     };
@@ -113,14 +115,12 @@ class Visibility {
     std::vector<std::uint32_t> shown_;
 };
 
-// Who may be seen in a pixel on an edge.
-
-// Puts pixel x, y and the different grains that it and its four neighbours show into place `at` of the block;
-// `who`: their indices.
+// Puts pixel x, y and the different grains that it and its four neighbours show, which may be seen in it,
+// into place `at` of the block. who: gets their indices.
 void take_candidates(const Visibility& visibility, const std::vector<ViewSphere>& spheres, int x, int y,
                      EdgeBlock& block, std::uint32_t (&who)[kCandidates][kPointBlock], int at);
 
-// Nobody in the places from `begin` on.
+// Leaves the places from `begin` on without candidates.
 void clear_candidates(EdgeBlock& block, int begin);
 
 }  // namespace grainreel

@@ -7,8 +7,8 @@
 namespace grainreel {
 namespace {
 
-// Pixels by which grains in contact press into walls. Through glass, which tints by a twentieth, more goes
-// unseen.
+// Pixels by which grains may reach into walls without being seen there, as grains in contact do. Through
+// glass, which tints by a twentieth, more goes unseen.
 constexpr double kUnseen = 0.25, kUnseenThroughGlass = 0.5;
 
 }  // namespace
@@ -21,7 +21,7 @@ bool WallOrder::Plate::disorders(const Vec3& centre, double radius) const {
     return true;
 }
 
-// A sphere around a cap's circle in the plane, for a cap of less than half of the grain.
+// For a cap of less than half of the grain it is a sphere around the cap's circle in the plane.
 ViewSphere WallOrder::Plate::wrong_part(const Vec3& centre, double radius) const {
     const double height = plane.height(centre), inside = before ? -height : height;
     const auto sphere = [](const Vec3& c, double r) {
@@ -54,7 +54,7 @@ void WallOrder::prepare(const Sight& sight, const std::vector<WallFace>& faces) 
         }
         const Vec3 away = sight.orthographic ? Vec3(0, 0, 1) : middle.normalized();
         const double size = std::sqrt(area.norm());
-        // Nothing to be seen of a face that the eye is in the plane of.
+        // Nothing is seen of a face when the eye is in its plane.
         if (size <= 0 || face.opacity <= 0 || std::abs(area.dot(away)) < 1e-6 * size * size) continue;
         const Vec3 normal = (area.dot(away) > 0 ? Vec3(-area) : area).normalized();
         Plate plate{{normal, normal.dot(middle)}, {}, {}, face.opacity, face.before};
@@ -73,7 +73,7 @@ void WallOrder::prepare(const Sight& sight, const std::vector<WallFace>& faces) 
     }
 }
 
-// The pixels of the box that show the grain, in their middle or next to it.
+// Notes the pixels of the box that show the grain, or have a neighbour that does.
 void WallOrder::note_grain(std::uint32_t grain, const PixelBox& box, const Visibility& visibility,
                            Finding& finding) const {
     const std::uint32_t number = grain + 1;

@@ -1,8 +1,8 @@
 // Where walls and grains hide each other, pixel by pixel.
 //
-// Walls are painted as two flat layers, one behind all grains and one before them, which is right while every
-// grain is inside. Where a grain reaches through a wall or lies on its other side, this finds what has to be
-// taken away from the grains and from the layer before them.
+// Walls are painted as two flat layers, one behind all grains and one before them. This is right while every
+// grain is inside. Where a grain reaches through a wall or lies on its other side, WallOrder finds what has
+// to be taken away from the grains and from the layer before them.
 #pragma once
 
 #include <cstddef>
@@ -19,22 +19,22 @@ namespace grainreel {
 struct WallFace {
     std::vector<Vec3> corners;  // m, of a flat convex piece, in order around it
     double opacity;             // 1 for a solid one
-    bool before;                // of the layer before the grains
+    bool before;                // whether it is in the layer before the grains
 };
 
 // A pixel in which the two layers are not right.
 struct WallPixel {
     int x, y;
-    float hidden;  // share of what shows of grains that walls hide
+    float hidden;  // share of what is seen of grains that walls hide
     float bared;   // share of the walls before the grains that grains hide
 };
 
 class WallOrder {
   public:
-    // Faces in view coordinates. The team's size does not show in the result.
+    // faces: in view coordinates. The result does not depend on the team's size.
     void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres,
                 const std::vector<WallFace>& faces, const Visibility& visibility, Team& team);
-    // From the top left on.
+    // In order from the top left on.
     const std::vector<WallPixel>& pixels() const { return pixels_; }
 
   private:
@@ -43,7 +43,7 @@ class WallOrder {
         double distance;
         double height(const Vec3& p) const { return normal.dot(p) - distance; }
     };
-    // A face, its normal towards the eye.
+    // A face whose normal points towards the eye.
     struct Plate {
         Plane plane;
         std::vector<Plane> borders;  // through an edge and upright on the face; inside is positive
@@ -54,12 +54,13 @@ class WallOrder {
         bool disorders(const Vec3& centre, double radius) const;
         // A sphere around the part of a grain that is on the wrong side.
         ViewSphere wrong_part(const Vec3& centre, double radius) const;
-        // z of where it meets the line of sight to a point (slopes, or m for an orthographic camera), or < 0.
+        // z of the place where the face meets the line of sight to a point (slopes, or m for an orthographic
+        // camera), or < 0.
         double meet(double x, double y, bool orthographic) const;
     };
     struct Finding {
         std::vector<std::size_t> pixels;
-        std::vector<bool> active;  // a plate: some grain is on its wrong side
+        std::vector<bool> active;  // for each plate: whether some grain is on its wrong side
     };
 
     void prepare(const Sight& sight, const std::vector<WallFace>& faces);

@@ -8,6 +8,7 @@
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/keys/film_keys.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {
@@ -31,7 +32,7 @@ const char* without_orbit(const Camera& camera) {
     return camera.orbit == 0 ? "without 'orbit' nothing turns" : nullptr;
 }
 
-// A drum that lies has its gravity across z.
+// The upward direction: against gravity where that is level, as in a drum that lies; else z.
 Vec3 usual_up(const Scene& scene) {
     constexpr double kLevel = 0.1;
     const double gravity = scene.gravity.norm();

@@ -12,6 +12,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

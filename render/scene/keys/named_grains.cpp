@@ -7,7 +7,7 @@
 namespace grainreel {
 namespace {
 
-// Index of a species that is named at `path`.
+// The index of a species that is named at `path`.
 std::size_t species_at(const Document& document, const Scene& scene, const std::string& path,
                        const std::string& name) {
     std::string known;

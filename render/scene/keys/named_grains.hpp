@@ -1,4 +1,4 @@
-// Lists of species by name and of grains by id, as keys of the film have them.
+// Keys of the film whose values are lists of species by name or of grains by id.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace grainreel {
 
-// Indices of the species that are named there; empty when nothing is. Throws UserError for a name that none
-// has.
+// The indices of the species that the list at `path` names; empty without a list. Throws UserError for a name
+// that no species has.
 std::vector<std::size_t> species_list(Document& document, const Scene& scene, const std::string& path);
-// Throws UserError for an id that no grain has.
+// The ids of the list at `path`. Throws UserError for an id that no grain has.
 std::vector<std::int32_t> ids_at(Document& document, const Scene& scene, const std::string& path);
 
-// As TOML; empty for none.
+// The lists as TOML; empty for empty lists.
 std::string species_text(const std::vector<std::size_t>& chosen, const Scene& scene);
 std::string ids_text(const std::vector<std::int32_t>& ids);
 

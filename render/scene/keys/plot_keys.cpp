@@ -178,7 +178,7 @@ void check_period(const Document& document, const Scene& scene, const std::strin
             path, fmt::format("is \"period\", but nothing oscillates; add [drive] or write \"{}\"", instead));
 }
 
-// Arrows or streamlines.
+// Reads arrows or streamlines.
 template <class Marks>
 void read_flow(Document& document, const Scene& scene, const std::string& path, const KeyTable<Marks>& table,
                Marks& marks) {

@@ -75,9 +75,9 @@ FilmSegment read_segment(Document& document, const Scene& scene, const std::stri
     return segment;
 }
 
-// Without segments in the scene: slow motion at both ends, 4 s of film each but a tenth of the run at most,
-// and one frame a period between. Slow enough for 8 frames a period and for no more than three periods a
-// second of film, which would flash; or ten times slower if that is slower.
+// The segments of a film whose scene gives none: slow motion at both ends, each 4 s of film but at most a
+// tenth of the run, and one frame a period between them. Slow motion is at least ten times slower, and slow
+// enough for 8 frames a period and for at most three periods a second of film; more would flash.
 std::vector<FilmSegment> default_segments(const FilmedScene& scene) {
     FilmSegment motion;
     if (!scene.drive.present) return {motion};
@@ -89,8 +89,8 @@ std::vector<FilmSegment> default_segments(const FilmedScene& scene) {
     return {motion, between, motion};
 }
 
-// The durations that are given must fit in the run. A run made shorter on the command line shortens them too:
-// to half of the run when a segment takes the rest, else to all of it.
+// The durations of segments must fit in the run. If the command line makes the run shorter, they are
+// shortened too: to half of the run when a segment takes the rest, otherwise to all of it.
 void fit_segments(Document& document, FilmedScene& scene) {
     double given = 0;
     std::size_t open = 0;

@@ -1,5 +1,5 @@
-// The light that grains and the legend's spheres share: a key light over the viewer's left shoulder, sky and
-// ground around, a slight shine. Linear light; directions in view coordinates (x right, y up, z away).
+// The lamp that grains and the legend's spheres share, and the way from linear light to the bytes of a
+// picture.
 #pragma once
 
 #include <array>
@@ -7,13 +7,15 @@
 
 namespace grainreel {
 
+// A key light over the viewer's left shoulder, sky and ground around, and a slight shine. Linear light;
+// directions in view coordinates (x right, y up, z away).
 struct Lamp {
     float to_key[3] = {-0.4793f, 0.6590f, -0.5792f};  // unit, towards the key light
-    float key = 0.78f;                                // of the albedo, where it falls straight
+    float key = 0.78f;                                // share of the albedo where it falls straight
     float spread = 0.05f;  // tangent of half the angle that it subtends: how soft shadows are
-    float sky = 0.62f;     // ambient from above ...
-    float ground = 0.34f;  // ... and from below
-    float even = 0;        // of the albedo everywhere: nothing hides or turns away from it
+    float sky = 0.62f;     // ambient light from above
+    float ground = 0.34f;  // ambient light from below
+    float even = 0;        // share of the albedo that is the same everywhere
     float up[3] = {0, 1, 0};
     float rim = 0.72f;        // what is left at the silhouette, so that grains stay separable
     float rim_width = 0.45f;  // cosine between normal and line of sight where that ends
@@ -23,14 +25,13 @@ struct Lamp {
     bool occlusion = true, shadows = true;
 };
 
-// From linear light to 8-bit sRGB (IEC 61966-2-1).
-
-// A table over 4096 steps of linear light, each at most 0.8 of a byte's step wide.
+// From linear light to 8-bit sRGB (IEC 61966-2-1), by a table of 4096 steps. Each of them is at most 0.8 of a
+// byte's step wide.
 class ToneTable {
   public:
     static const ToneTable& get();
     std::uint32_t byte(float linear) const { return bytes_[static_cast<std::size_t>(step(linear))]; }
-    // Opaque pixels, `count` of them.
+    // Makes `count` opaque pixels.
     void pixels(const float* red, const float* green, const float* blue, int count, std::uint32_t* out) const;
 
   private:

@@ -1,5 +1,5 @@
-// Spheres in cells whose third axis points to the key light: who is near a grain, and who stands between it
-// and the light, are both found along short rows of cells.
+// Which grains take light from which: for each grain that is seen, those near it, which take ambient light,
+// and those between it and the key light, which throw shadows. The file is hot.
 #pragma once
 
 #include <array>
@@ -14,13 +14,15 @@
 
 namespace grainreel {
 
+// Spheres in cells whose third axis points to the key light. The spheres near a grain, and those between it
+// and the light, are both found along short rows of cells.
 class LightGrid {
   public:
-    // reach: how far around a sphere it is to be found, in its radii beyond its surface.
+    // reach: how far from its surface a sphere must be found, in its radii.
     void fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, float reach);
 
-    // Calls visit(index) for every sphere that may be within its own reach of `s`, itself included; a large
-    // one perhaps more than once.
+    // Calls visit(index) for every sphere that may be within its own reach of `s`, also for `s` itself. It
+    // may be called more than once for a large sphere.
     template <class Visit>
     void around(const ViewSphere& s, const Visit& visit) const {
         const Place at = place(s);
@@ -46,7 +48,7 @@ class LightGrid {
                 for (int v = v0; v <= v1; ++v) visit_row(u, v, w, w, visit);
     }
 
-    // Along the key light's direction; m.
+    // m: the height along the direction of the key light.
     float height(const ViewSphere& s) const { return place(s)[2]; }
 
   private:
@@ -78,18 +80,16 @@ class LightGrid {
     float per_cell_ = 1;  // 1/m
     float reach_ = 0;
     float small_ = 0;         // m: radius up to which a sphere is put into the cell of its centre alone
-    float widest_ = 0;        // m: how far from the centre such a one may be looked for
-    float widest_small_ = 0;  // m: largest radius among them
+    float widest_ = 0;        // m: how far from its centre such a sphere has to be found
+    float widest_small_ = 0;  // m: the largest radius of these spheres
     std::vector<std::uint32_t> start_, item_;
     std::vector<int> top_;  // a column's last cell that holds something, or -1
 };
 
-// Which grains take light from which: for each grain that is seen, those near it (ambient light) and those
-// between it and the key light (shadows).
-
+// Finds occluders and casters of the grains that are seen.
 class Neighbourhood {
   public:
-    // shown: indices of the grains wanted. What is cut away takes no light.
+    // shown: indices of the grains that are seen. What is cut away takes no light.
     void update(const std::vector<ViewSphere>& spheres, const Cut& cut, const Lamp& lamp,
                 const std::vector<std::uint32_t>& shown, Team& team);
 
@@ -97,7 +97,7 @@ class Neighbourhood {
     NeighbourSpan occluders(std::size_t slot) const { return span(occluders_[slot]); }
     NeighbourSpan casters(std::size_t slot) const { return span(casters_[slot]); }
 
-    // Radii from its surface up to which a grain takes ambient light from another.
+    // A grain takes ambient light from others up to this distance from its surface, in its radii.
     static constexpr float kReach = 1.0f;
 
   private:
@@ -127,7 +127,7 @@ class Neighbourhood {
     Lamp lamp_;
 
     LightGrid grid_;
-    std::vector<Pool> pools_;  // a thread
+    std::vector<Pool> pools_;  // one for each thread
     std::vector<Range> occluders_, casters_;
 };
 

@@ -14,9 +14,10 @@ namespace grainreel {
 
 namespace {
 
-constexpr int kManyNeighbours = 40;  // from here on they are looked through for each few pixels
+constexpr int kManyNeighbours =
+    40;  // with more of them, a few pixels at a time are lit by the nearest ones only
 
-// number: index + 1 of a grain, or 0 for none.
+// number: index + 1 of a grain, or 0.
 bool paints(const PaintJob& job, std::uint32_t number) {
     return number != 0 && (job.spheres.painted.empty() || job.spheres.painted[number - 1] != 0);
 }
@@ -40,13 +41,13 @@ void BandPainter::make_room(std::size_t points) {
     for (auto* room : {&x_, &y_, &red_, &green_, &blue_}) room->resize(2 * points + kPointBlock);
 }
 
-// The rest of the last register has to be of the grain, too.
+// The rest of the last register must hold points of the grain, too.
 void BandPainter::pad(std::size_t points) {
     std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(points), kPointBlock, x_[0]);
     std::fill_n(y_.begin() + static_cast<std::ptrdiff_t>(points), kPointBlock, y_[0]);
 }
 
-// Runs of pixels that show one grain, between edges.
+// Finds the runs of pixels between edges, and the edges, in one row.
 void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
     const Visibility& seen = job.visibility;
     const std::uint32_t* row = seen.row(y);
@@ -99,8 +100,8 @@ void BandPainter::settle_edges(const PaintJob& job) {
     block_size_ = 0;
 }
 
-// Sorts by grain, and calls light(grain, begin, end) with each one's part of `sorted`, so that it fills
-// registers.
+// Sorts entries by grain, and calls light(grain, begin, end) with each grain's part of `sorted`, so that
+// points fill registers.
 template <class Of, class Light>
 void BandPainter::for_each_grain(const PaintJob& job, const std::vector<Of>& all, std::vector<Of>& sorted,
                                  const Light& light) {
@@ -197,7 +198,7 @@ void BandPainter::light(const PaintJob& job, std::uint32_t grain, const LitPoint
     }
 }
 
-// Those of the many neighbours of a large grain that its few points feel.
+// Of the many neighbours of a large grain, finds those that take light from these few points.
 NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, const NeighbourSpan& all,
                                    const LitPoints& points) {
     const auto slope = [&](float px, float py) {
@@ -210,7 +211,7 @@ NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, c
         low = low.cwiseMin(at);
         high = high.cwiseMax(at);
     }
-    // Beside the line of sight, with room for what perspective shifts within the grain.
+    // Distances are taken beside the line of sight. The room is for what perspective shifts within the grain.
     const float room = job.sight.orthographic ? 0 : own.radius * own.radius / std::max(own.z, own.radius);
     const Eigen::Vector2f middle = 0.5f * (low + high);
     const float spread = 0.5f * (high - low).norm() + room;

@@ -1,4 +1,6 @@
-// Lights a few rows of the picture.
+// Lit grains on a layer without a background. First it is found which grains are seen (Visibility), what
+// walls hide of them (WallOrder) and which grains take light from which (Neighbourhood). Then each pixel is
+// lit once, and a pixel on an edge once for each grain that shares it. The file is hot.
 #pragma once
 
 #include <array>
@@ -14,7 +16,13 @@
 
 namespace grainreel {
 
-struct Spheres;
+// What is drawn, with one entry for each grain. `poles` and `painted` may be empty.
+struct Spheres {
+    std::vector<ViewSphere> spheres;
+    std::vector<std::array<float, 3>> albedo;  // linear
+    std::vector<std::array<float, 3>> poles;   // unit: axes of two-tone grains, in view coordinates
+    std::vector<std::uint8_t> painted;  // 0: the grain hides others and takes their light, but has no colour
+};
 
 struct PaintJob {
     const Sight& sight;
@@ -26,18 +34,19 @@ struct PaintJob {
     const std::vector<std::uint32_t>& slot_of;
 };
 
+// Lights a few rows of the picture.
 class BandPainter {
   public:
-    // Rows y0 to y1 (excluded) of the layer.
+    // Lights rows y0 to y1 (excluded) of the layer.
     void paint(const PaintJob& job, int y0, int y1, Layer& layer);
 
   private:
-    // Pixels of a row between edges, which show one grain and nothing else.
+    // Pixels of a row between two edges, which show one grain and nothing else.
     struct Run {
         std::uint32_t grain;
         int x, y, count;
     };
-    // A part of a pixel that one grain takes.
+    // The part of a pixel that one grain takes.
     struct Part {
         std::uint32_t grain, pixel;  // index; place among `soft_`
         float x, y, share;           // pixels
@@ -67,7 +76,8 @@ class BandPainter {
     RowBits edges_;
     std::vector<Run> runs_, sorted_runs_;
     std::vector<Part> parts_, sorted_;
-    std::vector<std::uint32_t> count_, met_;  // entries a grain shown (kept at 0); grains met in this band
+    std::vector<std::uint32_t> count_,
+        met_;  // number of entries of each grain shown, kept at 0; grains met in this band
     std::vector<Soft> soft_;
     EdgeBlock block_;
     std::uint32_t block_who_[kCandidates][kPointBlock] = {};
@@ -77,25 +87,14 @@ class BandPainter {
     std::vector<NearGrain> near_;
 };
 
-// Lit grains on nothing: who is seen (Visibility), what walls hide of them (WallOrder), who takes light from
-// whom (Neighbourhood), then each pixel lit once, and those on edges once for each grain that shares them.
-
-// What is drawn. One entry a grain; `poles` and `painted` may be empty.
-struct Spheres {
-    std::vector<ViewSphere> spheres;
-    std::vector<std::array<float, 3>> albedo;  // linear
-    std::vector<std::array<float, 3>> poles;   // unit: axes of two-tone grains, in view coordinates
-    std::vector<std::uint8_t> painted;         // 0: hides others and takes their light, but leaves no colour
-};
-
 class SphereLayer {
   public:
     SphereLayer(int width, int height) : visibility_(width, height), layer_(width, height) {}
 
-    // One after the other. The team's size does not show in the picture.
+    // These are called one after the other. The picture does not depend on the team's size.
     void find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team,
                       const SolidDepth& solid = {});
-    // Faces in view coordinates.
+    // faces: in view coordinates.
     void find_order(const Sight& sight, const Cut& cut, const Spheres& spheres,
                     const std::vector<WallFace>& faces, Team& team);
     void find_neighbours(const Cut& cut, const Lamp& lamp, const Spheres& spheres, Team& team);
@@ -111,8 +110,8 @@ class SphereLayer {
     WallOrder wall_order_;
     Neighbourhood neighbourhood_;
     Layer layer_;
-    std::vector<std::uint32_t> slot_of_;  // a grain: its place among those shown
-    std::vector<BandPainter> painters_;   // a thread
+    std::vector<std::uint32_t> slot_of_;  // for each grain: its place among those shown
+    std::vector<BandPainter> painters_;   // one for each thread
 };
 
 }  // namespace grainreel
