@@ -1,4 +1,5 @@
-// Plain values and vectors to and from bytes, in this machine's byte order.
+// Writes plain values and vectors as bytes and reads them back, in this machine's byte order. Checkpoints and
+// caches use it.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +25,8 @@ void write_vector(std::ostream& out, const std::vector<T, Memory>& values) {
               static_cast<std::streamsize>(values.size() * sizeof(T)));
 }
 
-// Bytes of a file, read from the front. What it promises but does not hold makes the reading fail; no memory
-// is asked for then.
+// The bytes of a file, read from the front. If a size in the file is larger than the rest of the file,
+// reading fails before memory is asked for.
 class Bytes {
   public:
     explicit Bytes(std::string_view all) : left_(all) {}
@@ -62,7 +63,8 @@ void read_vector(Bytes& in, std::vector<T, Memory>& values) {
     in.read(reinterpret_cast<char*>(values.data()), size * sizeof(T));
 }
 
-// For functions that name what is saved once, and serve both ways.
+// Two functions with one form, so that a list of saved members is written once and serves for writing and
+// reading.
 struct Writing {
     std::ostream& out;
     template <class T>

@@ -1,4 +1,5 @@
-// The two ways in which a run can end badly. Anything else that is wrong is a bug and a failed check.
+// UserError and RunError are the two ways in which a run can fail. Everything else is a bug, for which
+// GRAINREEL_CHECK ends the process. Keep this header light: nearly all files include it.
 #pragma once
 
 #include <stdexcept>
@@ -6,20 +7,21 @@
 
 namespace grainreel {
 
-// A mistake in what the user gave us. what() is the whole line to print:
+// A mistake in the user's input. what() is the whole line to print:
 // "scene.toml:12:5: what is wrong; what to do". The program ends with exit code 2.
 class UserError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-// A run that cannot go on: a blow-up, a full disk. what() says where, what and the remedy. Exit code 1.
+// A run that cannot continue: it became unstable, or the disk is full. what() says where, what and the
+// remedy. The program ends with exit code 1.
 class RunError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-// A broken promise between two parts of the program. Never caught.
+// Prints that a condition of the program itself does not hold, and ends the process.
 [[noreturn]] void check_failed(const char* condition, const char* file, int line);
 
 }  // namespace grainreel

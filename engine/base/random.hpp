@@ -1,4 +1,5 @@
-// Named streams of random numbers, the same on every machine: one stream's use never shifts another's.
+// Streams of random numbers by name, the same on every machine. The use of one stream never changes another.
+// The numbers of streams must not change, because runs would change with them.
 #pragma once
 
 #include <cmath>
@@ -29,7 +30,7 @@ class Random {
         engine_.seed(mix);
     }
 
-    // A part of the stream that is the same whatever else was drawn.
+    // A part of the stream that does not depend on what else was drawn.
     Random(std::uint64_t seed, Stream stream, std::initializer_list<std::int64_t> part) {
         std::vector<std::uint32_t> words;
         const auto add = [&](std::uint64_t number) {
@@ -42,10 +43,10 @@ class Random {
         engine_.seed(mix);
     }
 
-    // In [0, 1), 53 bits. Not std::uniform_real_distribution, whose numbers differ between libraries.
+    // A number in [0, 1) with 53 bits. std::uniform_real_distribution would differ between libraries.
     double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
     double between(double low, double high) { return low + (high - low) * uniform(); }
-    // Mean 0, deviation 1 (Box & Muller 1958).
+    // A normal number with mean 0 and standard deviation 1 (Box & Muller 1958).
     double normal() {
         const double u = 1 - uniform(), v = uniform();
         return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);

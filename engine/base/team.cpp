@@ -28,11 +28,11 @@ void relax() {
 
 using Clock = std::chrono::steady_clock;
 
-// Offers its processor to whoever wants it, for as long as it would take to wake up; false if `value` is
-// still `old` then. Where another program wants it, a yield lasts as long as its turn, many times a step: the
-// next waits do without.
+// Offers the processor to other programs for about as long as waking up would take. False if `value` is still
+// `old` then. If another program wants the processor, a yield lasts as long as its turn, which is many steps;
+// the next waits then do not yield.
 bool yield_while(const std::atomic<int>& value, int old) {
-    constexpr int kUntilNextTry = 100;  // waits: some hundredths of a second
+    constexpr int kUntilNextTry = 100;  // number of waits, some hundredths of a second
     thread_local int waits_without = 0;
     if (waits_without > 0) return --waits_without, false;
     auto now = Clock::now();
@@ -45,9 +45,9 @@ bool yield_while(const std::atomic<int>& value, int old) {
     return value.load(std::memory_order_acquire) != old;
 }
 
-// Returns once `value` is no longer `old`. Between spinning and sleeping it yields: a sleeper that wakes late
-// makes the others sleep at the next barrier, and so on. (Steps of a bed on two threads: 1.06 times as fast
-// as without.)
+// Returns when `value` is no longer `old`. Between spinning and sleeping it yields, because a thread that
+// wakes up late makes the others sleep at the next barrier, and so on. (With yielding, steps of a bed on two
+// threads are 1.06 times as fast.)
 void wait_while(const std::atomic<int>& value, int old) {
     for (int spin = 0; spin < kSpins; ++spin) {
         if (value.load(std::memory_order_acquire) != old) return;
@@ -57,9 +57,9 @@ void wait_while(const std::atomic<int>& value, int old) {
     while (value.load(std::memory_order_acquire) == old) value.wait(old, std::memory_order_acquire);
 }
 
-// Asks for short turns on the processor where others want it too: who waits at every step for a thread that
-// waits for its turn gets none of the good of long ones. From Linux 6.12 on; earlier ones take no notice.
-// (docs/notes/performance.md, "Beside other programs".)
+// Asks for short turns on the processor for the case that other programs want it too. Long turns are of no
+// use, because each step waits for the thread that waits for its turn. Linux does this from 6.12 on and
+// ignores it before. (docs/notes/performance.md, "Beside other programs".)
 void ask_for_short_turns() {
 #if defined(SYS_sched_getattr) && defined(SYS_sched_setattr)
     constexpr std::uint64_t kTurn = 100'000, kForItselfOnly = 1;  // ns; SCHED_FLAG_RESET_ON_FORK
@@ -78,8 +78,8 @@ void ask_for_short_turns() {
 #endif
 }
 
-// Processors' worth of time the cgroup grants; infinite without a quota. Version 2 writes "quota period" or
-// "max period" into one file, version 1 uses two.
+// The processor time that the cgroup allows, as a number of processors; infinite without a quota. Version 2
+// has "quota period" or "max period" in one file, version 1 uses two files.
 double cgroup_quota() {
     std::string quota;
     double period = 0, microseconds = 0;
@@ -143,15 +143,16 @@ void Team::work_as(int member) {
     (*work_)(member);
 }
 
-// Everyone says on a line of its own which barrier it has come to, and looks at the others' lines: one way
-// from processor to processor, where a common counter takes three. Nobody is more than one barrier ahead.
+// Each member writes the number of its barrier into a cache line of its own and reads the others' lines. This
+// takes one way from processor to processor; a common counter would take three. No member is more than one
+// barrier ahead.
 void Team::barrier(int member) {
     if (size_ == 1) return;
     Timing& mine = timings_[member];
     mine.busy.store(busy(member) + static_cast<double>(ticks() - mine.since), std::memory_order_relaxed);
     std::atomic<int>& own = seats_[member].barrier;
     const int last = own.load(std::memory_order_relaxed);
-    own.store(last + 1);  // in one order with the sleepers' counter, or one might be left asleep
+    own.store(last + 1);  // sequentially consistent; otherwise a sleeping member might not be woken
     own.notify_all();
     for (int other = 0; other < size_; ++other)
         if (other != member) wait_while(seats_[other].barrier, last);

@@ -1,4 +1,5 @@
-// The one place that knows threads: a team that runs a function on all its members, and a barrier for them.
+// Team: threads that run a function together, with a barrier. All parallel work goes through it, and no other
+// file of the engine makes threads.
 #pragma once
 
 #include <atomic>
@@ -9,7 +10,7 @@
 
 namespace grainreel {
 
-// How many processors this process may use: its affinity mask, cut by a cgroup quota.
+// Number of processors that this process may use: by its affinity mask and the quota of its cgroup.
 int usable_processors();
 
 class Team {
@@ -21,23 +22,23 @@ class Team {
 
     int size() const { return size_; }
 
-    // Calls work(member) on every member and returns when all have come back. `work` must not throw.
+    // Calls work(member) on every member and returns when all have finished. `work` must not throw.
     void run(const std::function<void(int)>& work);
 
-    // Waits until all members are here. Spins for some 20 us, yields for 100 us, then sleeps, so that a
-    // renderer or an encoder on the same processors gets its turn.
+    // Waits until all members have come here. It spins for some 20 us, yields for 100 us and then sleeps, so
+    // that a renderer or an encoder on the same processors gets its turn.
     void barrier(int member);
-    // Ticks that a member has been at work, not waiting, up to its last barrier.
+    // Ticks that a member has worked, without waiting, up to its last barrier.
     double busy(int member) const { return timings_[member].busy.load(std::memory_order_relaxed); }
 
   private:
-    // A cache line each, written by its member alone.
+    // Each is a cache line that only its member writes.
     struct alignas(64) Timing {
-        std::uint64_t since = 0;  // at work since then, ticks
+        std::uint64_t since = 0;  // tick at which the present work began
         std::atomic<double> busy{0};
     };
     struct alignas(64) Seat {
-        std::atomic<int> barrier{0};  // the last one that the member has come to
+        std::atomic<int> barrier{0};  // number of the last barrier that the member has reached
     };
 
     void serve(int member);
@@ -52,14 +53,14 @@ class Team {
     std::atomic<int> running_{0};  // members still at work besides member 0
 };
 
-// A member at work that all members are called for.
+// A member of a team, for functions that all members call.
 struct TeamMember {
     Team& team;
     int member;
 
     bool leads() const { return member == 0; }
     void wait() const { team.barrier(member); }
-    // Its part of `count` things.
+    // The member's part of `count` things.
     struct Part {
         std::int32_t begin, end;
     };

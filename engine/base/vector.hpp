@@ -1,4 +1,4 @@
-// The vector type of the whole project: three doubles, z up.
+// Vec3, the vector type of the whole program: three doubles, z up.
 #pragma once
 
 #include <Eigen/Core>

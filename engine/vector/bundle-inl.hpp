@@ -1,4 +1,5 @@
-// Eight or four doubles as one number after the other in memory, in as many registers as it takes.
+// A bundle: four or eight doubles that lie together in memory, such as place and radius of a grain. It is
+// held in as many registers as it takes.
 #if defined(GRAINREEL_VECTOR_BUNDLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_BUNDLE_INL
 #undef GRAINREEL_VECTOR_BUNDLE_INL
@@ -30,7 +31,7 @@ template <int size>
 HWY_INLINE void put(const Bundle<size>& r, double* to) {
     for (int p = 0; p < r.parts; ++p) hn::Store(r.part[p], typename Bundle<size>::D(), to + p * r.lanes);
 }
-// One behind the other.
+// Two bundles as one of twice the size.
 template <int size>
 HWY_INLINE Bundle<2 * size> both(const Bundle<size>& first, const Bundle<size>& second) {
     Bundle<2 * size> r;
@@ -73,7 +74,8 @@ HWY_INLINE Bundle<4> bundle_of(double x) {
     for (auto& part : r.part) part = hn::Set(Bundle<4>::D(), x);
     return r;
 }
-// From registers: four numbers stored one by one and loaded as one would have to wait for the stores.
+// These are put together in registers. Four numbers that are stored one by one and loaded as one would have
+// to wait for the stores.
 #if HWY_TARGET == HWY_SCALAR
 HWY_INLINE Bundle<4> bundle_of(double a, double b, double c, double d) {
     const Bundle<4>::D one;
@@ -120,7 +122,7 @@ HWY_INLINE Bundle<size> operator*(Bundle<size> a, const Bundle<size>& b) {
     for (int p = 0; p < a.parts; ++p) a.part[p] = hn::Mul(a.part[p], b.part[p]);
     return a;
 }
-// a b + c, in one rounding where the processor has that.
+// a b + c, rounded once if the processor can do that.
 template <int size>
 HWY_INLINE Bundle<size> multiply_add(Bundle<size> a, const Bundle<size>& b, const Bundle<size>& c) {
     for (int p = 0; p < a.parts; ++p) a.part[p] = hn::MulAdd(a.part[p], b.part[p], c.part[p]);

@@ -1,4 +1,5 @@
-// Four numbers a bundle in memory, one number a lane in registers: loads bundles that lie anywhere.
+// Loads bundles of four numbers from any places in memory so that each register has one of the numbers, a
+// lane for each bundle.
 #if defined(GRAINREEL_VECTOR_BUNDLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_BUNDLES_INL
 #undef GRAINREEL_VECTOR_BUNDLES_INL
@@ -74,8 +75,8 @@ HWY_INLINE FloatRows<8> float_rows_of(const Four<Floats>& f, const Four<Floats>&
 
 #else
 
-// Rows of 128-bit blocks: on entry row k holds the blocks (a b)(c d) of bundles k and k + 4; on return `a`
-// holds the first number of all of them, and so on. The same steps undo it.
+// Transposes rows of 128-bit blocks. Before, row k holds the blocks (a b)(c d) of bundles k and k + 4;
+// afterwards `a` holds the first number of all bundles, and so on. The same steps undo it.
 template <class D>
 HWY_INLINE Four<D> transposed(D d, const Four<D>& r) {
     const auto low01 = hn::InterleaveLower(d, r.a, r.b), high01 = hn::InterleaveUpper(d, r.a, r.b);
@@ -92,8 +93,8 @@ HWY_INLINE hn::Vec<D> both_halves(D d, const double* low, const double* high) {
     return hn::Combine(d, hn::Load(half, high), hn::Load(half, low));
 }
 
-// Four numbers each from as many addresses as there are lanes, aligned to 32 bytes: as they lie in memory,
-// before they are transposed.
+// Loads four numbers from each of as many addresses as there are lanes, aligned to 32 bytes. They are not
+// transposed yet.
 template <class D>
 HWY_INLINE Four<D> rows_at(D d, const double* const* at) {
     if constexpr (hn::MaxLanes(D()) == 8) {
@@ -114,7 +115,7 @@ HWY_INLINE Four<D> transposed_rows(D d, const Four<D>& r) {
                 hn::InterleaveLower(d, r.c, r.d), hn::InterleaveUpper(d, r.c, r.d)};
 }
 
-// A block of 128 bits from every fourth address.
+// Loads a block of 128 bits from every fourth address.
 template <class D>
 HWY_INLINE hn::Vec<D> every_fourth(D d, const float* const* at) {
     if constexpr (hn::MaxLanes(D()) == 4) {
@@ -125,8 +126,8 @@ HWY_INLINE hn::Vec<D> every_fourth(D d, const float* const* at) {
     }
 }
 
-// Row k of the four has bundles k, k + 4, ... in its blocks of 128 bits; transposed, `a` has the first number
-// of all of them, and so on. The same steps undo it.
+// Transposes four rows. Row k has bundles k, k + 4, ... in its blocks of 128 bits; afterwards `a` has the
+// first number of all bundles, and so on. The same steps undo it.
 template <class D>
 HWY_INLINE Four<D> transposed_floats(D d, const Four<D>& r) {
     const hn::Repartition<double, D> pairs;
@@ -140,7 +141,7 @@ HWY_INLINE Four<D> transposed_floats(D d, const Four<D>& r) {
             hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23))};
 }
 
-// The same for four floats each, aligned to 16 bytes.
+// The same for bundles of four floats, aligned to 16 bytes.
 template <class D>
 HWY_INLINE Four<D> rows_at(D d, const float* const* at) {
     return {every_fourth(d, at), every_fourth(d, at + 1), every_fourth(d, at + 2), every_fourth(d, at + 3)};
@@ -150,7 +151,7 @@ requires(sizeof(hn::TFromD<D>) == sizeof(float)) HWY_INLINE Four<D> transposed_r
     return transposed_floats(d, r);
 }
 
-// Bundles index[0] .. index[lanes - 1] of `stride` numbers each, their first four numbers.
+// The first four numbers of bundles index[0] ... index[lanes - 1], which have `stride` numbers each.
 template <class D>
 HWY_INLINE Four<D> rows_of_bundles(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* index) {
     const hn::TFromD<D>* at[hn::MaxLanes(D())];
@@ -163,7 +164,8 @@ HWY_INLINE Four<D> load_bundles(const hn::TFromD<D>* base, std::size_t stride, c
     return transposed_rows(D(), rows_of_bundles<D>(base, stride, index));
 }
 
-// a - b for the first three numbers, a + b for the fourth: half as many shuffles as for both apart.
+// a - b for the first three numbers and a + b for the fourth. This takes half as many shuffles as two
+// operations.
 template <class D = Doubles>
 HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, const std::int32_t* a,
                                  const std::int32_t* b) {
@@ -177,7 +179,7 @@ HWY_INLINE Four<D> load_relative(const hn::TFromD<D>* base, std::size_t stride, 
                                       hn::MulAdd(two.c, high, one.c), hn::MulAdd(two.d, high, one.d)});
 }
 
-// `count` of a register's numbers from the n-th on.
+// `count` numbers of a register from the n-th on.
 template <int count, int n, class D>
 HWY_INLINE auto some_of(D, hn::Vec<D> v) {
     constexpr int half_lanes = static_cast<int>(hn::MaxLanes(D())) / 2;
@@ -192,8 +194,9 @@ HWY_INLINE auto some_of(D, hn::Vec<D> v) {
     }
 }
 
-// As many bundles of four or eight floats as a register has lanes: four to four registers as
-// transposed_floats() leaves them, eight to as many, of which two follow each other for bundles k and k + 4.
+// As many bundles of four or eight floats as a register has lanes. Those of four are in four registers as
+// transposed_floats() leaves them. Those of eight are in eight registers, where two follow each other for
+// bundles k and k + 4.
 template <int size>
 struct FloatRows {
     hn::Vec<Floats> part[size];
@@ -210,7 +213,7 @@ struct FloatRows {
 
   private:
     static constexpr int lanes = static_cast<int>(hn::MaxLanes(Floats()));
-    // Where number m of bundle k is, counted through all registers.
+    // The place of number m of bundle k, counted through all registers.
     static constexpr int at(int k, int m) {
         const int row = k % 4, block = k / 4;
         if (size == 4) return row * lanes + block * 4 + m;
@@ -222,7 +225,7 @@ HWY_INLINE FloatRows<4> float_rows_of(const Four<Floats>& f) {
     const Four<Floats> r = transposed_floats(Floats(), f);
     return {{r.a, r.b, r.c, r.d}};
 }
-// The even blocks of both by turns, or the odd ones.
+// The even blocks of both registers in turn, or the odd ones.
 HWY_INLINE hn::Vec<Floats> even_blocks(hn::Vec<Floats> f, hn::Vec<Floats> g) {
     if constexpr (hn::MaxLanes(Floats()) == 4)
         return f;
@@ -241,7 +244,7 @@ HWY_INLINE FloatRows<8> float_rows_of(const Four<Floats>& f, const Four<Floats>&
              even_blocks(r.c, s.c), odd_blocks(r.c, s.c), even_blocks(r.d, s.d), odd_blocks(r.d, s.d)}};
 }
 
-// The other way, into registers.
+// The opposite: from bundles into registers.
 template <class D>
 HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     const D d;
@@ -270,7 +273,7 @@ HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     return rows;
 }
 
-// Four numbers and four behind them.
+// Four numbers and the four after them.
 template <class D>
 HWY_INLINE Rows<8> rows_of(const Four<D>& f, const Four<D>& g) {
     Rows<8> rows;

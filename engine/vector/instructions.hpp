@@ -1,12 +1,12 @@
-// The instruction set of the kernels that calls go to now.
+// Which instruction set the kernels use.
 #pragma once
 
 #include <string>
 
 namespace grainreel {
 
-// "AVX-512", "AVX2", "SSE4" or "none (plain x86-64)"; as the kernels themselves are chosen, not as the
-// processor would have it.
+// "AVX-512", "AVX2", "SSE4" or "none (plain x86-64)". It is the set for which kernels are chosen, which may
+// be less than the processor has.
 std::string vector_instructions();
 
 }  // namespace grainreel

@@ -1,9 +1,9 @@
-// A register of doubles or floats that reads like one number, so that a law is written once for all widths
-// and for a plain double. Compiled anew for each instruction set: see Highway's foreach_target.h for the
-// guard below.
+// Lanes: a register of doubles or floats that is used like a number, so that a law is written once for all
+// widths and for a plain double. The file is compiled for each instruction set; the guard below is that of
+// Highway's foreach_target.h.
 //
-// Multiplications and additions are fused where the code says so and the processor can: AVX2 and AVX-512 give
-// one answer to the bit, SSE4 and plain code another.
+// Multiplications and additions are fused where the code says so and the processor can do it. So AVX2 and
+// AVX-512 give the same bits, and SSE4 and plain code give others.
 #if defined(GRAINREEL_VECTOR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_LANES_INL
 #undef GRAINREEL_VECTOR_LANES_INL
@@ -70,7 +70,7 @@ struct LanesOf {
     friend HWY_INLINE LanesOf select(Mask which, LanesOf yes, LanesOf no) {
         return hn::IfThenElse(which.bits, yes.value, no.value);
     }
-    // a b + c, c - a b, in one rounding where the processor has that.
+    // a b + c and c - a b, rounded once if the processor can do that.
     friend HWY_INLINE LanesOf multiply_add(LanesOf a, LanesOf b, LanesOf c) {
         return hn::MulAdd(a.value, b.value, c.value);
     }
@@ -88,7 +88,7 @@ using FloatLanes = LanesOf<Floats>;
 using LanesMask = Lanes::Mask;
 constexpr int kLanes = Lanes::count;
 
-// The number of a register, or of a number itself.
+// The type of the numbers in a register, or of a number itself.
 template <class R>
 struct NumberIn {
     using type = R;
@@ -152,7 +152,7 @@ HWY_INLINE void store(LanesOf<D> a, hn::TFromD<D>* at) {
     hn::Store(a.value, D(), at);
 }
 
-// The same, where memory holds doubles and the register perhaps floats, as many or twice as many of them.
+// The same where memory holds doubles and the register perhaps floats, as many or twice as many.
 template <class D>
 requires(LanesOf<D>::count == kLanes) HWY_INLINE hn::Vec<D> rounded(D d, const double* at) {
     return hn::DemoteTo(d, hn::Load(Doubles(), at));

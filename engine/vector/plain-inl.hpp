@@ -1,5 +1,5 @@
-// Products of triples as Vec3 forms them, to the bit: nothing is fused, and the numbers are
-// added in their order. So what is computed number by number elsewhere has the same bits.
+// Products of triples with the same bits as those of Vec3: nothing is fused, and terms are added in the same
+// order. So code that computes one contact at a time gets the same result.
 #if defined(GRAINREEL_VECTOR_PLAIN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_PLAIN_INL
 #undef GRAINREEL_VECTOR_PLAIN_INL

@@ -1,5 +1,6 @@
-// The instruction sets we serve: the plain one of every x86-64, SSE4, AVX2 and AVX-512. Those left out differ
-// from these in nothing we use. Compiles the file named HWY_TARGET_INCLUDE, if any, once for each.
+// The instruction sets for which kernels are compiled: plain x86-64, SSE4, AVX2 and AVX-512. Other sets
+// differ from these in nothing that we use. If HWY_TARGET_INCLUDE names a file, it is compiled once for each
+// set.
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #endif

@@ -1,5 +1,5 @@
-// Two registers that go through a law side by side: its chain of operations is longer than what a processor
-// looks ahead over, so that one register at a time leaves it waiting.
+// Two registers that go through a law side by side. The law's chain of operations is longer than what a
+// processor can look ahead, so with one register at a time it would wait.
 #if defined(GRAINREEL_VECTOR_TWICE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_TWICE_INL
 #undef GRAINREEL_VECTOR_TWICE_INL

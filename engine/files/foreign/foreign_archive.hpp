@@ -18,16 +18,14 @@
 
 namespace grainreel {
 
-// Walls of other programs. A file has a surface once, or again at each moment in its present place. Here a
-// surface that moves becomes a rigid body: its shape is kept once, and each moment has its pose.
-
-// A wall at one moment.
+// The walls at one moment. A file has a surface once, or again at each moment in its present place.
 struct WallMoment {
     std::optional<std::int64_t> step{};
     std::optional<double> time{};
     std::vector<RawWall> walls;
 };
 
+// A wall as a rigid body: its shape is kept once, and each moment has its pose.
 struct MovingWall {
     std::string name;
     TriangleMesh shape;           // m, as it was at its first moment

@@ -11,10 +11,9 @@
 
 namespace grainreel {
 
-// Reads and checks the header of a classic NetCDF file (CDF-1, 2 and 5) before the library opens it. The
-// library trusts a header: it asks for as much memory as a count says, and it reads zeros beyond the end of a
-// file that was cut off.
-
+// The header of a classic NetCDF file (CDF-1, 2 and 5). It is read and checked before the library opens the
+// file. The library trusts a header: it asks for as much memory as a count says, and it reads zeros beyond
+// the end of a file that was cut off.
 struct NetcdfHeader {
     std::uint64_t begin = 0;   // bytes before the first record, or of the whole file without records
     std::uint64_t record = 0;  // bytes of a record, or 0 where no variable has records

@@ -133,10 +133,9 @@ VtkContents read_vtk_legacy(const std::filesystem::path& file, VtkPart part);
 
 bool takes_vtk_legacy(const FileHead& head);
 
-// Makes walls of the surface cells of a VTK data set, by splitting each cell into triangles.
-
-// One wall with the cell data as its columns. For dumps of LIGGGHTS, which have an array "meshid", a wall for
-// each mesh. Empty where there are no surface cells. Throws UserError for cells whose surface cannot be read.
+// The walls in the surface cells of a data set: one wall with the cell data as its columns. For dumps of
+// LIGGGHTS, which have an array "meshid", a wall for each mesh. Empty where there are no surface cells.
+// Throws UserError for cells whose surface cannot be read.
 std::vector<RawWall> walls_of(const VtkPiece& piece);
 
 // The number of the mesh that each triangle belongs to, by the column "meshid". LIGGGHTS numbers the
