@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "render/picture/container/shade_row.hpp"
+#include "render/picture/container/ground.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "tests/instruction_sets.hpp"
 

@@ -7,7 +7,6 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/shade_row.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 #include "render/scene/filmed_scene.hpp"
 

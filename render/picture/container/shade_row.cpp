@@ -1,4 +1,4 @@
-#include "render/picture/container/shade_row.hpp"
+#include "render/picture/container/ground.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/picture/container/shade_row.cpp"
