@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/picture/base/palette.hpp"
-#include "render/picture/whole/compose.hpp"
+#include "render/picture/whole/layers.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"

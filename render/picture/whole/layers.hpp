@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/team.hpp"
+#include "render/picture/base/canvas.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/container/ground.hpp"
+#include "render/picture/gl/objects.hpp"
 #include "render/picture/spheres/layer.hpp"
 
 namespace grainreel {
@@ -45,6 +48,29 @@ class Exposure {
     // Of each pixel: red, green and blue in linear light times alpha, with 16 bits each, then alpha with 8
     // bits.
     std::vector<std::uint32_t> sum_;
+};
+
+// The layer that OpenGL draws on one side of the grains. It is drawn and read again only when its shapes have
+// changed.
+
+class SideLayer {
+  public:
+    // The layer is as large as the port.
+    SideLayer(const gl::Functions& gl, const Rectangle& port);
+
+    // Draws the layer. What others change in it stays until the shapes change.
+    const Layer& draw(const ShapePainter& painter, const Shapes& shapes);
+    Layer& layer() { return layer_; }
+
+  private:
+    void bind(const Rectangle& part);
+    void forget_beside(const Rectangle& part);
+
+    const gl::Functions& gl_;
+    const int width_, height_;
+    std::optional<gl::Framebuffer> target_;  // of a part of the layer
+    Shapes last_;
+    Layer layer_;
 };
 
 }  // namespace grainreel
