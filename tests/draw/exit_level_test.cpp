@@ -5,7 +5,7 @@
 
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/container/container_drawing.hpp"
-#include "render/picture/container/mesh_shadows.hpp"
+#include "render/picture/mesh/scene_meshes.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

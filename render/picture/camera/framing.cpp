@@ -10,7 +10,7 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
-#include "render/picture/container/mesh_shadows.hpp"
+#include "render/picture/mesh/scene_meshes.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 #include "engine/frame.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/container/mesh_shadows.hpp"
+#include "render/picture/mesh/scene_meshes.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

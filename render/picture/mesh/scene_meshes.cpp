@@ -7,6 +7,7 @@
 #include "engine/measure/walls/mesh_wear.hpp"
 
 namespace grainreel {
+
 namespace {
 
 bool names(const std::vector<std::string>& list, const std::string& name) {
@@ -78,6 +79,97 @@ MeshPaints mesh_paints(const Palette& palette, const Vec3& up, int picture_heigh
 
 MeshPainter::Inks mesh_inks(const Palette& palette) {
     return {bytes(palette.solid), bytes(palette.ink)};
+}
+
+namespace {
+
+constexpr int kDirections = 256;  // over the sphere, 0.2 apart: 0.5 % of a round body's radius is cut off
+constexpr int kTurns = 48, kPathPlaces = 64;
+
+std::vector<Vec3> outermost(const std::vector<Vec3>& points) {
+    std::vector<Vec3> kept;
+    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+    for (int i = 0; i < kDirections + 6 && !points.empty(); ++i) {
+        const double z = 1 - (2 * i + 1.0) / kDirections, out = std::sqrt(std::max(0.0, 1 - z * z));
+        Vec3 along(out * std::cos(golden * i), out * std::sin(golden * i), z);
+        if (i >= kDirections) along = (i % 2 ? -1 : 1) * Vec3::Unit((i - kDirections) / 2);
+        const auto farther = [&](const Vec3& a, const Vec3& b) { return a.dot(along) < b.dot(along); };
+        kept.push_back(*std::max_element(points.begin(), points.end(), farther));
+    }
+    return kept;
+}
+
+std::vector<Vec3> reach_of(const SceneMesh& mesh) {
+    const std::vector<Vec3> rest = outermost(mesh.surface->mesh().vertices);
+    std::vector<Vec3> reached;
+    if (mesh.turn) {
+        for (int k = 0; k < kTurns; ++k) {
+            const Eigen::AngleAxisd turn(2 * std::numbers::pi * k / kTurns, mesh.turn->axis);
+            for (const Vec3& p : rest)
+                reached.push_back(mesh.turn->through + turn * (p - mesh.turn->through));
+        }
+    } else if (mesh.path) {
+        for (int k = 0; k <= kPathPlaces; ++k) {
+            const double share = static_cast<double>(k) / kPathPlaces;
+            const PathPose pose =
+                mesh.path->at(mesh.path->first() + share * (mesh.path->last() - mesh.path->first()));
+            for (const Vec3& p : rest) reached.push_back(pose.place + pose.rotation * p);
+        }
+    } else {
+        return rest;
+    }
+    return outermost(reached);
+}
+
+}  // namespace
+
+std::vector<Vec3> mesh_reach(const FilmedScene& scene) {
+    std::vector<Vec3> all;
+    for (const SceneMesh& mesh : scene.meshes)
+        if (mesh.surface)
+            for (const Vec3& point : reach_of(mesh)) all.push_back(point);
+    return all;
+}
+
+namespace {
+
+constexpr double kPatches = 6000;        // of one mesh, about
+constexpr double kVesselOpacity = 0.12;  // of each wall that light passes
+constexpr int kMostAlong = 64;           // patches along the side of one triangle
+
+}  // namespace
+
+MeshShadows::MeshShadows(const FilmedScene& scene) {
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SceneMesh& mesh = scene.meshes[m];
+        if (!mesh.surface) continue;
+        const Surface& surface = *mesh.surface;
+        const double opacity = look_of(scene, mesh) == MeshLook::vessel ? kVesselOpacity : 1;
+        const std::int32_t apart = surface.size() / static_cast<std::int32_t>(4 * kPatches) + 1;
+        double all = 0;
+        for (std::int32_t t = 0; t < surface.size(); t += apart) all += surface.area(t);
+        // A closed body takes light on its way in, and not once more on its way out.
+        const double share = (opacity == 1 && surface.facts().closed() ? 0.5 : 1) * opacity * apart;
+        for (std::int32_t t = 0; t < surface.size(); t += apart)
+            add(surface, t, std::sqrt(kPatches * surface.area(t) / std::max(all, 1e-300)), share,
+                static_cast<std::size_t>(first_mesh_body(scene)) + m);
+    }
+    const std::vector<Vec3> reach = mesh_reach(scene);
+    if (!reach.empty()) lowest_ = reach.front().z();
+    for (const Vec3& point : reach) lowest_ = std::min(lowest_, point.z());
+}
+
+// Cuts a triangle into `along` x `along` equal ones, half of them upside down.
+void MeshShadows::add(const Surface& surface, std::int32_t t, double wanted, double share, std::size_t body) {
+    const int along = std::clamp(static_cast<int>(std::lround(wanted)), 1, kMostAlong);
+    const Vec3 &a = surface.corner(t, 0), u = surface.corner(t, 1) - a, v = surface.corner(t, 2) - a;
+    const Vec3 area = share * surface.area(t) / (along * along) * surface.normal(t);
+    for (int i = 0; i < along; ++i)
+        for (int j = 0; j < along; ++j) {
+            const bool upright = i + j < along;
+            const double x = (i + 1.0 / 3) / along, y = (j + 1.0 / 3) / along;
+            patches_.push_back({a + (upright ? x : 1 - x) * u + (upright ? y : 1 - y) * v, area, body});
+        }
 }
 
 }  // namespace grainreel
