@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "render/picture/words/first_gutter.hpp"
-#include "render/picture/words/numbers_plan.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

@@ -5,7 +5,7 @@
 #include "render/picture/base/palette.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/blocks.hpp"
-#include "render/picture/words/numbers_plan.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

@@ -10,9 +10,8 @@
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/first_gutter.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/picture/words/missing_letters.hpp"
-#include "render/picture/words/numbers_plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

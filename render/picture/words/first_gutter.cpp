@@ -1,4 +1,4 @@
-#include "render/picture/words/first_gutter.hpp"
+#include "render/picture/words/gutters.hpp"
 
 #include <algorithm>
 

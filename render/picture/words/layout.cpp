@@ -8,8 +8,7 @@
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/first_gutter.hpp"
-#include "render/picture/words/numbers_plan.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -1,4 +1,4 @@
-#include "render/picture/words/numbers_plan.hpp"
+#include "render/picture/words/gutters.hpp"
 
 #include <algorithm>
 #include <cmath>

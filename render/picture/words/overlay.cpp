@@ -10,7 +10,7 @@
 #include "engine/measure/measures.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/first_gutter.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

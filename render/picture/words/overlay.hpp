@@ -13,7 +13,7 @@
 #include "render/picture/base/picture.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
-#include "render/picture/words/numbers_plan.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
