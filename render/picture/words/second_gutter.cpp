@@ -1,13 +1,14 @@
-#include "render/picture/words/gutters.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "render/picture/words/captions.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
+
 namespace {
 
 constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.16;  // heights over that of the picture
