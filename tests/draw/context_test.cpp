@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "render/picture/gl/objects.hpp"
+#include "render/picture/gl/opengl.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

@@ -16,7 +16,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
 #include "render/picture/base/palette.hpp"
-#include "render/picture/gl/objects.hpp"
+#include "render/picture/gl/opengl.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/film.hpp"
 #include "tests/draw/support.hpp"

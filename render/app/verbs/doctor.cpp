@@ -23,7 +23,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/codec/codec.hpp"
-#include "render/picture/gl/context.hpp"
+#include "render/picture/gl/opengl.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/shown_values.hpp"

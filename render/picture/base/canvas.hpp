@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "render/picture/gl/objects.hpp"
+#include "render/picture/gl/opengl.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

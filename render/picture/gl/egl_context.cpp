@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "render/picture/gl/context.hpp"
+#include "render/picture/gl/opengl.hpp"
 
 namespace grainreel::gl {
 namespace {

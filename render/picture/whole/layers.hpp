@@ -10,7 +10,7 @@
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/container/ground.hpp"
-#include "render/picture/gl/objects.hpp"
+#include "render/picture/gl/opengl.hpp"
 #include "render/picture/spheres/layer.hpp"
 
 namespace grainreel {
