@@ -17,7 +17,6 @@
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/whole/layers.hpp"
-#include "render/picture/words/grain_labels.hpp"
 #include "render/picture/words/overlay.hpp"
 #include "render/scene/filmed_scene.hpp"
 

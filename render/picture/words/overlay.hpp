@@ -3,14 +3,16 @@
 #pragma once
 
 #include <cairo.h>
-
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/frame.hpp"
 #include "render/picture/base/cairo_text.hpp"
+#include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/view.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/gutters.hpp"
@@ -59,5 +61,18 @@ class Overlay {
     std::string clock_, caption_, note_, drive_;
     double angle_ = 0, stroke_ = 0;
 };
+
+// Words beside single grains, [[film.label]]. Each label stands on a plate to the right of its grain, with a
+// line to it.
+
+// Draws the labels of a frame. A label whose grain is not there or lies outside the view is left out. A label
+// that would lie over another moves down below it. found: for each label, 1 if its grain has been in a frame;
+// this frame is counted.
+void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
+                       const PictureLayout& layout, const Palette& palette, Picture& picture,
+                       std::vector<char>& found);
+
+// "label \"big\": no grain has the id 900 ..."; empty where all labels have had their grain.
+std::string missing_labels(const FilmedScene& scene, const std::vector<char>& found);
 
 }  // namespace grainreel
