@@ -74,13 +74,13 @@ using FramePtr = std::shared_ptr<const Frame>;
 
 // A contact that carries force, as files keep it.
 
-struct ContactRecord {
+struct SavedContact {
     std::int32_t first, second;  // ids; second is -1 - wall for a wall: faces first, then meshes
     double normal;               // N, >= 0
     Vec3 tangential;             // N, on `second`
     Vec3 point;                  // m
     std::int32_t triangle = -1;  // of a mesh: where it is touched
-    bool operator==(const ContactRecord&) const = default;
+    bool operator==(const SavedContact&) const = default;
 };
 
 // A force on a body at the point where it acts.

@@ -132,10 +132,10 @@ KeptRecords ContactsWriter::kept_of(const std::filesystem::path& path, std::size
     return NetcdfFile::kept_of(path, reader.rows_of_first(frames));
 }
 
-void ContactsWriter::write(std::int64_t frame, const std::vector<ContactRecord>& contacts) {
+void ContactsWriter::write(std::int64_t frame, const std::vector<SavedContact>& contacts) {
     if (contacts.empty()) return;
     std::vector<Row> rows;
-    for (const ContactRecord& c : contacts)
+    for (const SavedContact& c : contacts)
         rows.push_back({static_cast<std::int32_t>(frame), c.first, c.second, static_cast<float>(c.normal),
                         floats(c.tangential), floats(c.point), c.triangle});
     using Int = std::array<int, 1>;
@@ -262,8 +262,8 @@ std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
     return touches;
 }
 
-std::vector<ContactRecord> ContactsReader::contacts(std::size_t frame) const {
-    std::vector<ContactRecord> contacts;
+std::vector<SavedContact> ContactsReader::contacts(std::size_t frame) const {
+    std::vector<SavedContact> contacts;
     if (!has_all(frame)) return contacts;
     const auto vector = [](const std::array<float, 3>& v) { return Vec3(v[0], v[1], v[2]); };
     for (const Row& row : impl_->rows_of(frame))

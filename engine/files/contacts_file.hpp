@@ -36,7 +36,7 @@ class ContactsWriter {
 
     // The rows are in the file when this returns. Throws RunError when they could not be written; the rows of
     // earlier frames stay readable.
-    void write(std::int64_t frame, const std::vector<ContactRecord>& contacts);
+    void write(std::int64_t frame, const std::vector<SavedContact>& contacts);
 
   private:
     struct Impl;
@@ -55,7 +55,7 @@ class ContactsReader {
     // UserError that names the row when one is damaged.
     std::vector<Touch> touches(std::size_t frame) const;
     // The same with points and tangential forces.
-    std::vector<ContactRecord> contacts(std::size_t frame) const;
+    std::vector<SavedContact> contacts(std::size_t frame) const;
     // Whether all contacts of the frame are in the file. In a file that was cut off, they may not be for the
     // last frame with rows and all later ones.
     bool has_all(std::size_t frame) const;

@@ -155,7 +155,7 @@ namespace {
 // All but the accelerations.
 Snapshot snapshot_of(const Simulation& run, const Record& record) {
     Snapshot snapshot{record.scene(), run.frame(), true, record.frames().first()};
-    for (const ContactRecord& one : run.contacts())
+    for (const SavedContact& one : run.contacts())
         snapshot.frame.touches.push_back({one.first, one.second, one.normal});
     snapshot.measured = MeasuredRow{snapshot.frame.time, run.measured(), run.measures().values()};
     snapshot.forces.emplace();

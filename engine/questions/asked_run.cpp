@@ -81,7 +81,7 @@ constexpr double same_place = 1e-4;  // of a grain's radius
 
 std::vector<Touch> touches_of(const Simulation& run) {
     std::vector<Touch> touches;
-    for (const ContactRecord& one : run.contacts()) touches.push_back({one.first, one.second, one.normal});
+    for (const SavedContact& one : run.contacts()) touches.push_back({one.first, one.second, one.normal});
     return touches;
 }
 

@@ -46,7 +46,7 @@ TEST(VtkWriter, WordsAreTheirBytesAndAZero) {
 // Grain 3 lies on a wall at z = 0 and carries grain 7, which stands aside by an angle of 30 degrees.
 struct Pile {
     Frame frame;
-    std::vector<ContactRecord> contacts;
+    std::vector<SavedContact> contacts;
     World world;
 
     Pile() {

@@ -83,7 +83,7 @@ class FrameArchive {
 
     // The contacts of touches() with their points and tangential forces, for export; nothing where these are
     // not known. Throws UserError where they are damaged.
-    virtual std::optional<std::vector<ContactRecord>> contacts(std::size_t) const { return std::nullopt; }
+    virtual std::optional<std::vector<SavedContact>> contacts(std::size_t) const { return std::nullopt; }
     // The fields on grids (fields.nc), for export; null where there are none. Throws UserError where they
     // are damaged.
     virtual std::shared_ptr<const FieldsReader> fields() const { return nullptr; }

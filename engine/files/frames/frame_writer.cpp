@@ -125,7 +125,7 @@ Exported export_frames(const FrameArchive& frames, const std::string& format, co
         if (std::optional<std::vector<Touch>> touches = frames.touches(wanted[k]))
             frame.touches = std::move(*touches);
         if (writer->takes_all())
-            if (const std::optional<std::vector<ContactRecord>> all = frames.contacts(wanted[k]))
+            if (const std::optional<std::vector<SavedContact>> all = frames.contacts(wanted[k]))
                 writer->contacts(*all);
         writer->frame(frame);
         if (!watcher(static_cast<double>(k + 1) / static_cast<double>(wanted.size())))

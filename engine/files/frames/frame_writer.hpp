@@ -33,7 +33,7 @@ class FrameWriter {
     virtual bool takes_all() const { return false; }
     // Called before frame() with the contacts of that frame, where the archive knows their points and
     // tangential forces.
-    virtual void contacts(const std::vector<ContactRecord>&) {}
+    virtual void contacts(const std::vector<SavedContact>&) {}
     // Called before end(). Each of these records of fields.nc is a mean over a time in which a frame lies.
     virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
 };

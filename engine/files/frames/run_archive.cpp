@@ -196,7 +196,7 @@ std::optional<std::vector<Touch>> RunArchive::touches(std::size_t index) const {
     return contacts_->touches(places_.at(index));
 }
 
-std::optional<std::vector<ContactRecord>> RunArchive::contacts(std::size_t index) const {
+std::optional<std::vector<SavedContact>> RunArchive::contacts(std::size_t index) const {
     if (!has_contacts_of(index)) return std::nullopt;
     return contacts_->contacts(places_.at(index));
 }

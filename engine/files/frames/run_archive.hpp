@@ -50,7 +50,7 @@ class RunArchive final : public FrameArchive {
     const std::vector<Frame>& moments() const override { return moments_; }
     Frame grains(std::size_t index) const override;
     std::optional<std::vector<Touch>> touches(std::size_t index) const override;
-    std::optional<std::vector<ContactRecord>> contacts(std::size_t index) const override;
+    std::optional<std::vector<SavedContact>> contacts(std::size_t index) const override;
     bool has_contacts_of(std::size_t index) const override;
     std::shared_ptr<const FieldsReader> fields() const override;
     // The row of measures.csv nearest to the moment; none without rows.

@@ -27,7 +27,7 @@ void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
         const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
         if (id >= 0) ++frame.contact_number[static_cast<std::size_t>(at - frame.id.begin())];
     };
-    for (const ContactRecord& contact : contacts) {
+    for (const SavedContact& contact : contacts) {
         count(contact.first);
         count(contact.second);
     }

@@ -63,7 +63,7 @@ class RunFiles {
     RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version, bool keep_rows);
 
-    using Contacts = std::vector<ContactRecord>;
+    using Contacts = std::vector<SavedContact>;
     // The frame, which has contact numbers, and the contacts of the same moment when the scene asks for them.
     void add_frame(const Frame& frame, const Contacts& contacts);
     // From now on: frames that are handed out, in a file of their own.

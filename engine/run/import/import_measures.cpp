@@ -121,16 +121,16 @@ Measures ImportMeasures::row(const Frame& frame, const std::vector<Touch>& touch
     const Impl& m = *impl_;
     const Grains grains = grains_of(frame, m.scene);
     const double depth = m.scene.container.periodic_depth ? m.scene.container.depth : 0;
-    const ObservedState moment{m.scene,
-                               m.clock,
-                               grains,
-                               frame.step,
-                               m.scene.gravity,
-                               depth,
-                               WallMotion(m.scene.drive, m.clock).at(frame.step),
-                               0,
-                               m.traffic,
-                               m.faces};
+    const ObservedState moment{.scene = m.scene,
+                               .clock = m.clock,
+                               .grains = grains,
+                               .step = frame.step,
+                               .gravity = m.scene.gravity,
+                               .period = depth,
+                               .pose = WallMotion(m.scene.drive, m.clock).at(frame.step),
+                               .start_energy = 0,
+                               .traffic = m.traffic,
+                               .faces = m.faces};
     return impl_->observers.look(moment, [&](const auto& see) { show(frame, touches, see); });
 }
 

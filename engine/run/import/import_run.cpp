@@ -114,17 +114,17 @@ class AsRun {
     std::vector<Body> bodies_;
 };
 
-std::vector<ContactRecord> records_of(const std::vector<Touch>& touches, const Frame& frame) {
+std::vector<SavedContact> records_of(const std::vector<Touch>& touches, const Frame& frame) {
     const auto row = [&](std::int32_t id) -> std::optional<std::size_t> {
         const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
         if (found == frame.id.end() || *found != id) return std::nullopt;
         return static_cast<std::size_t>(found - frame.id.begin());
     };
-    std::vector<ContactRecord> records;
+    std::vector<SavedContact> records;
     for (const Touch& touch : touches) {
         const std::optional<std::size_t> first = row(touch.first);
         if (!first) continue;
-        ContactRecord one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
+        SavedContact one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
         if (touch.second >= 0) {
             const std::optional<std::size_t> second = row(touch.second);
             // Contacts of grains that do not touch in the frame are left out: those across a periodic side or

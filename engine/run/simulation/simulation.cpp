@@ -137,20 +137,20 @@ Frame Simulation::frame() const {
 
 ObservedState Simulation::Impl::moment() {
     if (observers.need_wall_sums()) wall_sums = loop->wall_sums();
-    return {scene,
-            plan.clock,
-            grains,
-            step,
-            around.gravity,
-            around.period,
-            around.motion.at(step),
-            start_energy,
-            loop->traffic(),
-            around.faces,
-            wall_sums ? &*wall_sums : nullptr,
-            &around,
-            loop.get(),
-            feeder.given()};
+    return {.scene = scene,
+            .clock = plan.clock,
+            .grains = grains,
+            .step = step,
+            .gravity = around.gravity,
+            .period = around.period,
+            .pose = around.motion.at(step),
+            .start_energy = start_energy,
+            .traffic = loop->traffic(),
+            .faces = around.faces,
+            .wall_sums = wall_sums ? &*wall_sums : nullptr,
+            .around = &around,
+            .loop = loop.get(),
+            .fed = feeder.given()};
 }
 
 ShowContacts Simulation::Impl::contacts() const {
@@ -177,19 +177,19 @@ std::vector<FieldValues> Simulation::fields() const {
     return impl_->observers.look_at_fields(impl_->moment(), impl_->contacts());
 }
 
-std::vector<ContactRecord> Simulation::contacts() const {
-    std::vector<ContactRecord> records;
+std::vector<SavedContact> Simulation::contacts() const {
+    std::vector<SavedContact> contacts;
     impl_->loop->visit_contacts(impl_->step, [&](const ContactView& c) {
         if (c.normal_force <= 0) return;
         const std::int32_t second = c.second >= 0 ? impl_->grains.id[c.second] : c.second;
-        records.push_back(
+        contacts.push_back(
             {impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point, c.triangle});
     });
-    // Each thread shows its own, which is no order to go by.
-    std::sort(records.begin(), records.end(), [](const ContactRecord& a, const ContactRecord& b) {
+    // Each thread shows its own contacts, so they come in no order to rely on.
+    std::sort(contacts.begin(), contacts.end(), [](const SavedContact& a, const SavedContact& b) {
         return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
     });
-    return records;
+    return contacts;
 }
 
 std::vector<ContactForce> Simulation::contact_forces() const {
@@ -206,10 +206,19 @@ std::vector<ContactForce> Simulation::contact_forces() const {
             : mesh >= 0
                 ? m.plan.mesh[static_cast<std::size_t>(mesh) * m.scene.species.size() + species(c.first)]
                 : m.plan.wall[species(c.first)];
-        forces.push_back({m.grains.id[c.first], pair ? m.grains.id[c.second] : c.second, c.normal, c.overlap,
-                          c.normal_force, c.tangential, c.torque_on_first,
-                          pair ? c.torque_on_second : Vec3::Zero(), law.friction, c.point, c.smaller_radius,
-                          c.stored_energy, c.triangle});
+        forces.push_back({.first = m.grains.id[c.first],
+                          .second = pair ? m.grains.id[c.second] : c.second,
+                          .normal = c.normal,
+                          .overlap = c.overlap,
+                          .normal_force = c.normal_force,
+                          .tangential = c.tangential,
+                          .torque_on_first = c.torque_on_first,
+                          .torque_on_second = pair ? c.torque_on_second : Vec3::Zero(),
+                          .friction = law.friction,
+                          .point = c.point,
+                          .smaller_radius = c.smaller_radius,
+                          .stored_energy = c.stored_energy,
+                          .triangle = c.triangle});
     });
     std::sort(forces.begin(), forces.end(), [](const ContactForce& a, const ContactForce& b) {
         return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);

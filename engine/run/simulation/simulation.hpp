@@ -128,8 +128,8 @@ class Simulation {
     std::uint64_t state_hash() const;  // of every bit that decides the future
 
     // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.
-    using ContactRecord = grainreel::ContactRecord;
-    std::vector<ContactRecord> contacts() const;
+    using SavedContact = grainreel::SavedContact;
+    std::vector<SavedContact> contacts() const;
     // All contacts that touch now, with what they do to the grains; in the same order.
     std::vector<ContactForce> contact_forces() const;
 

@@ -16,15 +16,15 @@ namespace {
 // Adds the forces in `memory` to the loads of the chunk's grains.
 void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded, bool sorted,
                const ChunkMemory& memory, Grains& grains) {
-    const ChunkOfContacts forces{chunk.first_at,
-                                 group.of_glued ? memory.face : chunk.second_at,
-                                 chunk.count,
-                                 &memory.touch,
-                                 &memory.force,
-                                 group.law->rubs,
-                                 group.rolling ? &memory.rolling : nullptr,
-                                 rounded,
-                                 sorted};
+    const ChunkOfContacts forces{.first = chunk.first_at,
+                                 .second = group.of_glued ? memory.face : chunk.second_at,
+                                 .count = chunk.count,
+                                 .touch = &memory.touch,
+                                 .force = &memory.force,
+                                 .rubs = group.law->rubs,
+                                 .rolling = group.rolling ? &memory.rolling : nullptr,
+                                 .rounded = rounded,
+                                 .sorted = sorted};
     if (group.of_pairs) return add_pairs(forces, grains);
     const WallForces at_walls{forces, in.walls, in.times.acts, grains};
     if (group.of_mesh) return add_at_meshes(at_walls);

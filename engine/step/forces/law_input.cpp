@@ -40,23 +40,28 @@ void touch(const ForceInput& in, const ContactGroup& group, const GeometryInput&
 
 LawInput law_input(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded,
                    ChunkMemory& memory) {
-    const GeometryInput geometry{&in.grains,
-                                 chunk.first_at,
-                                 chunk.second_at,
-                                 chunk.count,
-                                 group.rolling ? Wants::rolling : wants_of(*group.law),
-                                 in.rules.arms,
-                                 in.times.since,
-                                 group.law->at_mid_step ? in.times.turns : 0,
-                                 &memory.rolling,
-                                 group.law->uses_mass,
-                                 group.law->uses_radius || group.rolling,
-                                 rounded};
+    const GeometryInput geometry{.grains = &in.grains,
+                                 .first = chunk.first_at,
+                                 .second = chunk.second_at,
+                                 .count = chunk.count,
+                                 .wants = group.rolling ? Wants::rolling : wants_of(*group.law),
+                                 .arms = in.rules.arms,
+                                 .step = in.times.since,
+                                 .turns_for = group.law->at_mid_step ? in.times.turns : 0,
+                                 .rolling = &memory.rolling,
+                                 .mass = group.law->uses_mass,
+                                 .radius = group.law->uses_radius || group.rolling,
+                                 .rounded = rounded};
     touch(in, group, geometry, chunk.mesh, memory);
     memory.touch.touching &= bits_of_first(chunk.count);  // without the copies that fill the last block
-    return {chunk.count,          &memory.touch,  kinds_of(in, group, chunk, memory.kind),
-            &group.parameters,    in.times.since, in.times.ahead,
-            group.history_size(), &memory.rolling};
+    return {.count = chunk.count,
+            .touch = &memory.touch,
+            .kind = kinds_of(in, group, chunk, memory.kind),
+            .parameters = &group.parameters,
+            .step = in.times.since,
+            .ahead = in.times.ahead,
+            .history_stride = group.history_size(),
+            .rolling = &memory.rolling};
 }
 
 namespace {

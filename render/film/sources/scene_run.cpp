@@ -17,7 +17,7 @@ class SceneRun::Parts final : public PartSupply {
     FramePtr at(std::int64_t step) const override { return driver_.kept(step); }
     std::vector<Touch> touches(const Frame&) const override {
         std::vector<Touch> touches;
-        for (const ContactRecord& contact : driver_.simulation().contacts())
+        for (const SavedContact& contact : driver_.simulation().contacts())
             touches.push_back({contact.first, contact.second, contact.normal});
         return touches;
     }

@@ -41,8 +41,8 @@ std::string written_trajectory(const TemporaryFolder& here) {
     return text_of(here / "t.nc");
 }
 
-std::vector<ContactRecord> made_contacts(int frame) {
-    std::vector<ContactRecord> contacts;
+std::vector<SavedContact> made_contacts(int frame) {
+    std::vector<SavedContact> contacts;
     for (int i = 0; i < 4; ++i)
         contacts.push_back({i, i == 3 ? -1 : i + 1, 0.5 * i + frame, vector_of(i), vector_of(frame)});
     return contacts;
@@ -166,7 +166,7 @@ TEST(Damage, NoContactIsReadThatWasNotWritten) {
                 continue;  // it says so
             for (int i = 0; i < frames; ++i) {
                 const std::vector<Touch> touches = reader.touches(static_cast<std::size_t>(i));
-                const std::vector<ContactRecord> wanted = made_contacts(i);
+                const std::vector<SavedContact> wanted = made_contacts(i);
                 ASSERT_EQ(touches.size(), wanted.size()) << trial;
                 for (std::size_t k = 0; k < touches.size(); ++k)
                     EXPECT_TRUE(touches[k].first == wanted[k].first &&

@@ -141,7 +141,7 @@ TEST(TrafficFilm, PicturesShowWhoIsThere) {
         sink.simulation.advance(i * every);
         if (i % 2 == 1) sink.rain(i / 2);
         Frame frame = sink.simulation.frame();
-        for (const ContactRecord& c : sink.simulation.contacts())
+        for (const SavedContact& c : sink.simulation.contacts())
             frame.touches.push_back({c.first, c.second, c.normal});
         const Picture picture = renderer.draw(frame, "");
         if (const char* at = std::getenv("GRAINREEL_LOOK"))

@@ -605,7 +605,7 @@ TEST(Trajectory, AFileThatCannotBeMadeIsARunError) {
 TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
     const TemporaryFolder here;
     const auto contact = [](int i) {
-        return ContactRecord{i, -1 - i, i + 0.5, vector_of(i), vector_of(i + 0.5)};
+        return SavedContact{i, -1 - i, i + 0.5, vector_of(i), vector_of(i + 0.5)};
     };
     {
         ContactsWriter writer(here / "c.nc", "A test", "1.2.3");
@@ -643,7 +643,7 @@ TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
 TEST(ContactsFile, HasTheTrianglesOfMeshes) {
     const TemporaryFolder here;
     const auto touch = [](std::int32_t grain, std::int32_t triangle) {
-        return ContactRecord{grain, -7, 0.5, vector_of(1), vector_of(2), triangle};
+        return SavedContact{grain, -7, 0.5, vector_of(1), vector_of(2), triangle};
     };
     {
         ContactsWriter writer(here / "c.nc", "A test", "1.2.3", {}, true);

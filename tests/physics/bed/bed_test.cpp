@@ -267,7 +267,7 @@ TEST(Determinism, SameBitsOnAnyNumberOfThreads) {
         const auto packing = folder / "packed.grs";
         packed(scene, plan, 1).save_checkpoint(packing);
         std::uint64_t first = 0;
-        std::vector<ContactRecord> contacts;
+        std::vector<SavedContact> contacts;
         std::pair<double, double> energies;
         for (const int threads : {1, 2, 3}) {
             Simulation simulation = gone_on(scene, plan, packing, threads);

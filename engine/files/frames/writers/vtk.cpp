@@ -150,7 +150,7 @@ class Vtk final : public FrameWriter {
         surfaces_ = surfaces_of(world);
     }
     bool takes_all() const override { return true; }
-    void contacts(const std::vector<ContactRecord>& contacts) override {
+    void contacts(const std::vector<SavedContact>& contacts) override {
         contacts_ = contacts;
         has_forces_ = true;
     }
@@ -165,7 +165,7 @@ class Vtk final : public FrameWriter {
         if (!surfaces_.empty()) write("walls", 1, frame, walls_of(surfaces_, frame));
         if (supply_.contacts)
             write("contacts", 2, frame,
-                  has_forces_ ? contact_lines(frame, contacts_.value_or(std::vector<ContactRecord>()), world_)
+                  has_forces_ ? contact_lines(frame, contacts_.value_or(std::vector<SavedContact>()), world_)
                               : contact_lines(frame, frame.touches, world_));
         contacts_.reset();
         ++frames_;
@@ -210,8 +210,8 @@ class Vtk final : public FrameWriter {
     World world_;
     FrameSupply supply_;
     std::vector<WorldSurface> surfaces_;
-    std::optional<std::vector<ContactRecord>> contacts_;  // of the next frame
-    bool has_forces_ = false;                             // whether this frame or one before it has forces
+    std::optional<std::vector<SavedContact>> contacts_;  // of the next frame
+    bool has_forces_ = false;                            // whether this frame or one before it has forces
     std::vector<VtkEntry> entries_;
     std::int64_t frames_ = 0;
 };

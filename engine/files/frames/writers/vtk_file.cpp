@@ -223,7 +223,7 @@ Vec3 shortest(Vec3 way, const World& world) {
 }
 
 // The vector from the first grain's centre to the second's, or to the point of contact on a wall.
-Vec3 way_of(const Frame& frame, const ContactRecord& contact, std::size_t first, std::size_t second,
+Vec3 way_of(const Frame& frame, const SavedContact& contact, std::size_t first, std::size_t second,
             const World& world) {
     const Vec3 end = second < frame.size() ? frame.position[second] : contact.point;
     return shortest(end - frame.position[first], world);
@@ -268,11 +268,10 @@ class Lines {
 
 }  // namespace
 
-VtkPolyData contact_lines(const Frame& frame, const std::vector<ContactRecord>& contacts,
-                          const World& world) {
+VtkPolyData contact_lines(const Frame& frame, const std::vector<SavedContact>& contacts, const World& world) {
     Lines lines;
     std::vector<double> tangential, force;
-    for (const ContactRecord& contact : contacts) {
+    for (const SavedContact& contact : contacts) {
         const std::size_t a = row_of(frame, contact.first);
         const std::size_t b = contact.second < 0 ? frame.size() : row_of(frame, contact.second);
         if (a == frame.size() || (contact.second >= 0 && b == frame.size())) continue;
@@ -299,10 +298,10 @@ VtkPolyData contact_lines(const Frame& frame, const std::vector<Touch>& touches,
     return lines.data();
 }
 
-std::vector<Vec3> forces_on_grains(const Frame& frame, const std::vector<ContactRecord>& contacts,
+std::vector<Vec3> forces_on_grains(const Frame& frame, const std::vector<SavedContact>& contacts,
                                    const World& world) {
     std::vector<Vec3> forces(frame.size(), Vec3(0, 0, 0));
-    for (const ContactRecord& contact : contacts) {
+    for (const SavedContact& contact : contacts) {
         const std::size_t a = row_of(frame, contact.first);
         const std::size_t b = contact.second < 0 ? frame.size() : row_of(frame, contact.second);
         if (a == frame.size() || (contact.second >= 0 && b == frame.size())) continue;

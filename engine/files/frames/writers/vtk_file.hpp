@@ -71,14 +71,14 @@ std::string pvd_text(const std::vector<VtkEntry>& entries);
 // normal_force (N, 0 or more), tangential_force and force (N, both on the second body), id1, id2 (a wall has
 // -1
 // - its number) and to_wall.
-VtkPolyData contact_lines(const Frame& frame, const std::vector<ContactRecord>& contacts, const World& world);
+VtkPolyData contact_lines(const Frame& frame, const std::vector<SavedContact>& contacts, const World& world);
 
 // The same where points and tangential forces are not known: lines between grains only, with normal_force,
 // id1, id2 and to_wall.
 VtkPolyData contact_lines(const Frame& frame, const std::vector<Touch>& touches, const World& world);
 
 // The sum of all contact forces on each grain, N.
-std::vector<Vec3> forces_on_grains(const Frame& frame, const std::vector<ContactRecord>& contacts,
+std::vector<Vec3> forces_on_grains(const Frame& frame, const std::vector<SavedContact>& contacts,
                                    const World& world);
 
 }  // namespace grainreel
