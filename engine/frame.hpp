@@ -1,6 +1,7 @@
 // What leaves the engine: the state of every grain and of the container at one step. Neutral: no laws in it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -68,6 +69,12 @@ struct Frame {
     std::vector<std::shared_ptr<const Frame>> exposed;
 
     std::size_t size() const { return id.size(); }
+    // The row of the grain with this id; empty where there is no such grain.
+    std::optional<std::size_t> row_of(std::int64_t wanted) const {
+        const auto found = std::lower_bound(id.begin(), id.end(), wanted);
+        if (found == id.end() || *found != wanted) return std::nullopt;
+        return static_cast<std::size_t>(found - id.begin());
+    }
 };
 
 using FramePtr = std::shared_ptr<const Frame>;

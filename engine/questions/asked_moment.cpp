@@ -29,12 +29,12 @@ std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Fram
     const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
     std::vector<Vec3> all;
     for (std::size_t i = 0; i < now.size(); ++i) {
-        const auto there = std::lower_bound(later.id.begin(), later.id.end(), now.id[i]);
-        if (there == later.id.end() || *there != now.id[i]) {  // it leaves in this step
+        const std::optional<std::size_t> there = later.row_of(now.id[i]);
+        if (!there) {  // the grain leaves in this step
             all.push_back(Vec3::Constant(std::nan("")));
             continue;
         }
-        Vec3 way = later.position[static_cast<std::size_t>(there - later.id.begin())] - now.position[i];
+        Vec3 way = later.position[*there] - now.position[i];
         way.x() = nearest_image(way.x(), depth);
         all.push_back(share * (way - step * now.velocity[i]) / (step * step));
     }

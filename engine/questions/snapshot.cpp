@@ -47,9 +47,7 @@ double Snapshot::height(std::size_t i) const {
 }
 
 std::optional<std::size_t> Snapshot::place_of(std::int64_t id) const {
-    const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-    if (at == frame.id.end() || *at != id) return std::nullopt;
-    return static_cast<std::size_t>(at - frame.id.begin());
+    return frame.row_of(id);
 }
 
 namespace {

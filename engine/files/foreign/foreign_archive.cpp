@@ -281,12 +281,6 @@ Vec3 way(const Vec3& from, const Vec3& to, const std::optional<WorldCell>& cell)
     return between;
 }
 
-std::optional<std::size_t> row_of(const Frame& frame, std::int32_t id) {
-    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-    if (found == frame.id.end() || *found != id) return std::nullopt;
-    return static_cast<std::size_t>(found - frame.id.begin());
-}
-
 }  // namespace
 
 // Velocities are computed if nearly all grains move less than their diameter from one moment to the next.

@@ -248,11 +248,7 @@ void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const
                     const std::string& contacts) {
     constexpr double room = 1.05;  // times the sum of radii; grains in contact overlap
     const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
-    const auto index_of = [&](std::int32_t id) -> std::optional<std::size_t> {
-        const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        if (found == frame.id.end() || *found != id) return std::nullopt;
-        return static_cast<std::size_t>(found - frame.id.begin());
-    };
+    const auto index_of = [&](std::int32_t id) { return frame.row_of(id); };
     const auto apart = [&](std::size_t a, std::size_t b) {
         Vec3 way = frame.position[b] - frame.position[a];
         way.x() = nearest_image(way.x(), depth);

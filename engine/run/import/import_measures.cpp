@@ -51,9 +51,8 @@ Grains grains_of(const Frame& frame, const Scene& scene) {
 }
 
 std::int32_t row_of(const Frame& frame, std::int32_t id) {
-    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-    if (found == frame.id.end() || *found != id) return -1;
-    return static_cast<std::int32_t>(found - frame.id.begin());
+    const std::optional<std::size_t> row = frame.row_of(id);
+    return row ? static_cast<std::int32_t>(*row) : -1;
 }
 
 void show(const Frame& frame, const std::vector<Touch>& touches,

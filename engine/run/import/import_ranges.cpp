@@ -82,9 +82,7 @@ void ImportRanges::add_heights(const Frame& frame) {
 void ImportRanges::add_forces(const Frame& frame, const std::vector<Touch>& touches) {
     std::vector<double> forces(frame.size(), 0.0);
     const auto add = [&](std::int32_t id, double force) {
-        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        if (at != frame.id.end() && *at == id)
-            forces[static_cast<std::size_t>(at - frame.id.begin())] += force;
+        if (const auto row = frame.row_of(id)) forces[*row] += force;
     };
     for (const Touch& touch : touches) {
         add(touch.first, touch.force);

@@ -115,11 +115,7 @@ class AsRun {
 };
 
 std::vector<SavedContact> records_of(const std::vector<Touch>& touches, const Frame& frame) {
-    const auto row = [&](std::int32_t id) -> std::optional<std::size_t> {
-        const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        if (found == frame.id.end() || *found != id) return std::nullopt;
-        return static_cast<std::size_t>(found - frame.id.begin());
-    };
+    const auto row = [&](std::int32_t id) { return frame.row_of(id); };
     std::vector<SavedContact> records;
     for (const Touch& touch : touches) {
         const std::optional<std::size_t> first = row(touch.first);

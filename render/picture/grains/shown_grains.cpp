@@ -18,9 +18,7 @@ void keep(std::vector<T>& values, const std::vector<std::size_t>& kept) {
 }  // namespace
 
 std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
-    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-    if (found == frame.id.end() || *found != id) return std::nullopt;
-    return static_cast<std::size_t>(found - frame.id.begin());
+    return frame.row_of(id);
 }
 
 std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame) {

@@ -205,9 +205,7 @@ namespace {
 
 // The row of an id in the frame, or the number of rows where there is no such grain.
 std::size_t row_of(const Frame& frame, std::int32_t id) {
-    const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-    return found == frame.id.end() || *found != id ? frame.size()
-                                                   : static_cast<std::size_t>(found - frame.id.begin());
+    return frame.row_of(id).value_or(frame.size());
 }
 
 // The shortest of all vectors that differ by edges of the periodic cell.

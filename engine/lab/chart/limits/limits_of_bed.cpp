@@ -160,7 +160,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double frequency = 20, gravity = 9.81;  // Hz, m/s2
+constexpr double gravity = 9.81;  // m/s2
 
 std::unique_ptr<Bench> on_a_plate(const PairPlan& pair, int steps_a_period, double g_level, double ramp) {
     auto whole = std::make_unique<Bench>(pair, 1 / (frequency * steps_a_period));
@@ -264,7 +264,7 @@ std::vector<Experiment> drive_experiments() {
 
 namespace {
 
-constexpr double height = 0.3, radius = 0.0015, gravity = 9.81;  // m, m, m/s2
+constexpr double height = 0.3, radius = 0.0015;  // m
 
 double weight() {
     return sphere_mass_of(radius) * gravity;
