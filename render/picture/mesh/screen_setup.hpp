@@ -7,7 +7,7 @@
 
 #include "engine/base/vector.hpp"
 #include "render/picture/mesh/mesh_kernels.hpp"
-#include "render/picture/spheres/sphere.hpp"
+#include "render/picture/spheres/sphere_kernels.hpp"
 
 namespace grainreel {
 

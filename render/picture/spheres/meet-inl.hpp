@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "engine/vector/lanes-inl.hpp"
-#include "render/picture/spheres/sphere.hpp"
+#include "render/picture/spheres/sphere_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "engine/base/team.hpp"
-#include "render/picture/spheres/sphere.hpp"
 #include "render/picture/spheres/sphere_kernels.hpp"
 
 namespace grainreel {

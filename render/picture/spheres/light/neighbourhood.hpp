@@ -9,7 +9,6 @@
 
 #include "engine/base/team.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
-#include "render/picture/spheres/sphere.hpp"
 #include "render/picture/spheres/sphere_kernels.hpp"
 
 namespace grainreel {
