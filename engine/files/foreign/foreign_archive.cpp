@@ -291,7 +291,7 @@ void ForeignArchive::decide_velocities() {
     const Frame before = read(middle), after = read(middle + 1);
     std::size_t near = 0, both = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
-        const std::optional<std::size_t> row = row_of(after, before.id[i]);
+        const std::optional<std::size_t> row = after.row_of(before.id[i]);
         if (!row) continue;
         ++both;
         near += way(before.position[i], after.position[*row], world_.cell).norm() < 2 * before.radius[i];
@@ -311,7 +311,7 @@ void ForeignArchive::derive_velocities(std::size_t index, Frame& frame) const {
     const Frame before = has_before ? read(index - 1) : Frame(),
                 after = has_after ? read(index + 1) : Frame();
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const std::optional<std::size_t> was = row_of(before, frame.id[i]), will = row_of(after, frame.id[i]);
+        const std::optional<std::size_t> was = before.row_of(frame.id[i]), will = after.row_of(frame.id[i]);
         Vec3 ways(0, 0, 0);
         double time = 0;
         if (was) {
