@@ -239,10 +239,6 @@ using Shape = Container::Shape;
 constexpr std::array<std::string_view, 10> kFaces{
     "wall", "floor", "lid", "left wall", "right wall", "left slant", "right slant", "back", "front", "tray"};
 
-[[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
-    throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
-}
-
 std::string key_of(std::size_t mesh, const char* name) {
     return fmt::format("mesh[{}].{}", mesh, name);
 }
