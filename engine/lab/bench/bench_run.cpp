@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "engine/base/error.hpp"
-#include "engine/lab/chart/bench.hpp"
+#include "engine/lab/chart/small_world.hpp"
 
 namespace grainreel {
 

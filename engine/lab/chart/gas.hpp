@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/chart.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/plan/plan.hpp"
 
 namespace grainreel {

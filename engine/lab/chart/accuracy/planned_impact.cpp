@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/lab/chart/bench.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/lab/chart/bench.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/step/lists/histories.hpp"
 

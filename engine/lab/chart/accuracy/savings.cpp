@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/chart.hpp"
+#include "engine/lab/chart/small_world.hpp"
 
 namespace grainreel {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/lab/chart/bench.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/step/motion/scheme.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
-#include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 

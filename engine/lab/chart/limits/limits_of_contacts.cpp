@@ -6,8 +6,8 @@
 
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
-#include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/plan/damping.hpp"
 
 namespace grainreel {

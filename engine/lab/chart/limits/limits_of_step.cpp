@@ -8,8 +8,8 @@
 
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
-#include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/step/motion/scheme.hpp"
 

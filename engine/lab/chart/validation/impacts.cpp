@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "engine/base/plain_file.hpp"
-#include "engine/lab/chart/bench.hpp"
 #include "engine/lab/chart/chart.hpp"
+#include "engine/lab/chart/small_world.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
 #include "engine/plan/damping.hpp"
 
