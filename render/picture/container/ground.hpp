@@ -86,9 +86,7 @@ class Ground {
     Rectangle part_;  // pixels of the port, outside of which there is no shadow
 };
 
-// Darkens a row of pixels by what a map says of the places that they show. The loop is compiled for each
-// instruction set.
-
+// A map of how much each place is darkened.
 struct ShadeMap {
     const float* cells;  // strengths of 0 to 255, rows of `side` numbers; those on the rim are 0
     int side;
@@ -100,8 +98,9 @@ struct MapWalk {
     Eigen::Vector3f first, step;
 };
 
-// pixels[i] = over(black of strength map * across[i] * all, pixels[i]). Between cells strengths are
-// interpolated along both axes.
+// Darkens a row of pixels by what the map says of the places that they show (shade_row.cpp, compiled for each
+// instruction set): pixels[i] = over(black of strength map * across[i] * all, pixels[i]). Between cells
+// strengths are interpolated along both axes.
 void shade_row(const ShadeMap& map, const MapWalk& walk, const float* across, float all,
                std::uint32_t* pixels, int count);
 

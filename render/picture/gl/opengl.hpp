@@ -1,6 +1,7 @@
-// An off-screen OpenGL core context, and the table of the OpenGL functions that drawing uses. Whoever makes a
-// context fills the table, and nothing links against a GL library, so that one binary serves every way of
-// getting a context. A function that drawing newly needs is added to GRAINREEL_GL_FUNCTIONS.
+// OpenGL: an off-screen core context, the table of the functions that drawing uses, and objects that delete
+// themselves. Whoever makes a context fills the table, and nothing links against a GL library, so that one
+// binary serves every way of getting a context. A function that drawing newly needs is added to
+// GRAINREEL_GL_FUNCTIONS. Each object may be used only on the thread of its context.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -143,8 +144,6 @@ std::unique_ptr<Context> make_context(Provider provider, int raster_threads);
 void set_raster_threads(int raster_threads);
 
 }  // namespace grainreel::gl
-
-// OpenGL objects that delete themselves. Each may be used only on the thread of its context.
 
 namespace grainreel::gl {
 

@@ -1,4 +1,5 @@
-// The meshes of a scene, ready to be drawn where a frame has them, with their looks, paints and colours.
+// The meshes of a scene: ready to be drawn where a frame has them, with their looks, paints and colours; how
+// far they reach in the course of a run; and what they take of the light that falls on the ground.
 #pragma once
 
 #include <array>
@@ -43,8 +44,6 @@ class SceneMeshes {
 
 MeshPaints mesh_paints(const Palette& palette, const Vec3& up, int picture_height);
 MeshPainter::Inks mesh_inks(const Palette& palette);
-
-// How far meshes reach in the course of a run, and what they take of the light that falls on the ground.
 
 // m: the outermost points of all meshes together along many directions, at rest and wherever their turns and
 // paths bring them. Steady velocities, which have no end, and the drive are left out. Empty without meshes.

@@ -1,6 +1,7 @@
-// Spheres, lines of sight and cuts, in view coordinates (m): x right, y up, z away from the eye. Pixels count
-// from the top left of the port. And the hot loops of drawing spheres, which work on many pixels at once and
-// are compiled for each instruction set. They are written in the files *-inl.hpp of this folder.
+// The hot loops of drawing spheres, and what they take: spheres, lines of sight and cuts. View coordinates
+// (m) have x to the right, y up and z away from the eye; pixels count from the top left of the port. The
+// loops work on many pixels at once and are compiled for each instruction set; they are written in the files
+// *-inl.hpp of this folder.
 #pragma once
 
 #include <algorithm>

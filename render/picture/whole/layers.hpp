@@ -1,4 +1,5 @@
-// Lays the layers of a picture over each other, and the moments of an open shutter.
+// The layers of a picture: those that OpenGL draws, how all of them are laid over each other, and how the
+// moments of an open shutter become one picture.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +53,6 @@ class Exposure {
 
 // The layer that OpenGL draws on one side of the grains. It is drawn and read again only when its shapes have
 // changed.
-
 class SideLayer {
   public:
     // The layer is as large as the port.

@@ -1,4 +1,6 @@
-// The first gutter, at the left or above the container. Its words say what is seen and how large it is.
+// The words in the two gutters. The first one, at the left or above the container, says what is seen and how
+// large it is (first_gutter.cpp). The second one, at the right or below, has what changes with time
+// (second_gutter.cpp).
 #pragma once
 
 #include <string>
@@ -25,14 +27,12 @@ struct FirstPart {
 FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View* view,
                      const PictureLayout& layout, double width);
 
-// The second gutter, at the right or below the container: where time, dial, drive, caption, notes and plots
-// lie in it. Pixels from its corner.
-
-// The upper left corner of a block.
+// The upper left corner of a block in the second gutter; pixels from the gutter's corner.
 struct WordPoint {
     double x = 0, y = 0;
 };
 
+// Where time, dial, drive, caption, notes and plots lie in the second gutter; pixels from its corner.
 struct NumbersPlan {
     double radius = 0;  // of the dial
     WordPoint clock, caption, note, dial, drive, arrows;

@@ -1,5 +1,6 @@
-// The words around the picture, in gutters that no grain is drawn in or on plates over the picture. What
-// never changes is drawn once. Of the rest, only what has changed since the frame before is drawn.
+// All words of a picture: those around it, in gutters that no grain is drawn in or on plates over the
+// picture, and the labels beside grains. What never changes is drawn once. Of the rest, only what has changed
+// since the frame before is drawn.
 #pragma once
 
 #include <cairo.h>
@@ -62,12 +63,10 @@ class Overlay {
     double angle_ = 0, stroke_ = 0;
 };
 
-// Words beside single grains, [[film.label]]. Each label stands on a plate to the right of its grain, with a
-// line to it.
-
-// Draws the labels of a frame. A label whose grain is not there or lies outside the view is left out. A label
-// that would lie over another moves down below it. found: for each label, 1 if its grain has been in a frame;
-// this frame is counted.
+// Words beside single grains, [[film.label]]: each label stands on a plate to the right of its grain, with a
+// line to it. Draws the labels of a frame. A label whose grain is not there or lies outside the view is left
+// out. A label that would lie over another moves down below it. found: for each label, 1 if its grain has
+// been in a frame; this frame is counted.
 void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
                        const PictureLayout& layout, const Palette& palette, Picture& picture,
                        std::vector<char>& found);
