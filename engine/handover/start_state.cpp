@@ -59,13 +59,11 @@ void laid_out(const CarriedScene& carried, StartState& start) {
     start.grains.resize(drawn.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
         const std::size_t i = order[k];
-        start.grains[i] = {drawn.id[i] + 1,
-                           drawn.species[i] + 1,
-                           2 * drawn.place[i].radius,
-                           carried.types[static_cast<std::size_t>(drawn.species[i])].density,
-                           places[k],
-                           Vec3(0, 0, 0),
-                           Vec3(0, 0, 0)};
+        start.grains[i] = {.id = drawn.id[i] + 1,
+                           .type = drawn.species[i] + 1,
+                           .diameter = 2 * drawn.place[i].radius,
+                           .density = carried.types[static_cast<std::size_t>(drawn.species[i])].density,
+                           .position = places[k]};
     }
     std::sort(start.grains.begin(), start.grains.end(),
               [](const Grain& a, const Grain& b) { return a.id < b.id; });
@@ -75,9 +73,11 @@ void add_glued(const CarriedScene& carried, StartState& start) {
     const GluedGrains glued = glue_grains(carried.scene, carried.faces);
     std::int64_t id = start.grains.empty() ? 0 : start.grains.back().id;
     for (std::size_t g = 0; g < glued.size(); ++g)
-        start.grains.push_back({++id, static_cast<int>(carried.type_count()), 2 * glued.place[g].radius,
-                                carried.types.back().density, glued.centre(g, carried.faces, Pose()),
-                                Vec3(0, 0, 0), Vec3(0, 0, 0)});
+        start.grains.push_back({.id = ++id,
+                                .type = static_cast<int>(carried.type_count()),
+                                .diameter = 2 * glued.place[g].radius,
+                                .density = carried.types.back().density,
+                                .position = glued.centre(g, carried.faces, Pose())});
 }
 
 // Changes places and velocities of free grains to those relative to the container.

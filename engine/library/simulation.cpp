@@ -168,8 +168,15 @@ std::vector<Contact> Simulation::contacts() const {
     impl_->need_grains();
     std::vector<Contact> contacts;
     for (const grainreel::ContactForce& one : impl_->running->contact_forces())
-        contacts.push_back({one.first, one.second, outside(one.normal), outside(one.point), one.overlap,
-                            one.normal_force, outside(one.tangential), one.stored_energy, one.triangle});
+        contacts.push_back({.first = one.first,
+                            .second = one.second,
+                            .normal = outside(one.normal),
+                            .point = outside(one.point),
+                            .overlap = one.overlap,
+                            .normal_force = one.normal_force,
+                            .tangential_force = outside(one.tangential),
+                            .stored_energy = one.stored_energy,
+                            .triangle = one.triangle});
     impl_->rethrow();
     return contacts;
 }
