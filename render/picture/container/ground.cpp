@@ -71,9 +71,7 @@ void ShadowMap::place(const Vec3& to_key) {
 // A vessel may stand anywhere, and its grains throw their shadow from its height.
 void ShadowMap::place_around_extent(const Vec3& to_key) {
     Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
-    for (int k = 0; k < 8; ++k) {
-        const Vec3 corner((k & 1 ? extent_.high : extent_.low).x(), (k & 2 ? extent_.high : extent_.low).y(),
-                          (k & 4 ? extent_.high : extent_.low).z());
+    for (const Vec3& corner : extent_corners(extent_)) {
         low = low.cwiseMin(fall(corner, to_key));
         high = high.cwiseMax(fall(corner, to_key));
     }

@@ -55,7 +55,6 @@ class ShadowMap {
 };
 
 // The shadow on the ground as it is seen. It fades towards the rim of the picture.
-
 class Ground {
   public:
     // The scene must have a container.

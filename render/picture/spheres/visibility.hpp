@@ -18,7 +18,6 @@
 namespace grainreel {
 
 // The marked pixels of a row.
-
 class RowBits {
   public:
     // Gives room for a row of `width` pixels. All of them must be written before they are read.

@@ -24,6 +24,80 @@ constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
 constexpr std::int64_t most_tiles = 12;  // of a contact sheet, each way
 constexpr int capped_quality = 18;  // a film under a cap is as good as the cap lets it be, up to this crf
 
+// Whether a film in this format can be kept below a size.
+bool can_be_capped(FilmFormat format) {
+    return format == FilmFormat::mp4 || format == FilmFormat::webm || format == FilmFormat::gif;
+}
+
+constexpr double gif_ticks = 100;         // a second: a GIF counts whole hundredths
+constexpr double shortest_gif_ticks = 2;  // browsers slow down what asks for less
+
+// The nearest of the rates that a GIF can have, 100/n frames a second.
+double gif_rate(double wanted) {
+    const double below = std::max(shortest_gif_ticks, std::ceil(gif_ticks / wanted));
+    const double above = std::max(shortest_gif_ticks, below - 1);
+    const double slow = gif_ticks / below, fast = gif_ticks / above;
+    return wanted - slow <= fast - wanted ? slow : fast;
+}
+
+void fit_gif_rate(FilmedScene& scene) {
+    Film& film = scene.film;
+    const double rate = gif_rate(film.rate);
+    if (std::abs(rate - film.rate) > 1e-9 * rate)
+        scene.notes.push_back(
+            fmt::format("{}: a GIF shows each frame for whole hundredths of a second: the "
+                        "film gets {:.4g} frames/s in place of {:.4g}",
+                        scene.where("film.rate"), rate, film.rate));
+    film.rate = rate;
+}
+
+void check_max_size(const Document& document, const Film& film) {
+    const char* path = "film.max_size";
+    if (document.has(path) && film.max_size && !can_be_capped(film.format))
+        document.fail(
+            path, fmt::format("goes with the formats mp4, webm and gif, but the film is {}; remove it, or "
+                              "write \"none\"",
+                              word_of(film.format, film_format_words)));
+}
+
+void check_transparent(const Document& document, const Film& film) {
+    if (film.transparent && film.format != FilmFormat::png && film.format != FilmFormat::ffv1)
+        document.fail(
+            "film.transparent",
+            fmt::format("goes with the formats png and ffv1, but a film in {} keeps no alpha; write "
+                        "format = \"png\"",
+                        word_of(film.format, film_format_words)));
+}
+
+// A scene that names a size of its own keeps it. The note says so to a user who asked for the purpose.
+void tell_what_stays(const Document& document, FilmedScene& scene) {
+    const Purpose* purpose = find_purpose(scene.film.purpose);
+    if (purpose == nullptr) return;
+    const Film& film = scene.film;
+    std::vector<std::string> stays;
+    if (film.width != purpose->width || film.height != purpose->height)
+        stays.push_back(
+            fmt::format("size {}x{} ({}x{})", film.width, film.height, purpose->width, purpose->height));
+    if (film.rate != purpose->rate)
+        stays.push_back(fmt::format("rate {:.4g} ({:.4g})", film.rate, purpose->rate));
+    if (film.format != purpose->format)
+        stays.push_back(fmt::format("format {} ({})", word_of(film.format, film_format_words),
+                                    word_of(purpose->format, film_format_words)));
+    if (!stays.empty())
+        scene.notes.push_back(
+            fmt::format("{}: what is set elsewhere stays, the default of \"{}\" in brackets: {}",
+                        document.place("film.for"), purpose->name, fmt::join(stays, ", ")));
+}
+
+// Refuses what does not go with the film's format, and fits the rate to it. Size, rate and file must have
+// been read.
+void settle_film_file(const Document& document, FilmedScene& scene) {
+    check_max_size(document, scene.film);
+    check_transparent(document, scene.film);
+    if (scene.film.format == FilmFormat::gif) fit_gif_rate(scene);
+    tell_what_stays(document, scene);
+}
+
 // Reads "1920x1080" or [1920, 1080]; gives zeros for anything else.
 std::array<std::int64_t, 2> two_counts(Document& document, const std::string& path) {
     std::array<std::int64_t, 2> size{0, 0};
@@ -266,81 +340,6 @@ Colour read_colour(Document& document, const std::string& path, const char* exam
         document.fail(path, fmt::format("must be a colour, but is {}; write for example {}",
                                         document.written_value(path), example));
     return *colour;
-}
-
-namespace {
-
-constexpr double gif_ticks = 100;         // a second: a GIF counts whole hundredths
-constexpr double shortest_gif_ticks = 2;  // browsers slow down what asks for less
-
-// The nearest of the rates that a GIF can have, 100/n frames a second.
-double gif_rate(double wanted) {
-    const double below = std::max(shortest_gif_ticks, std::ceil(gif_ticks / wanted));
-    const double above = std::max(shortest_gif_ticks, below - 1);
-    const double slow = gif_ticks / below, fast = gif_ticks / above;
-    return wanted - slow <= fast - wanted ? slow : fast;
-}
-
-void fit_gif_rate(FilmedScene& scene) {
-    Film& film = scene.film;
-    const double rate = gif_rate(film.rate);
-    if (std::abs(rate - film.rate) > 1e-9 * rate)
-        scene.notes.push_back(
-            fmt::format("{}: a GIF shows each frame for whole hundredths of a second: the "
-                        "film gets {:.4g} frames/s in place of {:.4g}",
-                        scene.where("film.rate"), rate, film.rate));
-    film.rate = rate;
-}
-
-void check_max_size(const Document& document, const Film& film) {
-    const char* path = "film.max_size";
-    if (document.has(path) && film.max_size && !can_be_capped(film.format))
-        document.fail(
-            path, fmt::format("goes with the formats mp4, webm and gif, but the film is {}; remove it, or "
-                              "write \"none\"",
-                              word_of(film.format, film_format_words)));
-}
-
-void check_transparent(const Document& document, const Film& film) {
-    if (film.transparent && film.format != FilmFormat::png && film.format != FilmFormat::ffv1)
-        document.fail(
-            "film.transparent",
-            fmt::format("goes with the formats png and ffv1, but a film in {} keeps no alpha; write "
-                        "format = \"png\"",
-                        word_of(film.format, film_format_words)));
-}
-
-// A scene that names a size of its own keeps it. The note says so to a user who asked for the purpose.
-void tell_what_stays(const Document& document, FilmedScene& scene) {
-    const Purpose* purpose = find_purpose(scene.film.purpose);
-    if (purpose == nullptr) return;
-    const Film& film = scene.film;
-    std::vector<std::string> stays;
-    if (film.width != purpose->width || film.height != purpose->height)
-        stays.push_back(
-            fmt::format("size {}x{} ({}x{})", film.width, film.height, purpose->width, purpose->height));
-    if (film.rate != purpose->rate)
-        stays.push_back(fmt::format("rate {:.4g} ({:.4g})", film.rate, purpose->rate));
-    if (film.format != purpose->format)
-        stays.push_back(fmt::format("format {} ({})", word_of(film.format, film_format_words),
-                                    word_of(purpose->format, film_format_words)));
-    if (!stays.empty())
-        scene.notes.push_back(
-            fmt::format("{}: what is set elsewhere stays, the default of \"{}\" in brackets: {}",
-                        document.place("film.for"), purpose->name, fmt::join(stays, ", ")));
-}
-
-}  // namespace
-
-bool can_be_capped(FilmFormat format) {
-    return format == FilmFormat::mp4 || format == FilmFormat::webm || format == FilmFormat::gif;
-}
-
-void settle_film_file(const Document& document, FilmedScene& scene) {
-    check_max_size(document, scene.film);
-    check_transparent(document, scene.film);
-    if (scene.film.format == FilmFormat::gif) fit_gif_rate(scene);
-    tell_what_stays(document, scene);
 }
 
 }  // namespace grainreel

@@ -77,12 +77,4 @@ void list_film(keys::Keys& all);
 void read_film(Document& document, FilmedScene& scene);  // after all tables of the engine
 void write_film(SceneText& out, const FilmedScene& scene);
 
-// Formats of the film's file and what goes with each.
-
-bool can_be_capped(FilmFormat format);
-
-// Refuses what does not go with the film's format, and fits the rate to it. When size, rate and file are
-// read.
-void settle_film_file(const Document& document, FilmedScene& scene);
-
 }  // namespace grainreel
