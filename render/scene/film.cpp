@@ -1,3 +1,4 @@
+// Colours by name.
 #include "render/scene/film.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// What the engine is told of a film: its text, colours and wishes.
 #include "render/scene/filmed_scene.hpp"
 
 #include <algorithm>

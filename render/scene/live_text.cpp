@@ -1,3 +1,4 @@
+// Parses texts with values of columns, and writes the values.
 #include "render/scene/live_text.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The table of purposes with their defaults.
 #include "render/scene/purposes.hpp"
 
 #include <fmt/format.h>

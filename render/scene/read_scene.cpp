@@ -1,3 +1,4 @@
+// Reads [film] and the colours of species beside the engine's reader, and checks the film against the scene.
 #include "render/scene/read_scene.hpp"
 
 #include <fmt/format.h>

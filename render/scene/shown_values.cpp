@@ -1,3 +1,5 @@
+// The usual ranges of the quantities that pictures show, estimated from the scene alone. The constants come
+// from measured beds.
 #include "render/scene/shown_values.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Texts by Pango, surfaces of Cairo, and the halos and plates that words stand on. A change of fonts or sizes
+// here changes every picture with words.
 #include "render/picture/base/cairo_text.hpp"
 
 #include <fontconfig/fontconfig.h>

@@ -1,3 +1,4 @@
+// Flat shapes: how lines and polygons become triangles, and the shaders that paint them.
 #include "render/picture/base/canvas.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The colour maps as tables of colours, and the scales of grains and walls with their words.
 #include "render/picture/base/colour_scale.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The geometry of the camera: where the eye must stand so that everything given is in the picture.
 #include "render/picture/base/view.hpp"
 
 #include <algorithm>

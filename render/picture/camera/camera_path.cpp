@@ -1,3 +1,5 @@
+// How the camera stands and moves: its distance, its tracks through keys, and how much of a high container it
+// shows.
 #include "render/picture/camera/camera_path.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Which points the automatic framing takes into the picture: of container, meshes, streams, sources and
+// marks.
 #include "render/picture/camera/framing.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// What the drawings of containers share: paints and dashes of sketches, side walls, floors with a hole, and
+// the scale in the lab.
 #include "render/picture/container/drawing_kit.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The map of the shadow on the ground, which is filled from above the scene, and the rows of the picture that
+// it darkens.
 #include "render/picture/container/ground.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The hot loop that darkens a row of pixels by a map (ground.hpp), compiled for each instruction set.
 #include "render/picture/container/ground.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// OpenGL contexts through libOSMesa, and OpenGL objects. Contexts through libEGL are in egl_context.cpp.
 #include "render/picture/gl/opengl.hpp"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+// The quantities that colour grains, grain by grain, and the albedo that follows from them.
 #include "render/picture/grains/grain_colours.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Takes the grains of a frame into view coordinates, with glued grains, cuts, poles and paints, for the layer
+// of lit spheres.
 #include "render/picture/grains/spheres.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The layer of a field, streamlines, and arrows of the mean velocity.
 #include "render/picture/marks/field_marks.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Arrows of forces at points of a body, and of mean forces on walls.
 #include "render/picture/marks/force_marks.hpp"
 
 #include <algorithm>

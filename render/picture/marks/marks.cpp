@@ -1,3 +1,4 @@
+// Trails, lines of force and rings, in which order all marks are drawn, and the legend that explains them.
 #include "render/picture/marks/marks.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// The hot loops of drawing meshes (mesh_kernels.hpp), compiled for each instruction set. Time it after a
+// change.
 #include "render/picture/mesh/mesh_kernels.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Paints meshes in bands of rows: what is solid, glass, lines, and pixels that meshes share with grains. Hot
+// code.
 #include "render/picture/mesh/mesh_painter.hpp"
 
 #include <algorithm>

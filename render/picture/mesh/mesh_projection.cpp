@@ -1,3 +1,4 @@
+// Projects meshes: which sides and edges are seen, how they are lit, and where cuts open them. Hot code.
 #include "render/picture/mesh/mesh_projection.hpp"
 
 #include <algorithm>

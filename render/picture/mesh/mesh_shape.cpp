@@ -1,3 +1,4 @@
+// Finds the edges of a mesh that are drawn and the normals at its corners, once a mesh.
 #include "render/picture/mesh/mesh_shape.hpp"
 
 #include <algorithm>

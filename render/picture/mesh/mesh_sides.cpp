@@ -1,3 +1,5 @@
+// Finds which sides of a mesh look into something that it encloses (find_sides() of mesh_shape.hpp), by rays
+// from some places.
 #include "render/picture/mesh/mesh_shape.hpp"
 
 #include <algorithm>

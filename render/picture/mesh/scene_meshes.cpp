@@ -1,3 +1,5 @@
+// The looks and colours of a scene's meshes, their outermost points, and the patches that throw their
+// shadows.
 #include "render/picture/mesh/scene_meshes.hpp"
 
 #include <algorithm>

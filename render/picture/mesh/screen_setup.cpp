@@ -1,3 +1,5 @@
+// Clips triangles and lines and sets them up in pixels. Hot code: edges must be the same, to the bit, for
+// both triangles at them.
 #include "render/picture/mesh/screen_setup.hpp"
 
 #include <algorithm>

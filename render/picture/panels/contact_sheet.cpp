@@ -1,3 +1,4 @@
+// Which frames of a film the contact sheet keeps and shows, and the page itself.
 #include "render/picture/panels/contact_sheet.hpp"
 
 #include <cairo.h>

@@ -1,3 +1,4 @@
+// The words and plots around panels: blocks that hold for all panels, and those of single panels.
 #include "render/picture/panels/panel_words.hpp"
 
 #include <algorithm>

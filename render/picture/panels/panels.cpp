@@ -1,3 +1,4 @@
+// What panels have in common, and the words that tell them apart.
 #include "render/picture/panels/panels.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Draws panels side by side: the layout of panels and words, which depend on each other, and what changes
+// with each frame.
 #include "render/picture/panels/side_by_side.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Round ticks and the upright axis of plots.
 #include "render/picture/plots/axes.hpp"
 
 #include <fmt/format.h>

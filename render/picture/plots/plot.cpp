@@ -1,3 +1,4 @@
+// A plot of a measure against time: it takes rows of measures, widens its limits, and draws axes and curve.
 #include "render/picture/plots/plot.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The hot loop that lays a row of pixels over another (layer.hpp), compiled for each instruction set.
 #include "render/picture/spheres/layer.hpp"
 
 #undef HWY_TARGET_INCLUDE

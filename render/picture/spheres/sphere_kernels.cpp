@@ -1,3 +1,4 @@
+// Gathers the hot loops of drawing spheres (*-inl.hpp) for each instruction set.
 #include "render/picture/spheres/sphere_kernels.hpp"
 
 #undef HWY_TARGET_INCLUDE

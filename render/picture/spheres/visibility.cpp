@@ -1,3 +1,4 @@
+// Draws spheres into depth and number in bands of rows, nearest first. Hot code.
 #include "render/picture/spheres/visibility.hpp"
 
 #include <algorithm>

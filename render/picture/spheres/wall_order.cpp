@@ -1,3 +1,5 @@
+// Finds the pixels in which grains reach through walls, and what walls and grains hide of each other there.
+// Hot code.
 #include "render/picture/spheres/wall_order.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// How OpenGL's layers are kept, how all layers are laid over each other, and how moments are exposed.
 #include "render/picture/whole/layers.hpp"
 
 #include <algorithm>

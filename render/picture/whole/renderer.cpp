@@ -1,3 +1,5 @@
+// The order in which a picture is made: words, walls, ground, spheres, meshes, marks, and then all layers
+// together.
 #include "render/picture/whole/renderer.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The texts of numbers, drive, time and notes.
 #include "render/picture/words/captions.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Puts the blocks of the first gutter (gutters.hpp) below each other at the side, or in rows above the
+// container.
 #include "render/picture/words/gutters.hpp"
 
 #include <algorithm>

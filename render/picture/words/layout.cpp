@@ -1,3 +1,4 @@
+// Chooses between gutters at the sides and gutters above and below, and the size of letters.
 #include "render/picture/words/layout.hpp"
 
 #include <algorithm>

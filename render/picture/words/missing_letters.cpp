@@ -1,3 +1,4 @@
+// Finds letters that no font has, their scripts and the packages that have them.
 #include "render/picture/words/missing_letters.hpp"
 
 #include <glib.h>

@@ -1,3 +1,4 @@
+// Writes and renews the words of a picture, and places labels beside grains.
 #include "render/picture/words/overlay.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Plans the places of the blocks in the second gutter (gutters.hpp): a column at the side, or rows below the
+// container.
 
 #include <algorithm>
 #include <cmath>

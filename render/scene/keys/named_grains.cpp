@@ -1,3 +1,4 @@
+// Reads and writes lists of species by name and of grains by id.
 #include "render/scene/keys/named_grains.hpp"
 
 #include <fmt/format.h>

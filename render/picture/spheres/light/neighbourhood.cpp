@@ -1,3 +1,4 @@
+// Finds the neighbours that take light from each grain, by a grid towards the light. Hot code.
 #include "render/picture/spheres/light/neighbourhood.hpp"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Lights grains in bands of rows: runs of pixels inside grains, and pixels on edges. Hot code.
 #include "render/picture/spheres/light/sphere_layer.hpp"
 
 #include <algorithm>
