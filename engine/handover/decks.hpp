@@ -61,24 +61,6 @@ std::size_t liggghts_types(const CarriedScene& carried);
 // liggghts.dump, liggghts.restart.STEP while it runs, end.restart, and outflow.txt where there is an outlet.
 std::string liggghts_deck(const CarriedScene& carried);
 
-// A kind of contact in the words of LAMMPS' pair_style granular and its walls:
-// "hooke 9600 2647 tangential linear_history 2742 0 0.5 damping mass_velocity limit_damping"
-std::string lammps_law(const CarriedPair& pair);
-
-// A face of the scene as a region of LAMMPS.
-struct LammpsRegion {
-    std::string name;                    // "floor", "left_slant"; a floor with a slot has two: "floor_0"
-    std::string text;                    // the whole command
-    std::vector<std::string> variables;  // commands that must come before it
-};
-
-// The regions of all faces when the run begins, or after the outlet has opened. Names of faces that the
-// outlet changes end in "_open".
-std::vector<LammpsRegion> lammps_regions(const CarriedScene& carried, bool opened);
-
-// The regions in which grains leave the run: the scene's exits, and the room below its outlet.
-std::vector<LammpsRegion> lammps_exits(const CarriedScene& carried);
-
 // The contact laws of a scene as LIGGGHTS wants them: a model, its flags, and matrices by pairs of types.
 struct LiggghtsLaw {
     std::string model;                    // "model hooke/stiffness tangential history"

@@ -77,7 +77,7 @@ inline int leading_zeros(const char* p) {
 inline constexpr std::uint64_t whole_powers[9] = {1,      10,      100,      1000,     10000,
                                                   100000, 1000000, 10000000, 100000000};
 
-// The place after the last digit.
+// Adds digits to w. Returns the place after the last one.
 inline const char* take_digits(const char* p, std::uint64_t& w) {
     while (true) {
         const std::uint64_t v = eight_at(p);
