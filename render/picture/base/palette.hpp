@@ -14,7 +14,7 @@ inline Colour mix(const Colour& a, const Colour& b, double share_of_b) {
     return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue)};
 }
 
-// sRGB (IEC 61966-2-1) to linear light and back, 0 to 1.
+// From sRGB (IEC 61966-2-1) to linear light and back, 0 to 1.
 inline double to_linear(double srgb) {
     return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }

@@ -23,9 +23,9 @@ struct Spread {
     double size() const { return high - low; }
 };
 
-// Along one picture axis a point (u, z) is inside when |u - c| <= k (D + z): D is how far the eye stands back
-// from the origin, c its shift, k the slope of the frustum's side. So c must lie between max(u - k z) - k D
-// and min(u + k z) + k D, which gives the least D and then c.
+// Along one axis of the picture a point (u, z) is inside when |u - c| <= k (D + z). D is the eye's distance
+// from the origin, c is its shift, and k is the slope of the frustum's side. So c must lie between max(u - k
+// z) - k D and min(u + k z) + k D, which gives the least D and then c.
 struct Side {
     Spread rising, falling;  // of u + k z, u - k z
     double slope;
@@ -127,7 +127,8 @@ View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Recta
         view.focal = focal * camera.zoom;
     }
     const double front = view.forward.dot(-view.eye) + away.low;  // view depth of the nearest point
-    // Room for grains that have left the container; the depth is linear, so room costs little precision.
+    // This leaves room for grains that have left the container. The depth is linear, so room costs little
+    // precision.
     view.nearest = std::max(0.01 * front, front - 2 * size);
     view.farthest = front + 4 * size;
     return view;

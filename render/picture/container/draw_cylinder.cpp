@@ -64,7 +64,7 @@ class Cylinder {
     }
 
   private:
-    // A disc with a rim, in front of the grains while the eye is on its outer side.
+    // Draws a disc with a rim. It is in front of the grains while the eye is on its outer side.
     void plate(const Sketch& sketch, double low, double high, double up) {
         const double inner = up > 0 ? low : high, outer = up > 0 ? high : low;
         const double solid = sketch.solid({0, 0, inner}, {0, 0, up});
@@ -106,7 +106,7 @@ class Cylinder {
                     faded(sketch.far_edge(), paint.alpha));
     }
 
-    // The far half of the tube, tinted more where it turns away from the eye.
+    // Draws the far half of the tube. Its tint is stronger where it turns away from the eye.
     void glass() {
         const Sketch& walls = sketches_.walls;
         const double from = facing_ + half_visible_, to = facing_ + 2 * std::numbers::pi - half_visible_;
@@ -119,7 +119,7 @@ class Cylinder {
         }
     }
 
-    // The wall's thickness along the outline.
+    // Draws the thickness of the wall along the outline.
     void cut(double side) {
         const Sketch& walls = sketches_.walls;
         const double angle = facing_ + side * half_visible_, wide = radius_ + thickness_;

@@ -116,7 +116,7 @@ class Prism {
         return Vec3(0, side * along.y(), -side * along.x()).normalized();
     }
 
-    // One flat part of a wall, between two points of its profile.
+    // Draws one flat part of a wall, between two points of its profile.
     void segment(const WallProfile& profile, std::size_t i) {
         const Sketch& walls = sketches_.walls;
         const Flat a = profile.inner[i], b = profile.inner[i + 1];
@@ -201,7 +201,7 @@ double outer_floor_half_width(const Container& container) {
 
 namespace {
 
-// The points of a line that rises, up to `top` and there.
+// The points of a rising line up to `top`, and the one at `top`.
 std::vector<Flat> below(const std::vector<Flat>& line, double top) {
     std::vector<Flat> points;
     for (const Flat& p : line) {

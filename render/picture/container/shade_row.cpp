@@ -16,21 +16,21 @@ using Pixels = hn::RebindToUnsigned<F>;
 using V = hn::Vec<F>;
 constexpr std::size_t kAtOnce = hn::MaxLanes(F());
 
-// Place along one axis: the cell before it, and how far on to the next.
+// A place along one axis: the cell before it, and how far it lies on the way to the next one.
 struct Between {
     hn::Vec<I> cell;
     V on;
 };
 HWY_INLINE Between between(V at, int side) {
     const F d;
-    // Beside the map, or nowhere: the clear rim. (What is no number becomes 0.)
+    // Places beside the map lie on its clear rim. (What is no number becomes 0.)
     const V inside = hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, static_cast<float>(side) - 1.0001f));
     const auto cell = hn::ConvertTo(I(), inside);
     return {cell, hn::Sub(inside, hn::ConvertTo(d, cell))};
 }
 
-// Four loads a pixel: a gather takes as long, and much longer where processors are mended against data
-// sampling.
+// There are four loads a pixel. A gather takes as long, and much longer on processors that are protected
+// against data sampling.
 HWY_INLINE V strength(const ShadeMap& map, const Between& u, const Between& v) {
     const F d;
     const auto first = hn::Add(hn::Mul(v.cell, hn::Set(I(), map.side)), u.cell);

@@ -142,7 +142,8 @@ void WallForceMarks::draw(const View& view, const Frame& frame, Shapes& on) cons
     for (const Wall& wall : walls_) draw_wall(wall, view, frame, on);
 }
 
-// Moments of the container are about its body's origin, all others about the face's own point.
+// Moments of the container's faces are about the origin of its body, those of other faces about a point of
+// the face.
 void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const {
     const Vec3 force = last_vector(frame, wall.name + "_force", "N");
     const Vec3 moment = last_vector(frame, wall.name + "_moment", "N.m");

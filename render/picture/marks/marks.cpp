@@ -138,7 +138,7 @@ void Marks::draw_trails(const View& view, Shapes& on) const {
     for (const bool outline : {true, false}) {
         for (const auto& path : trails_.paths()) {
             for (std::size_t k = 1; k < path.size(); ++k) {
-                // Thinner with age.
+                // Trails are thinner where they are older.
                 const double width = pen_ * (2.2 - 1.6 * path[k - 1].age);
                 on.line({view.project(path[k - 1].at), view.project(path[k].at)}, false,
                         outline ? width + 1.4 * pen_ : width,

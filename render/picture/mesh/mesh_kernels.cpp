@@ -82,7 +82,7 @@ HWY_INLINE void keep_pixels(Mask which, Pixels pixels, std::uint32_t* at) {
     hn::StoreU(hn::IfThenElse(hn::RebindMask(d, which.bits), pixels, hn::LoadU(d, at)), d, at);
 }
 
-// Where it is nearer than what is there; tells those lanes.
+// Keeps depths where they are nearer than what is there. Returns these lanes.
 HWY_INLINE Mask keep_nearer(Mask inside, F near, float* at) {
     const F before = load_any(at);
     const Mask nearer = inside & (near > before);

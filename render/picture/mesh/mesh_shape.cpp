@@ -9,14 +9,14 @@ namespace grainreel {
 
 namespace {
 
-// Which corner of a triangle is neither of these vertices.
+// The corner of a triangle that is neither of these vertices.
 std::uint8_t third_corner(const TriangleMesh::Triangle& triangle, std::int32_t from, std::int32_t to) {
     for (std::uint8_t k = 0; k < 2; ++k)
         if (triangle[k] != from && triangle[k] != to) return k;
     return 2;
 }
 
-// rad, how much the surface turns across an edge: > 0 where it is convex for who stands on its front.
+// rad: how much the surface turns across an edge. It is > 0 where the surface is convex, seen from its front.
 double fold_at(const Surface& surface, std::int32_t t, int e) {
     const Neighbour& beyond = surface.neighbour(t, e);
     if (beyond.triangle < 0) return 0;
@@ -91,7 +91,7 @@ void add_corner_normals(const Surface& surface, const EdgeFlags& features, MeshS
         }
 }
 
-// Where normals flip or more than two triangles meet, a smooth surface ends.
+// Finds feature edges. A smooth surface also ends where normals flip or more than two triangles meet.
 EdgeFlags feature_edges(const Surface& surface, double edge_angle) {
     EdgeFlags features(static_cast<std::size_t>(surface.size()));
     for (std::int32_t t = 0; t < surface.size(); ++t)

@@ -13,7 +13,7 @@
 namespace grainreel {
 
 // A vessel shows its inner side solid and is glass from outside. An insert is solid from both sides.
-// automatic: by how much of its surface encloses something.
+// automatic: decides by how much of the surface encloses something.
 enum class MeshLook { automatic, vessel, solid, glass };
 
 struct MeshShape {
@@ -46,7 +46,7 @@ std::shared_ptr<const MeshShape> mesh_shape(const Surface& surface, double edge_
 // triangle's patch, from 0 on.
 std::vector<std::int32_t> smooth_patches(const Surface& surface, double edge_angle);
 
-// rad, between the planes of a triangle and its neighbour across an edge.
+// rad: the angle between the planes of a triangle and its neighbour across an edge.
 double turn_of(const Surface& surface, std::int32_t triangle, const Neighbour& neighbour);
 
 // The sides of each triangle: which of them look into something that the mesh encloses, and which look out. A

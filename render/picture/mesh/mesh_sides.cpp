@@ -167,8 +167,7 @@ class SideFinder {
         seen.room_back += room_->holds(middle(t) - small_ * normal) ? weight : 0;
     }
 
-    // The side of a closed part that can be seen is the one from which a ray crosses an even number of
-    // times.
+    // From the side of a closed part that can be seen, a ray crosses surfaces an even number of times.
     void look_for_material(std::size_t part, std::int32_t t) {
         const Vec3 normal = surface_.normal(t);
         std::vector<Surface::Hit> hits;
@@ -220,7 +219,7 @@ class SideFinder {
         settle(part, visible_front_[part] ? out : in, visible_front_[part] ? in : out);
     }
 
-    // One side of an open sheet may look into what it holds.
+    // Settles an open sheet. One side of it may look into what the sheet holds.
     void settle_sheet(std::size_t part) {
         const double front = part_seen_[part].front_share(), back = part_seen_[part].back_share();
         const double least = look_ == MeshLook::vessel ? kDiffersInVessel : kDiffers;
@@ -228,7 +227,7 @@ class SideFinder {
         settle(part, front < back ? Face::glass : Face::solid, front < back ? Face::solid : Face::glass);
     }
 
-    // Walls with a thickness are glass where the room is behind them; a rim is solid.
+    // Settles walls with a thickness. They are glass where the room is behind them; a rim is solid.
     void settle_shell(std::size_t part) {
         std::size_t last = members_.size();
         Face seen = Face::solid;
@@ -240,7 +239,7 @@ class SideFinder {
         });
     }
 
-    // Whether a straight way through the wall comes out in the room, from most places of the patch.
+    // Whether, from most places of the patch, a straight way through the wall comes out in the room.
     bool is_backed(std::size_t patch) const {
         const std::vector<std::int32_t>& all = members_[patch];
         const std::size_t places = std::min(all.size(), kPlacesOfPatch);

@@ -58,7 +58,8 @@ class MeshShadows {
     bool any() const { return !patches_.empty(); }
     double lowest() const { return lowest_; }  // m, lowest z of any mesh without the drive; 0 without meshes
 
-    // Calls visit(place, area that is taken from light which comes from `to_light`) for each patch; m, m2.
+    // Calls visit(place, area) for each patch, with the area (m2) that it takes from light that comes from
+    // `to_light`.
     template <class Visit>
     void visit(const Frame& frame, const Vec3& to_light, const Visit& visit) const {
         for (const Patch& patch : patches_) {
@@ -73,7 +74,7 @@ class MeshShadows {
         Vec3 area;  // m2, along its normal, times the share of the light that it takes
         std::size_t body;
     };
-    // along: patches wanted along each side.
+    // along: how many patches are wanted along each side.
     void add(const Surface& surface, std::int32_t t, double along, double share, std::size_t body);
 
     std::vector<Patch> patches_;

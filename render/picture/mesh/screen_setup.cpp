@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kOwnsItsEdge = -1e-37f;  // as `least`: points on the edge are inside
 
-// Written with the lower end first, so that both triangles at an edge get the same numbers.
+// Edges are written with the lower end first, so that both triangles at an edge get the same numbers.
 bool lower(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
@@ -28,7 +28,7 @@ bool set_edge(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Eige
     return true;
 }
 
-// Through three values; area: twice the triangle's, with its sign.
+// The plane through three values. area: twice that of the triangle, with its sign.
 ScreenPlane plane_through(const Eigen::Vector3f (&at)[3], const std::array<float, 3>& value, double area) {
     const double x1 = static_cast<double>(at[1].x()) - at[0].x(),
                  y1 = static_cast<double>(at[1].y()) - at[0].y();
@@ -44,7 +44,8 @@ ScreenPlane plane_through(const Eigen::Vector3f (&at)[3], const std::array<float
     return plane;
 }
 
-// Where the way from a to b crosses the border, a and b in an order that does not depend on the triangle.
+// Where the way from a to b crosses the border. a and b are put into an order that does not depend on the
+// triangle.
 LitCorner crossing(const DrawnSpace::Half& half, LitCorner a, LitCorner b) {
     const auto before = [](const Eigen::Vector3f& p, const Eigen::Vector3f& q) {
         return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);

@@ -1,4 +1,4 @@
-// Spheres into depth and number, pixel by pixel; and what that leaves to be told about it.
+// Draws spheres into depth and number, pixel by pixel, and marks the pixels of a row where numbers change.
 #if defined(GRAINREEL_SPHERES_DRAW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_DRAW_INL
 #undef GRAINREEL_SPHERES_DRAW_INL
@@ -61,7 +61,8 @@ float farthest(const DepthRows& rows, const PixelBox& box) {
     return std::max(last, hn::GetLane(hn::MaxOfLanes(Floats(), most.value)));
 }
 
-// differs(at): lanes of pixels from `at` on, not 0 where one is to be marked. Past the row's end bits are 0.
+// differs(at): lanes of the pixels from `at` on; those that are not 0 are marked. Bits past the end of the
+// row are 0.
 template <class Differs>
 HWY_INLINE void mark(int count, std::uint64_t* bits, const Differs& differs) {
     const hn::CappedTag<std::uint32_t, 16> d;

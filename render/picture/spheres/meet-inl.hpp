@@ -1,4 +1,4 @@
-// Where lines of sight meet a sphere.
+// Finds where lines of sight meet a sphere, and what a cut leaves of them.
 #if defined(GRAINREEL_SPHERES_MEET_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_MEET_INL
 #undef GRAINREEL_SPHERES_MEET_INL
@@ -26,7 +26,7 @@ HWY_INLINE void store_any(F a, float* at) {
 HWY_INLINE F zero_to_one(F a) {
     return smaller(larger(a, F(0)), F(1));
 }
-// 1 / sqrt(a), a > 0: the processor's estimate and a step of Newton's, within 1e-6.
+// 1 / sqrt(a) for a > 0, by the processor's estimate and one step of Newton's method; right within 1e-6.
 HWY_INLINE F inverse_root(F a) {
     const F y = hn::ApproximateReciprocalSqrt(a.value);
     return y * less_product(F(1.5), F(0.5) * a * y, y);
@@ -36,7 +36,8 @@ HWY_INLINE F inverse_of(F a) {
     return y * less_product(F(2), a, y);
 }
 
-// x, y, z of the direction are slopes and 1 (perspective), or 0, 0, 1 from a place (orthographic).
+// A line of sight. In perspective x and y are slopes, and its direction is (x, y, 1). In an orthographic view
+// x and y are a place, and its direction is (0, 0, 1).
 template <bool orthographic>
 struct Ray {
     F x, y;
@@ -48,9 +49,9 @@ struct Ray {
     }
 };
 
-// Along z: the point nearest to the centre, half the chord, and radius^2 - distance^2, < 0 for a miss. The
-// discriminant comes from the point of closest approach, which keeps its digits when a sphere is small
-// against its distance (Haines et al. 2019, Ray Tracing Gems, ch. 7).
+// z of the point nearest to the centre, half the chord along z, and radius^2 - distance^2, which is < 0 for a
+// miss. The discriminant comes from the point of closest approach. It so keeps its digits when a sphere is
+// small against its distance (Haines et al. 2019, Ray Tracing Gems, ch. 7).
 struct Meeting {
     F along, half, rest;
     Triple<F> miss;  // from the centre to that point
@@ -73,7 +74,7 @@ HWY_INLINE Meeting meet(const Ray<orthographic>& ray, F x, F y, F z, F radius) {
     return m;
 }
 
-// The stretch of a line of sight that is not cut away; z.
+// The part of a line of sight that is not cut away, by z.
 struct Kept {
     F low, high;
     F plane;  // whose plane `low` lies in, 0 or 1; -1: the eye's own
@@ -97,7 +98,7 @@ HWY_INLINE Kept kept(const Ray<orthographic>& ray, const Cut& cut) {
     return k;
 }
 
-// z of the first thing seen of a sphere, or kNowhere. From within, its far side.
+// z of the first point seen of a sphere, or kNowhere. From within it is on the far side.
 template <bool orthographic>
 HWY_INLINE F seen_at(const Meeting& m) {
     const F entry = m.along - m.half;

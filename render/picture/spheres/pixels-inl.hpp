@@ -1,4 +1,4 @@
-// scaled() and over() of pixel.hpp for a register of pixels.
+// scaled() and over() of layer.hpp for a register of pixels.
 #if defined(GRAINREEL_SPHERES_PIXELS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_PIXELS_INL
 #undef GRAINREEL_SPHERES_PIXELS_INL
@@ -15,7 +15,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// share: of 255, a lane's own.
+// share: of 255, for each lane.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V scaled_all(D d, V pixels, V share) {
     const V even = hn::Set(d, 0x00ff00ffu), half = hn::Set(d, 0x00800080u);

@@ -1,5 +1,6 @@
-// Which grains share a pixel on an edge, and how: eight points in it, each met by all that may be seen there.
-// Exact silhouettes and lines of intersection, smooth to an eighth.
+// Finds which grains share a pixel on an edge, and how large their shares are. At eight points in the pixel
+// all grains are met that may be seen there. So silhouettes and lines of intersection are exact, and smooth
+// to an eighth.
 #if defined(GRAINREEL_SPHERES_SETTLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_SETTLE_INL
 #undef GRAINREEL_SPHERES_SETTLE_INL

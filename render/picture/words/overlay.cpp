@@ -241,7 +241,7 @@ void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View&
     {
         const CairoContext on(cairo_create(surface.get()));
         for (const Placed& one : all) {
-            // From the grain's rim to the plate's nearer side.
+            // The line goes from the grain's rim to the nearer side of the plate.
             const double end_x = one.box.x > one.x ? one.box.x : one.box.x + one.box.width;
             const double end_y = one.box.y + 0.5 * one.box.height;
             const double length = std::max(1e-9, std::hypot(end_x - one.x, end_y - one.y));

@@ -227,7 +227,7 @@ BoundKey<Film> background_key() {
             [](const Film& film) { return film.background == default_background(film.look.style); });
 }
 
-// The picture and how it follows time.
+// Keys of the picture and how it follows time.
 const KeyTable<Film>& picture_table() {
     static const KeyTable<Film> table{
         size_key(),
@@ -264,14 +264,15 @@ const KeyTable<Film>& file_table() {
     return table;
 }
 
-// What is drawn beside grains and walls, and how the walls' motion is shown.
+// Keys of what is drawn beside grains and walls, and of how the walls' motion is shown.
 const KeyTable<Film>& scenery_table() {
     static const KeyTable<Film> table{
         choice("words", &Film::words, word_place_words, initial(),
                "Words beside the picture, on plates over it, or none; automatic: plates with a "
                "zoom, position or target of your own."),
         word_kinds_key(),
-        // Not written where it is as the camera has it: a finished run may be drawn again with another one.
+        // It is not written where it follows from the camera, since a finished run may be drawn again with
+        // another camera.
         flag("axes", &Film::axes, note("true where the camera moves"),
              "Arrows along x, y and z as the camera sees them.")
             .usually([](Film& film, const Scene&) { film.axes = film.camera.moves(); })

@@ -1,4 +1,4 @@
-// The light that points on one grain send to the eye.
+// Computes the light that points on one grain send to the eye.
 #if defined(GRAINREEL_SPHERES_LIGHT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_LIGHT_INL
 #undef GRAINREEL_SPHERES_LIGHT_INL
@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// A point seen, from the grain's centre; its normal, and the direction to the eye.
+// A point that is seen, from the grain's centre, with its normal and the direction to the eye.
 struct SurfacePoint {
     Triple<F> at, normal, to_eye;
     F cap;  // 1 on a cut face, else 0
@@ -46,9 +46,9 @@ HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const 
     return point;
 }
 
-// The share of the light from all around, weighted by the cosine, that no neighbour takes. One sphere's part
-// is exact when it stands wholly above the horizon; below, and where several overlap, it is approximate
-// (after I. Quilez, "sphere ambient occlusion").
+// The share of the light from all around, weighted by the cosine, that no neighbour takes. What one sphere
+// takes is exact when it stands wholly above the horizon. Where it reaches below, and where several overlap,
+// it is approximate (after I. Quilez, "sphere ambient occlusion").
 HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours) {
     F open(1);
     for (int i = 0; i < neighbours.count; ++i) {
@@ -68,8 +68,8 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
     return open;
 }
 
-// The share of the key light that comes past the neighbours: each hides a part of the lamp's disc, as its
-// silhouette goes across it.
+// The share of the key light that comes past the neighbours. Each hides a part of the lamp's disc where its
+// silhouette lies across the disc.
 HWY_INLINE F unshadowed(const SurfacePoint& point, const Lamp& lamp, const NeighbourSpan& neighbours) {
     F lit(1);
     const Triple<F> key{F(lamp.to_key[0]), F(lamp.to_key[1]), F(lamp.to_key[2])};
