@@ -80,7 +80,6 @@ struct Frame {
 using FramePtr = std::shared_ptr<const Frame>;
 
 // A contact that carries force, as files keep it.
-
 struct SavedContact {
     std::int32_t first, second;  // ids; second is -1 - wall for a wall: faces first, then meshes
     double normal;               // N, >= 0
@@ -91,7 +90,6 @@ struct SavedContact {
 };
 
 // A force on a body at the point where it acts.
-
 struct PointForce {
     Vec3 at;                       // m
     Vec3 force;                    // N

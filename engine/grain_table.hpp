@@ -19,7 +19,6 @@ namespace grainreel {
 
 // What run.json keeps of final.csv, so that a table that was cut off or damaged is not believed. The table
 // itself stays a plain CSV: nothing in it says where it ends.
-
 inline constexpr const char* kFinalTable = "final.csv";
 
 struct TableMark {

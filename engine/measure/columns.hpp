@@ -26,7 +26,6 @@ Measurable measurable_in(const Scene& scene);
 std::string column_table_markdown();
 
 // What axis a column of measures.csv takes where it is drawn.
-
 struct ColumnAxis {
     bool from_zero = false;  // it cannot be negative: the axis begins at 0
     double expected = 0;     // SI, about how large it gets, by the scene; 0 where nobody knows

@@ -23,12 +23,7 @@ class Times final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // What the drive does: frequency and acceleration of the stage that is on.
-
-namespace grainreel::observers {
-
 // f, and Gamma = a (2 pi f)^2 / g; in a change and in the ramp those of the moment.
 class DriveNow final : public Observer {
   public:
@@ -56,12 +51,7 @@ class DriveNow final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // Where the drive has moved to.
-
-namespace grainreel::observers {
-
 class FloorPosition final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

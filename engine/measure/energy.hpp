@@ -44,7 +44,6 @@ double total_energy(const Surroundings& around, const Grains& grains, const Step
 // times the wall's velocity; all three by the trapezoidal rule over the steps. With velocity Verlet that rule
 // is what the step itself does with a force: sum dt F . v is the change of m v^2 / 2 to the last digit, but
 // for m (dt a)^2 / 8 at either end (by expanding Swope et al. 1982, J. Chem. Phys. 76, 637).
-
 struct EnergyTerms {
     double kinetic = 0, rotational = 0, gravitational = 0, stored = 0;  // J, now
 

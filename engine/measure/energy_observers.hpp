@@ -41,13 +41,8 @@ class Energies final : public Observer {
     double elastic_ = 0;  // J
 };
 
-}  // namespace grainreel::observers
-
 // Where the energy goes, term by term: each is measured at the contacts, and none is the rest of the others.
 // The formulas are those of engine/measure/energy.hpp.
-
-namespace grainreel::observers {
-
 // It looks at all contacts after every step, so that a run takes several times as long.
 class EnergyShares final : public Observer {
   public:

@@ -44,7 +44,6 @@ class Measures {
 
 // The rows of measures.csv in memory, growing while others read: the engine's thread adds, the drawing one
 // reads rows that are complete.
-
 class MeasureTable {
   public:
     explicit MeasureTable(std::vector<std::string> columns) : columns_(std::move(columns)) {}
@@ -77,7 +76,6 @@ class MeasureTable {
 };
 
 // What a column holds at a moment at which there is nothing to measure.
-
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 inline void add_no_values(std::vector<double>& row, std::size_t columns) {

@@ -118,7 +118,6 @@ ObserverEntry entry_of() {
 }
 
 // When rows of measures.csv come, for observers that gather at them.
-
 class Rows {
   public:
     explicit Rows(const Plan& plan)

@@ -51,7 +51,6 @@ inline std::int32_t end_of(const TriangleMesh& mesh, std::int32_t side) {
 }
 
 // Sets of numbers that are joined step by step.
-
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t count) : parent_(count) {

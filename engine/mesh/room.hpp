@@ -26,7 +26,6 @@ namespace grainreel {
 
 // Answers for most places of a room at once: a grid of 32 x 32 x 32 cells. What one place of a cell without
 // surface is, all are, and those of the cells beyond its sides at the same height.
-
 class RoomGrid {
   public:
     enum class Answer : std::uint8_t { unknown, inside, outside };

@@ -21,7 +21,6 @@ struct TriangleMesh {
 };
 
 // What is known of a mesh after it has been read and mended.
-
 struct MeshFacts {
     std::string format;                        // "binary STL", "ASCII STL", "OBJ", "PLY"
     std::int64_t read = 0;                     // triangles in the file; a quad counts as two

@@ -216,7 +216,6 @@ std::array<double, kCosts> StepLoop::cost_shares() const {
 }
 
 // What the step loop shows of its contacts, and what it saves.
-
 void StepLoop::visit_contacts(std::int64_t at_step,
                               const std::function<void(const ContactView&)>& visit) const {
     WallState walls;

@@ -35,12 +35,7 @@ class BedShape final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // How the bed as a whole moves: when it flies, and how far it has expanded.
-
-namespace grainreel::observers {
-
 class BedMotion final : public Observer {
   public:
     static constexpr const char* instrument = "bed";
@@ -139,12 +134,7 @@ class BedMotion final : public Observer {
     FaceSums floor_;         // at that step
 };
 
-}  // namespace grainreel::observers
-
 // After how many periods of the drive the bed repeats itself.
-
-namespace grainreel::observers {
-
 class BedPeriods final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -197,12 +187,7 @@ class BedPeriods final : public Observer {
     PeriodMultiple multiple_;
 };
 
-}  // namespace grainreel::observers
-
 // Centre of mass of all grains.
-
-namespace grainreel::observers {
-
 class CentreOfMass final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -224,12 +209,7 @@ class CentreOfMass final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // Where the grains of each species are on average, each counted alike.
-
-namespace grainreel::observers {
-
 class SpeciesPlaces final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene& scene) {
@@ -265,12 +245,7 @@ class SpeciesPlaces final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // How many contacts carry a grain.
-
-namespace grainreel::observers {
-
 class ContactNumber final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -291,12 +266,7 @@ class ContactNumber final : public Observer {
     double carrying_ = 0;  // a pair counted for both grains
 };
 
-}  // namespace grainreel::observers
-
 // How far bodies overlap at most.
-
-namespace grainreel::observers {
-
 class LargestOverlap final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -316,12 +286,7 @@ class LargestOverlap final : public Observer {
     double largest_ = 0;
 };
 
-}  // namespace grainreel::observers
-
 // How the contacts between grains are oriented.
-
-namespace grainreel::observers {
-
 class ContactFabric final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -348,12 +313,7 @@ class ContactFabric final : public Observer {
     Fabric fabric_;
 };
 
-}  // namespace grainreel::observers
-
 // A single large grain: how high it is in the bed, and when it came up.
-
-namespace grainreel::observers {
-
 class Intruder final : public Observer {
   public:
     static constexpr const char* instrument = "intruder";

@@ -14,7 +14,6 @@
 namespace grainreel {
 
 // The fields of coarse-graining by name and unit, as files have them.
-
 FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by);
 
 // The values in the order of that set. `fields` may be missing: then all are NaN.
@@ -22,7 +21,6 @@ FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const
 
 // Fields by coarse-graining as a run goes on: it gathers moments, and has the mean of each record when the
 // record ends.
-
 class FieldRecord {
   public:
     FieldRecord(const Scene& scene, const FieldTimes& times);

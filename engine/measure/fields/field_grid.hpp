@@ -99,7 +99,6 @@ class FieldKernel {
 };
 
 // As inside_shares() of field_grid.hpp, of a vessel that is a mesh.
-
 std::vector<double> shares_inside_mesh(const FieldGrid& grid, const Scene& scene);
 
 }  // namespace grainreel

@@ -64,7 +64,6 @@ struct BigAndSmall {
 BigAndSmall big_and_small(const std::vector<Species>& species);
 
 // Which grains lie beside the left wall of the container, and which beside the right one.
-
 enum class Side { left, right, none };
 
 // Slants count as walls, and the halves y < 0 and y > 0 of a cylinder's wall as left and right. Front and

@@ -29,12 +29,7 @@ class HeightDifference final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // How often a big grain lies above a small one.
-
-namespace grainreel::observers {
-
 class BigAboveSmall final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -52,12 +47,7 @@ class BigAboveSmall final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // How many of the big grains lie on top, and how many at the bottom.
-
-namespace grainreel::observers {
-
 class BigInQuarters final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -79,12 +69,7 @@ class BigInQuarters final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // How many of the big grains lie beside the left and right walls.
-
-namespace grainreel::observers {
-
 class BigAtWalls final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -112,12 +97,7 @@ class BigAtWalls final : public Observer {
     const SideWalls walls_;
 };
 
-}  // namespace grainreel::observers
-
 // How well big grains are mixed with all others, by samples of equal count.
-
-namespace grainreel::observers {
-
 class Mixing final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -146,12 +126,7 @@ class Mixing final : public Observer {
     }
 };
 
-}  // namespace grainreel::observers
-
 // Do grains of different species lie side by side as often as by chance?
-
-namespace grainreel::observers {
-
 class Unlike final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

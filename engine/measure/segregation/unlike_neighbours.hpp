@@ -26,7 +26,6 @@ double unlike_neighbours(const LargeArray<Place>& place, const std::vector<std::
                          double period);
 
 // All pairs of grains whose surfaces are closer than a gap.
-
 inline bool are_neighbours(const Place& a, const Place& b, double gap, double period) {
     Vec3 apart = a.position - b.position;
     apart.x() = nearest_image(apart.x(), period);

@@ -45,7 +45,6 @@ BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
 SurfaceFrame surface_frame(const Scene& scene);
 
 // How far a surface is heaped up.
-
 struct Mound {
     double height = 0;  // m: mean of the middle third less that of the two outer sixths
     double slope = 0;   // tangent: mean rise of both halves towards the middle
@@ -57,7 +56,6 @@ struct Mound {
 Mound mound_of(const BedOutline& surface);
 
 // What wave a surface shows most of.
-
 struct DominantWave {
     double wavelength = 0;  // in the unit of the width
     double share = 0;       // of the surface's variance, 0 to 1

@@ -25,7 +25,6 @@ namespace grainreel {
 // of rubbing over the area is what Archard's law of wear is proportional to (J. F. Archard 1953, J. Appl.
 // Phys. 24, 981, at a constant coefficient of friction), that of impacts what erodes (I. Finnie 1960, Wear 3,
 // 87).
-
 inline constexpr std::int64_t kLookSteps = 2;
 
 // One number for each triangle of one mesh, since the drive started.

@@ -30,7 +30,6 @@ TriangleMesh read_ply(const std::filesystem::path& file, std::string_view bytes)
 TriangleMesh read_mesh(MeshFormat format, const std::filesystem::path& file, std::string_view bytes);
 
 // The words with which a line of an OBJ file can begin.
-
 inline bool is_obj_word(std::string_view word) {
     static constexpr std::array<std::string_view, 42> words{
         "v",     "vt",    "vn",   "vp",     "f",        "fo",       "l",      "p",          "g",

@@ -46,7 +46,6 @@ class KeptMoments {
 
 // What somebody wants of a run on its way beside the files that its scene asks for: a film, or a program that
 // looks at the grains now and then.
-
 struct FrameWishes {
     // Steps at which frames are handed out (RunDriver::next()), rising. Those before the run's first step do
     // not come.

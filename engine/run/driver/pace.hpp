@@ -46,7 +46,6 @@ class RecentRate {
 };
 
 // Wall time by stage of a run.
-
 class Stopwatch {
   public:
     double seconds() const { return std::chrono::duration<double>(Watch::now() - start_).count(); }

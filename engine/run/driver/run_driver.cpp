@@ -262,7 +262,6 @@ void RunDriver::close(FirstFailure& failure) {
 }
 
 // What a run says of itself: to its user, and in run.json.
-
 std::string RunDriver::found_packing_text() const {
     if (!found_packing_) return "";
     return fmt::format(

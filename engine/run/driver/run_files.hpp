@@ -23,7 +23,6 @@ namespace grainreel {
 
 // Means of the measures over the last periods of a run: a single row of a shaken bed says where in its period
 // it was taken.
-
 class LateMeans {
   public:
     // Over the last ten periods of the drive, or as many whole ones as there are; without a drive over the

@@ -34,7 +34,6 @@ struct RunRequest {
 };
 
 // What is made in a run's folder beside the run itself, on threads of its own: a film.
-
 class SideWork {
   public:
     virtual ~SideWork() = default;

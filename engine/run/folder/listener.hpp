@@ -17,7 +17,6 @@
 namespace grainreel {
 
 // How far a run has come.
-
 struct Progress {
     enum class Stage {
         growing,
@@ -117,7 +116,6 @@ class LoggingListener final : public RunListener {
 ReplayWatcher replay_progress(std::function<void(const Progress&)> tell);
 
 // What lies at hand for everybody who works on one run's folder.
-
 struct RunDesk {
     explicit RunDesk(RunListener& to) : listener(to) {}
 

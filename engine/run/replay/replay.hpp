@@ -41,7 +41,6 @@ void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& w
 
 // A run on disk brought back to one step after the other. Steps that rise cost no more than the run itself
 // did from the first to the last of them: the engine goes on from one to the next.
-
 class Replayer {
   public:
     // kept: the run's checkpoints by rising step. run: named in messages.
@@ -66,7 +65,6 @@ class Replayer {
 
 // The checkpoints of a run's folder that are of this run: with its scene, so far as that decides the future,
 // and at the step that they are named by. A file from elsewhere leads nowhere that this run has been.
-
 struct OwnCheckpoints {
     std::vector<KeptCheckpoint> kept;  // by rising step; the last one is whole
     std::vector<std::string> news;     // of those that are passed over: which, and why

@@ -38,7 +38,6 @@ bool files_reach(const std::filesystem::path& run, const Scene& scene, const Pla
                  std::int64_t step);
 
 // The growing files of a run that goes on, before any of them is touched.
-
 struct ReadyFiles {
     bool key_moments = false;      // the run goes on with them
     std::string key_moments_lost;  // what is wrong with them; empty: nothing, or the run has none

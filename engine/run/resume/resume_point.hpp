@@ -43,7 +43,6 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const std::f
 
 // Changes to a scene that a run may take up while it goes on (`resume --accept`): those that leave stiffness
 // and step as they are.
-
 struct AcceptedChange {
     std::string key;        // "drive.amplitude"
     std::string then, now;  // as TOML

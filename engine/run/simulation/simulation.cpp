@@ -108,7 +108,6 @@ int Simulation::threads() const {
 }
 
 // What leaves a simulation: frames, measures, fields and contacts.
-
 Frame Simulation::frame() const {
     const Impl& m = *impl_;
     Frame f;

@@ -20,7 +20,6 @@
 namespace grainreel {
 
 // A contact as one who asks what pushes a grain wants to know it.
-
 struct ContactForce {
     std::int32_t first, second;  // ids; second is -1 - face for a wall
     Vec3 normal;                 // unit, from first to second

@@ -25,7 +25,6 @@ namespace grainreel {
 // two threads 1.02 to 1.03 times. A bed on one thread that fits into the cache gains nothing and would take
 // up to 1.6 % more instructions, so its grains do not go ahead (docs/notes/performance.md, "Three devices of
 // the step").
-
 struct Vanguard {
     std::int32_t next = 0,
                  end = 0;  // the grains [next, end) may begin their next step; none of an empty range

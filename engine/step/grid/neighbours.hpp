@@ -67,7 +67,6 @@ std::int32_t keep_near(const Grains& grains, std::int32_t i, double skin, double
 
 // Which glued grains are near a place. They are sorted into boxes once, at rest: each body that has some
 // takes its boxes along.
-
 class GluedSearch {
   public:
     // Glued grains and faces must outlive the search. period: m, of x; 0 for none.

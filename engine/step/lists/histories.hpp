@@ -17,7 +17,6 @@ namespace grainreel {
 
 // Brings the numbers of contacts into a new order. Most contacts that stood side by side still do so in the
 // new order, and are moved a block at a time.
-
 class Reorder {
   public:
     void reserve(std::size_t contacts) {

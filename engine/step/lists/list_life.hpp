@@ -15,7 +15,6 @@
 namespace grainreel {
 
 // How far and how fast the points of walls move. Lists last until they may have moved too far.
-
 class WallWays {
   public:
     // The surroundings must outlive it, and their meshes stay the same.
