@@ -25,12 +25,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void open_checkpoint(FilmedRecord& one, const fs::path& file, const Assignments& sets) {
+void open_checkpoint(AskedRunWithFilm& one, const fs::path& file, const Assignments& sets) {
     one.state = std::make_unique<RestoredCheckpoint>(file);
     one.film = scene_of_checkpoint_to_draw(file, sets);
 }
 
-void open_table(FilmedRecord& one, const fs::path& file, const Assignments& sets,
+void open_table(AskedRunWithFilm& one, const fs::path& file, const Assignments& sets,
                 const ReadingOptions& reading) {
     FrameRequest request;
     request.reading = reading;
@@ -49,19 +49,19 @@ void open_table(FilmedRecord& one, const fs::path& file, const Assignments& sets
 
 }  // namespace
 
-std::unique_ptr<const FilmedRecord> open_filmed_run(const fs::path& folder, const Assignments& sets) {
-    auto one = std::make_unique<FilmedRecord>();
+std::unique_ptr<const AskedRunWithFilm> open_filmed_run(const fs::path& folder, const Assignments& sets) {
+    auto one = std::make_unique<AskedRunWithFilm>();
     const bool for_questions = true;
     one->run = std::make_unique<RecordedRun>(folder, sets, for_questions);
-    one->record = &one->run->record();
+    one->asked = &one->run->record();
     return one;
 }
 
-std::unique_ptr<const FilmedRecord> open_filmed_state(const fs::path& file, const Assignments& sets,
-                                                      const ReadingOptions& reading) {
-    auto one = std::make_unique<FilmedRecord>();
+std::unique_ptr<const AskedRunWithFilm> open_filmed_state(const fs::path& file, const Assignments& sets,
+                                                          const ReadingOptions& reading) {
+    auto one = std::make_unique<AskedRunWithFilm>();
     is_checkpoint(file) ? open_checkpoint(*one, file, sets) : open_table(*one, file, sets, reading);
-    one->record = one->state.get();
+    one->asked = one->state.get();
     return one;
 }
 

@@ -1,4 +1,5 @@
-// A record that is asked questions, with the film that pictures of the answers are drawn by.
+// Questions that need the film of a run: which grain or wall is at a pixel of its picture, and a picture of a
+// moment with the answer in it. Both are shown as the film would show the moment.
 #pragma once
 
 #include <filesystem>
@@ -22,8 +23,10 @@
 
 namespace grainreel {
 
-struct FilmedRecord {
-    const AskedRun* record = nullptr;
+// A run, or a single state of one, that is asked questions, with the film by which pictures of the answers
+// are drawn.
+struct AskedRunWithFilm {
+    const AskedRun* asked = nullptr;
     const FilmedScene& scene() const { return run ? run->scene() : *film; }  // with its film
 
     std::unique_ptr<const RecordedRun> run;  // of a run's folder
@@ -31,19 +34,17 @@ struct FilmedRecord {
     std::optional<FilmedScene> film;         // of a single state
 };
 
-// A run's folder. sets: as for a RecordedRun. Throws UserError as above.
-std::unique_ptr<const FilmedRecord> open_filmed_run(const std::filesystem::path& folder,
-                                                    const Assignments& sets);
+// Opens a run's folder. sets: as for a RecordedRun. Throws UserError as a RecordedRun does.
+std::unique_ptr<const AskedRunWithFilm> open_filmed_run(const std::filesystem::path& folder,
+                                                        const Assignments& sets);
 
-// A single state of a run, without the run's folder: a checkpoint, or a table of grains. A checkpoint holds
-// its scene. A table takes that of the scene.toml beside it; without one its species are "type 1", "type 2"
-// and so on, of unknown density, in no container. Throws UserError when the file cannot be read.
-// Files of other programs are read as `reading` says.
-std::unique_ptr<const FilmedRecord> open_filmed_state(const std::filesystem::path& file,
-                                                      const Assignments& sets,
-                                                      const ReadingOptions& reading = {});
-
-// Which grain or wall is at a pixel of a film's picture.
+// Opens a single state of a run, without the run's folder: a checkpoint, or a table of grains. A checkpoint
+// holds its scene. A table takes the scene of the scene.toml beside it; without one its species are "type 1",
+// "type 2" and so on, of unknown density, in no container. Throws UserError when the file cannot be read.
+// `reading` says how files of other programs are read.
+std::unique_ptr<const AskedRunWithFilm> open_filmed_state(const std::filesystem::path& file,
+                                                          const Assignments& sets,
+                                                          const ReadingOptions& reading = {});
 
 // A moment as the scene's film shows it: its size, camera, cut, hidden species. Ghosts are seen through.
 class PixelPicker {
@@ -64,8 +65,6 @@ class PixelPicker {
     Frame shown_;
     View view_;
 };
-
-// The picture of a moment with the answer to a question in it.
 
 // What the picture points out.
 struct AnswerMarks {

@@ -1,0 +1,336 @@
+#include "render/app/inspect/inspection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/frame_faults.hpp"
+#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/questions.hpp"
+#include "engine/questions/statistics.hpp"
+#include "engine/questions/steadiness.hpp"
+#include "engine/questions/where_question.hpp"
+#include "engine/run/driver/pace.hpp"
+#include "engine/run/folder/listener.hpp"
+#include "render/app/options/run_to_read.hpp"
+#include "render/film/answers/pictured_answer.hpp"
+#include "render/film/sampling/film_frames.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Inspection {
+  public:
+    explicit Inspection(const InspectRequest& request) : asks_(request) {}
+
+    Answer answer(Reporter& reporter) {
+        open(reporter);
+        const AskedRun* const asked_run = asked_->asked;
+        tell_news(*asked_run, reporter);
+        MomentFinder finder(*asked_run);
+        Answer answer = asks_.steady ? named("--steady", [&] { return steady(*asked_run); })
+                        : asks_.series()
+                            ? named("--where", [&] { return series_answer(finder, *asked_run, reporter); })
+                        : asks_.average ? mean_answer(finder, *asked_run, reporter)
+                                        : single_answer(finder, *asked_run, reporter);
+        answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
+        return answer;
+    }
+
+  private:
+    Answer steady(const AskedRun& asked_run) const {
+        const fs::path& place = asked_run.frames().path();
+        return steady_answer(place, asked_run.scene(), *asks_.steady);
+    }
+
+    Answer series_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) const {
+        if (asks_.every && takes_in_series(Needs::period))
+            throw UserError("ways over a period are known of single moments; leave --every out");
+        SeriesRequest request{*asks_.where, asks_.mean, asks_.every, !asks_.no_replay && !foreign_};
+        return series_of(finder, asked_run, request, watcher_of(reporter));
+    }
+
+    bool takes_in_series(Needs what) const {
+        const std::vector<Needs> all = needs_of(*asks_.where + " " + asks_.mean);
+        return std::find(all.begin(), all.end(), what) != all.end();
+    }
+
+    Answer single_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) {
+        const ChosenMoment chosen = snapshot_of(finder, asked_run, reporter);
+        const Snapshot& snapshot = chosen.snapshot;
+        Answer answer = answer_of(finder, snapshot, reporter);
+        answer.moment = chosen.about;
+        if (!asks_.picture.empty())
+            draw_answer(snapshot, asked_->scene(), marks_of(snapshot, answer), film_time(), asks_.picture,
+                        asks_.gl);
+        return answer;
+    }
+
+    // A question about forces gets arrows.
+    AnswerMarks marks_of(const Snapshot& snapshot, const Answer& answer) const {
+        if (!asks_.grain && !asks_.wall) {
+            const std::string count =
+                answer.grains ? fmt::format("{} of {} grains", answer.grains->size(), snapshot.frame.size())
+                              : "";
+            return {grains_in(answer), {}, count, true};
+        }
+        const AnswerForces all =
+            asks_.grain ? forces_on_grain(snapshot, *asks_.grain) : forces_on_wall(snapshot, *asks_.wall);
+        return {all.grains, all.forces, all.words, !snapshot.forces};
+    }
+
+    void open(Reporter& reporter) {
+        std::error_code ignored;
+        const bool foreign = is_foreign(asks_.run);
+        if (const std::string option = given_reading(asks_.reading); !foreign && !option.empty())
+            throw UserError(
+                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
+                            option, asks_.run.string()));
+        // Frames are counted in the file that was named, so it is read without its series.
+        asks_.reading.one = true;
+        if (foreign && asks_.draws()) return open_import(reporter);
+        asked_ = foreign || fs::is_regular_file(asks_.run, ignored)
+                     ? open_filmed_state(asks_.run, asks_.sets, asks_.reading)
+                     : open_filmed_run(asks_.run, sets_for_contacts(asks_.run));
+        // A trajectory of ours alone is no file of another program here.
+        foreign_ = dynamic_cast<const ForeignArchive*>(&asked_->asked->frames()) != nullptr;
+        asks_.no_replay = asks_.no_replay || foreign_;
+        CaptionHolds holds(asked_->scene().film);
+        asks_.moment.held = [holds](double time) mutable { return holds.begin_at(time); };
+    }
+
+    // Pictures of another program's files are those of render, so they are of the import.
+    void open_import(Reporter& reporter) {
+        const RunToRead read = run_to_read(asks_.run, asks_.reading, reporter);
+        asked_ = open_filmed_run(read.folder, sets_for_contacts(read.folder));
+        foreign_ = asks_.no_replay = asks_.moment.frame_of_file = true;
+    }
+
+    // What is damaged or not of this run is left out of answers, and the user is to know.
+    void tell_news(const AskedRun& asked_run, Reporter& reporter) {
+        const std::vector<std::string> faults = asked_run.faults();
+        for (const std::string& line : asked_run.news()) {
+            if (std::find(faults.begin(), faults.end(), line) == faults.end()) reporter.detail(line);
+            if (!fs::is_directory(asks_.run)) missing_.push_back(line);
+        }
+        for (const auto& lines : {faults, asked_run.checkpoint_news()})
+            for (const std::string& line : lines) reporter.warning(line);
+    }
+
+    // With what has contacts read, when the run kept them.
+    Assignments sets_for_contacts(const fs::path& folder) const {
+        std::error_code ignored;
+        Assignments sets = asks_.sets;
+        if (fs::exists(folder / "contacts.nc", ignored))
+            sets.push_back({"film.force_chains=true", "contacts.nc"});
+        return sets;
+    }
+
+    // Whether the question is about what only the engine knows.
+    bool asks_for_forces() const { return asks_.wall || asks_.largest_overlap; }
+
+    // s of the film; a camera that moves is somewhere else at each.
+    double film_time() const {
+        if (asks_.film_time) return *asks_.film_time;
+        return asks_.moment.frame ? static_cast<double>(*asks_.moment.frame) / asked_->scene().film.rate : 0;
+    }
+
+    bool asks_nothing() const {
+        return !asks_.where && !asks_.profile && !asks_.slice && !asks_.histogram && asks_.pixel.empty() &&
+               !asks_.pairs && !asks_.compare;
+    }
+
+    // Whether a condition or a histogram takes that.
+    bool takes(Needs what) const {
+        const std::vector<Needs> all =
+            needs_of(asks_.where.value_or("") + " " + asks_.histogram.value_or(""));
+        return std::find(all.begin(), all.end(), what) != all.end();
+    }
+
+    // Whether a kept moment lacks what is asked for.
+    bool is_to_be_brought_back(const MomentFinder& finder, const AskedMoment& asked,
+                               const AskedRun& asked_run) const {
+        if (!asked.kept || asks_for_forces()) return true;
+        if (asks_.grain) return finder.can_bring_back(asked);
+        return (takes(Needs::contacts) && !asked_run.frames().has_contacts_of(*asked.kept)) ||
+               takes(Needs::forces) || takes(Needs::period) ||
+               (asks_nothing() && finder.is_checkpoint(asked));
+    }
+
+    // A kept moment. None where it is damaged and can be brought back.
+    std::optional<Snapshot> kept_moment(const MomentFinder& finder, const AskedMoment& asked,
+                                        Reporter& reporter) const {
+        try {
+            return finder.kept(asked.nearest);
+        } catch (const DamagedFrame& damage) {
+            if (asks_.no_replay || !asked.kept || !finder.can_bring_back(asked)) throw;
+            reporter.warning(fmt::format("{}; the moment is brought back", damage.what()));
+            return std::nullopt;
+        }
+    }
+
+    struct ChosenMoment {
+        Snapshot snapshot;
+        AnswerMoment about;
+    };
+
+    ChosenMoment snapshot_of(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) {
+        if (asks_.moment.cycle) *asks_.moment.cycle += asks_.phase;
+        const AskedMoment asked = finder.find(asks_.moment);
+        const char* last = asked.last ? "the run's last moment, " : "";
+        if (foreign_) check_known(asked, asked_run);
+        if (asks_.no_replay && asks_for_forces())
+            throw UserError(
+                "--no-replay: forces on walls and overlaps are not kept, they are brought back; leave it "
+                "out");
+        const bool as_kept = asks_.no_replay || !is_to_be_brought_back(finder, asked, asked_run);
+        if (auto kept = as_kept ? kept_moment(finder, asked, reporter) : std::nullopt) {
+            if (!asked.kept)
+                missing_.push_back(
+                    fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
+            const Frame& moment = asked_run.moments()[asked.nearest];
+            return {std::move(*kept),
+                    {moment.time, moment.step,
+                     fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
+                                 asked_run.moments().size())}};
+        }
+        Snapshot snapshot = takes(Needs::period) ? finder.brought_back_with_ways(asked, watcher_of(reporter))
+                                                 : finder.brought_back(asked, watcher_of(reporter));
+        const Frame& frame = snapshot.frame;
+        AnswerMoment about{frame.time, frame.step, fmt::format("{}brought back", last)};
+        return {std::move(snapshot), std::move(about)};
+    }
+
+    // Nothing of another program's run can be brought back.
+    void check_known(const AskedMoment& asked, const AskedRun& asked_run) const {
+        if (asks_for_forces())
+            throw UserError(
+                fmt::format("{}: {}: forces on walls and overlaps are known of runs of ours alone",
+                            asks_.wall ? "--wall" : "--largest-overlap", asks_.run.string()));
+        if (takes(Needs::contacts) && !asked_run.frames().has_contacts_of(asked.nearest))
+            throw UserError(
+                fmt::format("{}: says no contacts of that moment; name a file that has them by --contacts",
+                            asks_.run.string()));
+        if (takes(Needs::forces) || takes(Needs::period))
+            throw UserError(
+                fmt::format("{}: a quantity that is asked for is known of runs of ours alone; "
+                            "--help lists the others, without a *",
+                            asks_.run.string()));
+    }
+
+    static ReplayWatcher watcher_of(Reporter& reporter) {
+        return replay_progress([&reporter](const Progress& progress) { reporter.progress(progress); });
+    }
+
+    // Over periods up to the moment.
+    Answer mean_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) const {
+        const AskedMoment asked = finder.find(asks_.moment);
+        const bool replay = !asks_.no_replay && finder.can_bring_back(asked);
+        if (!replay && asks_for_forces())
+            throw UserError(
+                "--average: forces on walls and overlaps are not kept, and nothing is brought back here; "
+                "leave "
+                "--no-replay out, or run the scene again with output.checkpoints");
+        MeanAnswer mean(asks_.limit);
+        std::optional<Histogram> histogram;
+        if (asks_.histogram) histogram.emplace(*asks_.histogram);
+        std::size_t moments = 0, without_grain = 0;
+        double bin = 0;
+        finder.over_periods(asked, *asks_.average, replay, watcher_of(reporter), [&](Snapshot snapshot) {
+            ++moments;
+            // Grains come and go; bins of all moments are the same.
+            if (bin == 0 && snapshot.frame.size() > 0) bin = snapshot.bin();
+            snapshot.bin_width = bin;
+            if (asks_.grain && !snapshot.place_of(*asks_.grain))
+                ++without_grain;
+            else if (histogram)
+                named("--histogram", [&] { return histogram->add(snapshot); });
+            else
+                mean.add(answer_of(finder, snapshot, reporter), snapshot.frame.time);
+        });
+        if (moments == 0)
+            throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
+                                        asked_run.frames().path().string(), *asks_.average, asked.time));
+        if (without_grain == moments)
+            throw UserError(fmt::format("--grain: no grain has the id {} at any of the {} moments",
+                                        *asks_.grain, moments));
+        Answer answer = histogram
+                            ? named("--histogram",
+                                    [&] { return histogram->answer(static_cast<std::size_t>(asks_.bins)); })
+                            : mean.mean();
+        if (without_grain > 0)
+            answer.notes.push_back(
+                fmt::format("the grain is not there at {} of the {} moments", without_grain, moments));
+        answer.moment = {
+            asked.time, asked.step,
+            fmt::format("mean over {} moments of the {} periods before", moments, *asks_.average)};
+        return answer;
+    }
+
+    Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {
+        if (asks_.wall)
+            return named("--wall", [&] { return wall_answer(snapshot, *asks_.wall, asks_.limit); });
+        if (asks_.largest_overlap) return largest_overlap_answer(snapshot, asks_.limit);
+        if (asks_.grain) return named("--grain", [&] { return grain_answer(snapshot, *asks_.grain); });
+        if (asks_.where)
+            return named("--where", [&] { return where_answer(snapshot, *asks_.where, asks_.limit); });
+        if (asks_.profile)
+            return named("--profile", [&] { return profile_answer(snapshot, *asks_.profile); });
+        if (asks_.slice)
+            return named("--slice", [&] { return slice_answer(snapshot, *asks_.slice, asks_.limit); });
+        if (asks_.histogram)
+            return named("--histogram", [&] {
+                return histogram_answer(snapshot, *asks_.histogram, static_cast<std::size_t>(asks_.bins));
+            });
+        if (!asks_.pixel.empty())
+            return named("--pixel", [&] {
+                Answer there = PixelPicker(snapshot, asked_->scene(), film_time())
+                                   .at(asks_.pixel[0], asks_.pixel[1], asks_.through);
+                if (there.tables[0].rows.empty())
+                    throw UserError(fmt::format("nothing is at {:g},{:g}", asks_.pixel[0], asks_.pixel[1]));
+                return there;
+            });
+        if (asks_.pairs)
+            return named("--pair-distribution", [&] { return pair_distribution_answer(snapshot); });
+        if (asks_.compare) {
+            const AskedMoment earlier = finder.find({.at = asks_.compare, .at_option = "--compare"});
+            const bool replay = !earlier.kept && !asks_.no_replay;
+            const Snapshot before =
+                replay ? finder.brought_back(earlier, watcher_of(reporter)) : finder.kept(earlier.nearest);
+            return named("--compare", [&] { return compare_answer(before, snapshot, asks_.limit); });
+        }
+        return overview_of(snapshot);
+    }
+
+    // A mistake in a question gets the option's name.
+    template <class Ask>
+    static auto named(const char* option, const Ask& ask) -> decltype(ask()) {
+        try {
+            return ask();
+        } catch (const UserError& mistake) {
+            throw UserError(fmt::format("{}: {}", option, mistake.what()));
+        }
+    }
+
+    InspectRequest asks_;
+    std::unique_ptr<const AskedRunWithFilm> asked_;  // once it is open
+    bool foreign_ = false;                           // it is of another program
+    std::vector<std::string> missing_;               // what an answer lacks
+};
+
+}  // namespace
+
+Answer inspected(const InspectRequest& request, Reporter& reporter) {
+    return Inspection(request).answer(reporter);
+}
+
+}  // namespace grainreel

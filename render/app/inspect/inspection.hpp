@@ -1,0 +1,56 @@
+// The verb `inspect` behind its options: opens what is asked, brings the moment back where it has to, and
+// finds the answer. Each kind of question is a function of engine/questions; here only the right one is
+// chosen.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/files/frames/frame_archive.hpp"
+#include "engine/questions/answer.hpp"
+#include "engine/questions/asked_moment.hpp"
+#include "engine/scene/keys/keys.hpp"
+#include "render/app/messages/reporter.hpp"
+#include "render/picture/gl/provider.hpp"
+
+namespace grainreel {
+
+// What was typed. At most one question is set; without one the answer is an overview of the moment.
+struct InspectRequest {
+    std::filesystem::path run;
+    ReadingOptions reading;
+    Assignments sets;  // other values for keys of [film]
+
+    MomentRequest moment;
+    double phase = 0;                      // turns into the period, beside moment.cycle
+    std::optional<double> average, every;  // periods; s
+    bool over_time = false, no_replay = false;
+
+    std::optional<std::int64_t> grain;  // id
+    std::optional<std::string> wall, where, profile, slice, histogram;
+    std::optional<std::string> steady;  // column of measures.csv
+    std::optional<double> compare;      // s, of the earlier moment
+    std::vector<double> pixel;          // x, y; empty: not asked
+    bool through = false, largest_overlap = false, pairs = false;
+    std::string mean;  // a quantity, beside a series
+    int bins = 20;
+    std::size_t limit = 10;
+
+    std::filesystem::path picture;    // to be drawn; empty: none
+    std::optional<double> film_time;  // s
+    gl::Provider gl = gl::Provider::automatic;
+
+    bool json = false, csv = false;  // how the answer is printed
+
+    bool series() const { return over_time || every.has_value(); }
+    bool draws() const { return !picture.empty() || !pixel.empty(); }
+};
+
+// Draws the picture too, where one is asked for. Tells the reporter what is damaged and how far the work is.
+// Throws UserError for a question that cannot be answered.
+Answer inspected(const InspectRequest& request, Reporter& reporter);
+
+}  // namespace grainreel
