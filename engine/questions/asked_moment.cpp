@@ -45,35 +45,35 @@ std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Fram
 
 // A run that was broken off has come further than its last kept moment.
 double MomentFinder::last_time() const {
-    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
-    const double last = record_.to();
-    return kept.empty() ? last : std::max(last, record_.clock().time(kept.back().step));
+    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
+    const double last = run_.to();
+    return kept.empty() ? last : std::max(last, run_.clock().time(kept.back().step));
 }
 
 AskedMoment MomentFinder::find(const MomentRequest& request) const {
-    const Clock& clock = record_.clock();
-    const std::vector<Frame>& moments = record_.moments();
+    const Clock& clock = run_.clock();
+    const std::vector<Frame>& moments = run_.moments();
     const auto named = [&](double time, const char* option) {
-        const double from = record_.from(), to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
+        const double from = run_.from(), to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
         // A run of 8 s ends with its last whole step, which may lie a little before.
         if (time > to && time <= to + clock.step * (1 + 1e-9)) time = to;
         if (!(time >= from - hair && time <= to + hair))
             throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
                                         option, time, from, to));
         AskedMoment asked;
-        asked.nearest = record_.frames().nearest(time);
+        asked.nearest = run_.frames().nearest(time);
         asked.step = clock.step > 0 ? std::llround(time / clock.step) : moments[asked.nearest].step;
         if (moments[asked.nearest].step == asked.step) asked.kept = asked.nearest;
         asked.time = clock.step > 0 ? clock.time(asked.step) : moments[asked.nearest].time;
         return asked;
     };
     if (request.at) return named(*request.at, request.at_option);
-    if (request.frame && record_.frames().scene() == nullptr)
-        return kept_frame(*request.frame, record_.frames().path().string());
-    if (request.frame && request.frame_of_file) return kept_frame(*request.frame, record_.scene().title);
+    if (request.frame && run_.frames().scene() == nullptr)
+        return kept_frame(*request.frame, run_.frames().path().string());
+    if (request.frame && request.frame_of_file) return kept_frame(*request.frame, run_.scene().title);
     if (request.frame) return named(clock.time(step_of_frame(request)), "--frame");
     if (request.cycle) {
-        if (!record_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
+        if (!run_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
         return named(clock.time(clock.step_at(*request.cycle)), "--cycle");
     }
     return last();
@@ -81,7 +81,7 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
 
 // A file of frames alone has no film: its frames are counted as they lie in it.
 AskedMoment MomentFinder::kept_frame(std::int64_t frame, const std::string& name) const {
-    const std::vector<Frame>& moments = record_.moments();
+    const std::vector<Frame>& moments = run_.moments();
     const auto count = static_cast<std::int64_t>(moments.size());
     if (frame < 0 || frame >= count)
         throw UserError(
@@ -92,25 +92,25 @@ AskedMoment MomentFinder::kept_frame(std::int64_t frame, const std::string& name
 
 // The end of a run is in its last checkpoint, and need not be among the kept moments.
 AskedMoment MomentFinder::last() const {
-    const std::vector<Frame>& moments = record_.moments();
-    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    const std::vector<Frame>& moments = run_.moments();
+    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
     const std::size_t back = moments.size() - 1;
     if (!kept.empty() && kept.back().step > moments[back].step)
-        return {kept.back().step, record_.clock().time(kept.back().step), std::nullopt, back, true};
+        return {kept.back().step, run_.clock().time(kept.back().step), std::nullopt, back, true};
     return {moments[back].step, moments[back].time, back, back, true};
 }
 
 // The step that a picture of the run's film shows. The run kept its moments, one a picture, and where a
 // caption holds a picture, as often as the film shows it.
 std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
-    const std::filesystem::path file = record_.frames().path() / kFilmMoments;
+    const std::filesystem::path file = run_.frames().path() / kFilmMoments;
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
         throw UserError(
             fmt::format("--frame: {} has no {}, so that the moments of its film are not known; give --at "
                         "TIME, or run the "
                         "scene again with output.film_moments = true",
-                        record_.frames().path().string(), kFilmMoments));
+                        run_.frames().path().string(), kFilmMoments));
     const std::int64_t frame = *request.frame;
     const auto pictures = open_frames(file, {.format = "trajectory"});
     const std::vector<std::string> damage = pictures->damage();
@@ -128,10 +128,10 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
 }
 
 Snapshot MomentFinder::kept(std::size_t index) const {
-    Snapshot snapshot{record_.scene(), record_.frame(index), record_.frames().has_contacts_of(index),
-                      record_.frames().first()};
-    snapshot.measured = record_.measured_near(index);
-    const FrameSupply supply = record_.frames().supply();
+    Snapshot snapshot{run_.scene(), run_.frame(index), run_.frames().has_contacts_of(index),
+                      run_.frames().first()};
+    snapshot.measured = run_.measured_near(index);
+    const FrameSupply supply = run_.frames().supply();
     snapshot.spins = supply.spins;
     snapshot.velocities = supply.velocities;
     if (!supply.velocities)
@@ -141,20 +141,20 @@ Snapshot MomentFinder::kept(std::size_t index) const {
 }
 
 bool MomentFinder::is_checkpoint(const AskedMoment& moment) const {
-    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
     return std::any_of(kept.begin(), kept.end(), [&](const auto& one) { return one.step == moment.step; });
 }
 
 bool MomentFinder::can_bring_back(const AskedMoment& moment) const {
-    const std::vector<KeptCheckpoint> kept = record_.checkpoints();
+    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
     return !kept.empty() && kept.front().step <= moment.step;
 }
 
 namespace {
 
 // All but the accelerations.
-Snapshot snapshot_of(const Simulation& run, const Record& record) {
-    Snapshot snapshot{record.scene(), run.frame(), true, record.frames().first()};
+Snapshot snapshot_of(const Simulation& run, const AskedRun& asked) {
+    Snapshot snapshot{asked.scene(), run.frame(), true, asked.frames().first()};
     for (const SavedContact& one : run.contacts())
         snapshot.frame.touches.push_back({one.first, one.second, one.normal});
     snapshot.measured = MeasuredRow{snapshot.frame.time, run.measured(), run.measures().values()};
@@ -167,42 +167,41 @@ Snapshot snapshot_of(const Simulation& run, const Record& record) {
 
 void MomentFinder::check_can_bring_back(const AskedMoment& moment) const {
     if (can_bring_back(moment)) return;
-    const bool none = record_.checkpoints().empty();
+    const bool none = run_.checkpoints().empty();
     throw UserError(fmt::format(
         "{}: has no checkpoint{}, so that {} brought back; ask for a kept moment with --no-replay, or "
         "run the scene again with output.checkpoints",
-        record_.frames().path().string(), none ? "s" : fmt::format(" of {:.6g} s or before", moment.time),
+        run_.frames().path().string(), none ? "s" : fmt::format(" of {:.6g} s or before", moment.time),
         none ? "no moment can be" : "this moment cannot be"));
 }
 
 Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatcher& watcher) {
     check_can_bring_back(moment);
-    const Scene& scene = record_.scene();
+    const Scene& scene = run_.scene();
     Simulation run =
-        replayed(record_.frames().path(), record_.checkpoints(), moment.step, scene.run.threads, watcher);
-    Snapshot snapshot = snapshot_of(run, record_);
+        replayed(run_.frames().path(), run_.checkpoints(), moment.step, scene.run.threads, watcher);
+    Snapshot snapshot = snapshot_of(run, run_);
     run.advance(moment.step + 1);
-    snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), record_.clock().step);
+    snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), run_.clock().step);
     return snapshot;
 }
 
 Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher) {
-    const Scene& scene = record_.scene();
+    const Scene& scene = run_.scene();
     if (!scene.drive.present)
         throw UserError("the run has no drive, so that there are no ways over a period of it");
-    const Clock& clock = record_.clock();
-    const int periods = record_.frames().periods();
+    const Clock& clock = run_.clock();
+    const int periods = run_.frames().periods();
     const AskedMoment before{clock.step_at(clock.cycles(moment.step) - periods),
                              clock.time(moment.step) - periods / scene.drive.highest_frequency(),
                              {},
                              0};
-    if (before.step < record_.moments().front().step || !can_bring_back(before))
+    if (before.step < run_.moments().front().step || !can_bring_back(before))
         throw UserError(fmt::format(
             "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",
             periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
     const Frame then =
-        replayed(record_.frames().path(), record_.checkpoints(), before.step, scene.run.threads, watcher)
-            .frame();
+        replayed(run_.frames().path(), run_.checkpoints(), before.step, scene.run.threads, watcher).frame();
     Snapshot snapshot = brought_back(moment, watcher);
     set_displacement(snapshot.frame, then, periods, period_of_depth(scene.container));
     return snapshot;
@@ -210,18 +209,18 @@ Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const R
 
 void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool replay,
                                 const ReplayWatcher& watcher, const std::function<void(Snapshot)>& see) {
-    const Clock& clock = record_.clock();
-    if (!record_.scene().drive.present) throw UserError("--average: the run has no drive, and so no periods");
+    const Clock& clock = run_.clock();
+    if (!run_.scene().drive.present) throw UserError("--average: the run has no drive, and so no periods");
     const double end = clock.cycles(moment.step);
     const std::int64_t from = clock.step_at(end - periods);
-    if (clock.time(from) < record_.from() - 1e-9)
+    if (clock.time(from) < run_.from() - 1e-9)
         throw UserError(
             fmt::format("--average: {} periods before {:.6g} s lie before the run's first moment, {:.6g} s; "
                         "ask for fewer",
-                        periods, moment.time, record_.from()));
+                        periods, moment.time, run_.from()));
     if (!replay) {
-        for (std::size_t k = 0; k < record_.moments().size(); ++k)
-            if (const std::int64_t step = record_.moments()[k].step; step > from && step <= moment.step)
+        for (std::size_t k = 0; k < run_.moments().size(); ++k)
+            if (const std::int64_t step = run_.moments()[k].step; step > from && step <= moment.step)
                 see(kept(k));
         return;
     }
@@ -229,11 +228,11 @@ void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool 
     const auto step_of = [&](std::int64_t k) {
         return clock.step_at(end - static_cast<double>(count - 1 - k) / kMomentsAPeriod);
     };
-    Simulation run = replayed(record_.frames().path(), record_.checkpoints(), step_of(0),
-                              record_.scene().run.threads, watcher);
+    Simulation run =
+        replayed(run_.frames().path(), run_.checkpoints(), step_of(0), run_.scene().run.threads, watcher);
     for (std::int64_t k = 0; k < count; ++k) {
         run.advance(step_of(k));
-        see(snapshot_of(run, record_));
+        see(snapshot_of(run, run_));
         if (!watcher(static_cast<double>(k + 1) / static_cast<double>(count)))
             throw RunError("stopped before the moments were reached");
     }
@@ -242,10 +241,10 @@ void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool 
 void MomentFinder::at_every(double interval, const ReplayWatcher& watcher,
                             const std::function<void(const Snapshot&)>& see) {
     constexpr double most = 1e6, rounding = 1e-9;
-    const Clock& clock = record_.clock();
-    const std::int64_t last_step = record_.moments().back().step;
-    const double first = std::ceil(record_.from() / interval - rounding),
-                 count = std::floor(record_.to() / interval + rounding) - first + 1;
+    const Clock& clock = run_.clock();
+    const std::int64_t last_step = run_.moments().back().step;
+    const double first = std::ceil(run_.from() / interval - rounding),
+                 count = std::floor(run_.to() / interval + rounding) - first + 1;
     if (interval < clock.step)
         throw UserError(fmt::format(
             "--every: is shorter than a step of the run, {:.4g} s; take a longer time", clock.step));
@@ -261,11 +260,11 @@ void MomentFinder::at_every(double interval, const ReplayWatcher& watcher,
     begin.step = step_of(0);
     begin.time = clock.time(begin.step);
     check_can_bring_back(begin);
-    Simulation run = replayed(record_.frames().path(), record_.checkpoints(), begin.step,
-                              record_.scene().run.threads, watcher);
+    Simulation run =
+        replayed(run_.frames().path(), run_.checkpoints(), begin.step, run_.scene().run.threads, watcher);
     for (double k = 0; k < count; ++k) {
         run.advance(step_of(k));
-        see(snapshot_of(run, record_));
+        see(snapshot_of(run, run_));
         if (!watcher((k + 1) / count)) throw RunError("stopped before the moments were reached");
     }
 }

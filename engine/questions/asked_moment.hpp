@@ -34,7 +34,7 @@ struct AskedMoment {
 
 class MomentFinder {
   public:
-    explicit MomentFinder(const Record& record) : record_(record) {}
+    explicit MomentFinder(const AskedRun& run) : run_(run) {}
 
     // Throws UserError for a moment that the run does not have, with the option's name.
     AskedMoment find(const MomentRequest& request) const;
@@ -68,7 +68,7 @@ class MomentFinder {
     double last_time() const;
     AskedMoment last() const;
 
-    const Record& record_;
+    const AskedRun& run_;
 };
 
 }  // namespace grainreel

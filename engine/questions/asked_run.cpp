@@ -29,19 +29,19 @@ Clock clock_of_frames(const Scene& scene, const FrameArchive& frames) {
 
 }  // namespace
 
-Record::Record(std::shared_ptr<const FrameArchive> frames)
+AskedRun::AskedRun(std::shared_ptr<const FrameArchive> frames)
     : frames_(std::move(frames)),
       scene_(frames_->scene() ? *frames_->scene() : scene_of(frames_->world())),
       clock_(clock_of_frames(scene_, *frames_)) {}
 
-Record::Record(std::shared_ptr<const RunArchive> run)
+AskedRun::AskedRun(std::shared_ptr<const RunArchive> run)
     : frames_(run), run_(run.get()), scene_(*run->scene()), clock_(run->clock()) {}
 
-std::vector<std::string> Record::faults() const {
+std::vector<std::string> AskedRun::faults() const {
     return run_ ? run_->faults() : std::vector<std::string>();
 }
 
-const OwnCheckpoints& Record::own() const {
+const OwnCheckpoints& AskedRun::own() const {
     if (own_) return *own_;
     own_.emplace();
     std::error_code error;
@@ -53,7 +53,7 @@ const OwnCheckpoints& Record::own() const {
     return *own_;
 }
 
-Frame Record::frame(std::size_t index) const {
+Frame AskedRun::frame(std::size_t index) const {
     Frame frame = frames_->grains(index);
     if (std::optional<std::vector<Touch>> touches = frames_->touches(index))
         frame.touches = std::move(*touches);
@@ -63,7 +63,7 @@ Frame Record::frame(std::size_t index) const {
 RestoredCheckpoint::RestoredCheckpoint(const fs::path& file) : RestoredCheckpoint(file, restore(file)) {}
 
 RestoredCheckpoint::RestoredCheckpoint(const fs::path& file, Restored restored)
-    : Record(std::shared_ptr<const FrameArchive>(open_frames(file, {.format = "checkpoint"}))),
+    : AskedRun(std::shared_ptr<const FrameArchive>(open_frames(file, {.format = "checkpoint"}))),
       restored_(std::move(restored)) {}
 
 RestoredCheckpoint::Restored RestoredCheckpoint::restore(const fs::path& file) {
@@ -94,7 +94,7 @@ bool same_grains(const Frame& a, const Frame& b) {
 
 }  // namespace
 
-ReachableMoments::ReachableMoments(const Record& run, int threads) : run_(run) {
+ReachableMoments::ReachableMoments(const AskedRun& run, int threads) : run_(run) {
     if (threads > 0) replayer_.emplace(run.frames().path(), run.checkpoints(), threads);
     read_film_moments();
     if (!filmed_.empty()) check_film_moments();

@@ -19,15 +19,15 @@
 
 namespace grainreel {
 
-class Record {
+class AskedRun {
   public:
     // With the archive's own scene; where it has none, with one made of its world.
-    explicit Record(std::shared_ptr<const FrameArchive> frames);
+    explicit AskedRun(std::shared_ptr<const FrameArchive> frames);
     // The run's folder.
-    explicit Record(std::shared_ptr<const RunArchive> run);
-    virtual ~Record() = default;
-    Record(const Record&) = delete;
-    Record& operator=(const Record&) = delete;
+    explicit AskedRun(std::shared_ptr<const RunArchive> run);
+    virtual ~AskedRun() = default;
+    AskedRun(const AskedRun&) = delete;
+    AskedRun& operator=(const AskedRun&) = delete;
 
     const FrameArchive& frames() const { return *frames_; }
     const Scene& scene() const { return scene_; }
@@ -62,7 +62,7 @@ class Record {
 
 // A checkpoint that was restored, so that all that it measured is known. Throws UserError where it cannot be
 // used.
-class RestoredCheckpoint final : public Record {
+class RestoredCheckpoint final : public AskedRun {
   public:
     explicit RestoredCheckpoint(const std::filesystem::path& file);
 
@@ -86,8 +86,8 @@ class RestoredCheckpoint final : public Record {
 class ReachableMoments {
   public:
     // threads: of the engine; 0: nothing is brought back. Throws UserError when film_moments.nc is of another
-    // run. The record outlives it.
-    ReachableMoments(const Record& run, int threads);
+    // run. The run outlives it.
+    ReachableMoments(const AskedRun& run, int threads);
 
     enum class Place { trajectory, film_moments, checkpoints, nowhere };
     // touches: with the contacts of the moment.
@@ -117,7 +117,7 @@ class ReachableMoments {
     std::optional<std::size_t> in_trajectory(std::int64_t step) const;
     Frame film_moment(std::size_t index) const;
 
-    const Record& run_;
+    const AskedRun& run_;
     std::unique_ptr<FrameArchive> film_moments_;
     std::map<std::int64_t, std::size_t> filmed_;  // places of its moments, by step
     std::optional<Replayer> replayer_;

@@ -182,13 +182,13 @@ std::vector<AnswerCell> row_of(const Snapshot& s, const SeriesRequest& request) 
     return row;
 }
 
-AnswerTable empty_table(const Record& record, const SeriesRequest& request) {
+AnswerTable empty_table(const AskedRun& run, const SeriesRequest& request) {
     AnswerTable table{"over_time",
                       fmt::format("Grains with {}", request.condition),
                       {{"time", Dimension::time, "since the drive started"},
                        {"cycles", Dimension::number, "periods of the drive"}},
                       {}};
-    for (const Species& species : record.scene().species)
+    for (const Species& species : run.scene().species)
         table.columns.push_back({"grains_" + species.name, Dimension::number, "of this species"});
     table.columns.push_back({"grains", Dimension::number, "of all"});
     if (request.mean_of.empty()) return table;
@@ -203,11 +203,11 @@ AnswerTable empty_table(const Record& record, const SeriesRequest& request) {
 }
 
 // The kept moments that are nearest to the multiples of a time, each once.
-std::vector<std::size_t> kept_nearest(const Record& record, double every) {
-    const std::vector<Frame>& moments = record.moments();
+std::vector<std::size_t> kept_nearest(const AskedRun& run, double every) {
+    const std::vector<Frame>& moments = run.moments();
     std::vector<std::size_t> all;
     std::size_t at = 0;
-    for (double k = std::ceil(record.from() / every - 1e-9); k * every <= record.to() * (1 + 1e-9); ++k) {
+    for (double k = std::ceil(run.from() / every - 1e-9); k * every <= run.to() * (1 + 1e-9); ++k) {
         const auto distance = [&](std::size_t i) { return std::abs(moments[i].time - k * every); };
         while (at + 1 < moments.size() && distance(at + 1) <= distance(at)) ++at;
         if (all.empty() || all.back() != at) all.push_back(at);
@@ -215,18 +215,18 @@ std::vector<std::size_t> kept_nearest(const Record& record, double every) {
     return all;
 }
 
-std::vector<std::size_t> kept_ones(const Record& record, const std::optional<double>& every) {
-    if (every) return kept_nearest(record, *every);
-    std::vector<std::size_t> all(record.moments().size());
+std::vector<std::size_t> kept_ones(const AskedRun& run, const std::optional<double>& every) {
+    if (every) return kept_nearest(run, *every);
+    std::vector<std::size_t> all(run.moments().size());
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
     return all;
 }
 
 }  // namespace
 
-Answer series_of(MomentFinder& finder, const Record& record, const SeriesRequest& request,
+Answer series_of(MomentFinder& finder, const AskedRun& run, const SeriesRequest& request,
                  const ReplayWatcher& watcher) {
-    Answer answer{{empty_table(record, request)}, {}};
+    Answer answer{{empty_table(run, request)}, {}};
     AnswerTable& table = answer.tables.front();
     if (request.every && request.replay) {
         finder.at_every(*request.every, watcher,
@@ -234,7 +234,7 @@ Answer series_of(MomentFinder& finder, const Record& record, const SeriesRequest
         return answer;
     }
     std::size_t damaged = 0;
-    for (const std::size_t k : kept_ones(record, request.every)) {
+    for (const std::size_t k : kept_ones(run, request.every)) {
         try {
             table.rows.push_back(row_of(finder.kept(k), request));
         } catch (const DamagedFrame&) {

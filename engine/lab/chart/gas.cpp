@@ -15,31 +15,31 @@ double GasInCube::free() const {
     return std::cbrt(count() * sphere_volume(bench_radius) / solid_fraction);
 }
 
-Gas::Gas(const Plan& plan, const GasInCube& in) : cube(in), bench(plan, 0.5 * bench_radius) {
+Gas::Gas(const Plan& plan, const GasInCube& in) : cube(in), world(plan, 0.5 * bench_radius) {
     const double edge = cube.edge();
     for (int axis = 0; axis < 3; ++axis) {
-        bench.add_plane(Vec3(0, 0, 0), Vec3::Unit(axis));
-        bench.add_plane(edge * Vec3::Unit(axis), -Vec3::Unit(axis));
+        world.add_plane(Vec3(0, 0, 0), Vec3::Unit(axis));
+        world.add_plane(edge * Vec3::Unit(axis), -Vec3::Unit(axis));
     }
     Random random(cube.seed, Stream::velocities);
     for (int k = 0; k < cube.count(); ++k) {
         const Vec3 cell(k % cube.side, k / cube.side % cube.side, k / cube.side / cube.side);
         const double u = random.normal(), v = random.normal(), w = random.normal();
-        bench.add((cell + 0.5 * Vec3::Ones()) * edge / cube.side, cube.speed * Vec3(u, v, w));
+        world.add((cell + 0.5 * Vec3::Ones()) * edge / cube.side, cube.speed * Vec3(u, v, w));
     }
-    bench.start();
+    world.start();
 }
 
 double Gas::temperature() const {
-    return 2.0 / 3 * kinetic_energy(bench.grains).translation / (cube.count() * bench_mass());
+    return 2.0 / 3 * kinetic_energy(world.grains).translation / (cube.count() * bench_mass());
 }
 
 double Gas::energy() const {
-    return bench.kinetic() + summarise_contacts(*bench.loop, bench.step).stored;
+    return world.kinetic() + summarise_contacts(*world.loop, world.step).stored;
 }
 
 void Gas::run_to(double seconds) {
-    bench.run(static_cast<std::int64_t>(seconds / bench.plan.clock.step) - bench.step);
+    world.run(static_cast<std::int64_t>(seconds / world.plan.clock.step) - world.step);
 }
 
 namespace {
@@ -84,17 +84,17 @@ class Watched {
         : gas_(plan, cube_of(seed)),
           loses_(plan.grain[0].restitution < 1),
           start_(gas_.energy()),
-          balance_(gas_.bench.around, gas_.bench.grains, *gas_.bench.loop, 0, plan.clock.step) {}
+          balance_(gas_.world.around, gas_.world.grains, *gas_.world.loop, 0, plan.clock.step) {}
     Watched(const Watched&) = delete;
 
     void run(std::int64_t steps) {
-        if (!loses_) return gas_.bench.run(steps);
+        if (!loses_) return gas_.world.run(steps);
         for (; steps > 0; --steps) {
-            gas_.bench.run(1);
-            balance_.note(gas_.bench.step);
+            gas_.world.run(1);
+            balance_.note(gas_.world.step);
         }
     }
-    std::int64_t step() const { return gas_.bench.step; }
+    std::int64_t step() const { return gas_.world.step; }
     GasEnergy energy() const {
         if (!loses_) return {step(), gas_.energy() / start_ - 1, 0};
         return {step(), balance_.residual() / start_, balance_.terms().lost() / start_};

@@ -23,10 +23,10 @@ struct GasInCube {
     double edge() const { return free() + 2 * bench_radius; }
 };
 
-// Grains are bench_radius and bench_density. The bench is started.
+// Grains are bench_radius and bench_density. The world is started.
 struct Gas {
     GasInCube cube;
-    Bench bench;
+    SmallWorld world;
 
     Gas(const Plan& plan, const GasInCube& cube);
     double temperature() const;  // m2/s2

@@ -38,8 +38,8 @@ inline PairPlan latching_pair(double stiffness, double restitution, double frict
     return pair;
 }
 
-// On one thread. The loop refers to the rest, so a bench stays where it is.
-struct Bench {
+// On one thread. The loop refers to the rest, so a world stays where it is.
+struct SmallWorld {
     Plan plan;
     Surroundings around;
     Grains grains;
@@ -47,13 +47,14 @@ struct Bench {
     std::unique_ptr<StepLoop> loop;
     std::int64_t step = 0;
 
-    Bench(const PairPlan& contact, double step_length, Integrator integrator = Integrator::velocity_verlet) {
+    SmallWorld(const PairPlan& contact, double step_length,
+               Integrator integrator = Integrator::velocity_verlet) {
         plan.integrator = integrator;
         plan.grain = plan.wall = {contact};
         plan.clock.step = step_length;
         around.skin = 0.2 * bench_radius;
     }
-    explicit Bench(const Plan& planned, double skin) : plan(planned) { around.skin = skin; }
+    explicit SmallWorld(const Plan& planned, double skin) : plan(planned) { around.skin = skin; }
 
     Face& add_plane(const Vec3& point, const Vec3& normal) {
         Face face;

@@ -20,10 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // Frames as the film shows them.
-class AsFilmed final : public Record {
+class AsFilmed final : public AskedRun {
   public:
     AsFilmed(const RecordedRun& run, std::shared_ptr<const RunArchive> archive)
-        : Record(std::move(archive)), run_(run) {}
+        : AskedRun(std::move(archive)), run_(run) {}
 
     Frame frame(std::size_t index) const override { return run_.frame(index); }
 

@@ -63,7 +63,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     // With all that the scene's film shows. Throws as the archive does.
     Frame frame(std::size_t index) const;
     // For questions: the archive, whose frames are as frame() gives them.
-    const Record& record() const { return *record_; }
+    const AskedRun& record() const { return *record_; }
     // What pictures may take from it, and what adds that to them.
     const PartSupply& of_parts() const { return *this; }
     const PictureParts& parts() const { return *parts_; }
@@ -91,7 +91,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     bool for_questions_;
     FilmedScene scene_;
     std::shared_ptr<RunArchive> archive_;
-    std::unique_ptr<const Record> record_;
+    std::unique_ptr<const AskedRun> record_;
     std::vector<double> measured_;        // s, times of the rows of measures
     std::optional<OutflowSums> outflow_;  // of a film that counts it
     std::optional<WearReader> wear_;      // of a film whose walls have its colours

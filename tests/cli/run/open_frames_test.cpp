@@ -257,7 +257,7 @@ class Foreign final : public FrameArchive {
 };
 
 TEST(FrameArchives, WithoutASceneAnswerQuestions) {
-    const Record record(std::make_shared<const Foreign>());
+    const AskedRun record(std::make_shared<const Foreign>());
     EXPECT_TRUE(record.checkpoints().empty());
     const MomentFinder finder(record);
     const AskedMoment asked = finder.find({});

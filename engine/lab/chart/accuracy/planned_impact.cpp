@@ -31,18 +31,18 @@ std::string scene_text(const ImpactScene& impact) {
            "[run]\nduration = 1\n";
 }
 
-Vec3 momentum_of(const Bench& bench) {
+Vec3 momentum_of(const SmallWorld& world) {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < bench.grains.size(); ++i)
-        sum += bench.grains.mass(i) * bench.grains.motion[i].velocity;
+    for (std::size_t i = 0; i < world.grains.size(); ++i)
+        sum += world.grains.mass(i) * world.grains.motion[i].velocity;
     return sum;
 }
 
-Vec3 angular_momentum_of(const Bench& bench) {
+Vec3 angular_momentum_of(const SmallWorld& world) {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < bench.grains.size(); ++i) {
-        sum += bench.grains.mass(i) * bench.grains.place[i].position.cross(bench.grains.motion[i].velocity);
-        sum += bench.grains.inertia(i) * bench.grains.motion[i].spin;
+    for (std::size_t i = 0; i < world.grains.size(); ++i) {
+        sum += world.grains.mass(i) * world.grains.place[i].position.cross(world.grains.motion[i].velocity);
+        sum += world.grains.inertia(i) * world.grains.motion[i].spin;
     }
     return sum;
 }
@@ -61,30 +61,30 @@ double usual_step() {
 }
 
 Impact make_impact(const ImpactScene& impact, const Plan& plan, double step, double angle, double phase) {
-    Bench bench(plan, 0.2 * bench_radius);
-    bench.plan.clock.step = step;
+    SmallWorld world(plan, 0.2 * bench_radius);
+    world.plan.clock.step = step;
     const Vec3 velocity = impact.speed * Vec3(std::cos(angle), std::sin(angle), 0);
-    bench.add(-phase * step * velocity, velocity);
+    world.add(-phase * step * velocity, velocity);
     if (impact.wall) {
-        bench.add_plane(Vec3(bench_radius, 0, 0), Vec3(-1, 0, 0));
+        world.add_plane(Vec3(bench_radius, 0, 0), Vec3(-1, 0, 0));
     } else {
         const double radius = impact.size_ratio * bench_radius;
-        bench.add(Vec3(bench_radius + radius, 0, 0), Vec3::Zero(),
+        world.add(Vec3(bench_radius + radius, 0, 0), Vec3::Zero(),
                   {radius, impact.density_ratio * bench_density, 1});
     }
-    bench.start();
+    world.start();
     Impact result;
-    result.energy_before = bench.kinetic();
-    const Vec3 momentum = momentum_of(bench), angular = angular_momentum_of(bench);
+    result.energy_before = world.kinetic();
+    const Vec3 momentum = momentum_of(world), angular = angular_momentum_of(world);
     const double time = impact.wall ? plan.wall[0].contact_time : plan.between(0, 1).contact_time;
-    bench.run(static_cast<std::int64_t>(std::ceil(2 * time / step)) + 5);
-    result.energy = bench.kinetic();
-    for (std::int32_t id = 0; id < static_cast<std::int32_t>(bench.grains.size()); ++id) {
-        result.velocity[id] = bench.velocity(id);
-        result.spin[id] = bench.spin(id);
+    world.run(static_cast<std::int64_t>(std::ceil(2 * time / step)) + 5);
+    result.energy = world.kinetic();
+    for (std::int32_t id = 0; id < static_cast<std::int32_t>(world.grains.size()); ++id) {
+        result.velocity[id] = world.velocity(id);
+        result.spin[id] = world.spin(id);
     }
-    result.momentum_change = (momentum_of(bench) - momentum).norm() / momentum.norm();
-    result.angular_change = (angular_momentum_of(bench) - angular).norm() / (momentum.norm() * bench_radius);
+    result.momentum_change = (momentum_of(world) - momentum).norm() / momentum.norm();
+    result.angular_change = (angular_momentum_of(world) - angular).norm() / (momentum.norm() * bench_radius);
     return result;
 }
 

@@ -20,22 +20,22 @@ PairPlan contact() {
 }
 
 // A cubic lattice on a floor, six contacts a grain that rub, and a step so short that the lists stay.
-Bench& build(Bench& bench) {
-    bench.add_floor();
-    bench.around.gravity = {0, 0, -9.81};
+SmallWorld& build(SmallWorld& world) {
+    world.add_floor();
+    world.around.gravity = {0, 0, -9.81};
     const double apart = 2 * bench_radius * (1 - 1e-4);
     for (int z = 0; z < side; ++z)
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x)
-                bench.add(apart * Vec3(x, y, z) + Vec3(0, 0, 0.9999 * bench_radius),
+                world.add(apart * Vec3(x, y, z) + Vec3(0, 0, 0.9999 * bench_radius),
                           0.01 * Vec3(y % 2, z % 2, x % 2));
-    return bench;
+    return world;
 }
 
 // ns of one thread for a step of a grain.
-double cost(Bench& bench, std::int64_t steps) {
+double cost(SmallWorld& world, std::int64_t steps) {
     const auto begin = std::chrono::steady_clock::now();
-    bench.run(steps);
+    world.run(steps);
     const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
     return taken.count() / (static_cast<double>(steps) * side * side * side);
 }
@@ -43,37 +43,37 @@ double cost(Bench& bench, std::int64_t steps) {
 // What is done to two benches alike, so that one has the thing and the other has not.
 struct Saving {
     std::string name;
-    std::function<void(Bench&)> with, without;
+    std::function<void(SmallWorld&)> with, without;
 };
 
-void shake(Bench& bench) {
+void shake(SmallWorld& world) {
     Drive drive;
     drive.present = true;
     drive.amplitude = 1e-12;  // m; the lattice stays as it is
     drive.frequency = 20;
-    bench.plan.clock.steps_per_period = 50000000;
-    bench.around.motion = WallMotion(drive, bench.plan.clock);
-    bench.plan.moving_walls = true;
-    for (Face& face : bench.around.faces) face.body.driven = true;
+    world.plan.clock.steps_per_period = 50000000;
+    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.plan.moving_walls = true;
+    for (Face& face : world.around.faces) face.body.driven = true;
 }
 
 // Every second grain is of another species, with contacts of its own.
-void mix(Bench& bench) {
-    for (std::size_t i = 0; i < bench.grains.size(); i += 2) bench.grains.species[i] = 1;
-    bench.plan.grain.assign(4, contact());
-    bench.plan.wall.assign(2, contact());
-    for (int kind : {1, 2, 3}) bench.plan.grain[kind].loading_stiffness *= 1 + 0.1 * (kind == 3 ? 2 : 1);
+void mix(SmallWorld& world) {
+    for (std::size_t i = 0; i < world.grains.size(); i += 2) world.grains.species[i] = 1;
+    world.plan.grain.assign(4, contact());
+    world.plan.wall.assign(2, contact());
+    for (int kind : {1, 2, 3}) world.plan.grain[kind].loading_stiffness *= 1 + 0.1 * (kind == 3 ? 2 : 1);
 }
 
-std::function<void(Bench&)> each_contact(const std::function<void(PairPlan&)>& change) {
-    return [change](Bench& bench) {
-        for (auto* kinds : {&bench.plan.grain, &bench.plan.wall})
+std::function<void(SmallWorld&)> each_contact(const std::function<void(PairPlan&)>& change) {
+    return [change](SmallWorld& world) {
+        for (auto* kinds : {&world.plan.grain, &world.plan.wall})
             for (PairPlan& pair : *kinds) change(pair);
     };
 }
 
 std::vector<Saving> savings() {
-    const auto nothing = [](Bench&) {};
+    const auto nothing = [](SmallWorld&) {};
     return {
         {"friction and spin", nothing, each_contact([](PairPlan& p) {
              p.model.tangential = TangentialLaw::none;
@@ -98,8 +98,8 @@ std::vector<Saving> savings() {
         {"a second species", mix, nothing},
         {"moving walls", shake, nothing},
         {"gravity", nothing,
-         [](Bench& bench) {
-             bench.around.gravity = {0, 0, 0};
+         [](SmallWorld& world) {
+             world.around.gravity = {0, 0, 0};
          }},
     };
 }
@@ -111,7 +111,7 @@ struct Measured {
 
 // Turn by turn, so that what else the machine does meets both alike.
 Measured measure(const Saving& saving, int rounds) {
-    Bench with(contact(), 1e-9), without(contact(), 1e-9);
+    SmallWorld with(contact(), 1e-9), without(contact(), 1e-9);
     saving.with(build(with)), saving.without(build(without));
     with.start(), without.start();
     constexpr std::int64_t steps = 100;

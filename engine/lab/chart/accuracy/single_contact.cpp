@@ -73,18 +73,18 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
     const double time = contact_time(smooth, restitution, effective, radius / 2), length = time / steps;
     NormalErrors errors;
     for (int phase = 0; phase < phases; ++phase) {
-        Bench bench(pair_of(smooth, restitution, effective), length, smooth.integrator);
+        SmallWorld world(pair_of(smooth, restitution, effective), length, smooth.integrator);
         const double apart = radius + 0.5 * (phase + 0.5) / phases * speed * length;
-        bench.add(Vec3(-apart, 0, 0), Vec3(speed / 2, 0, 0));
-        bench.add(Vec3(apart, 0, 0), Vec3(-speed / 2, 0, 0));
-        bench.start();
+        world.add(Vec3(-apart, 0, 0), Vec3(speed / 2, 0, 0));
+        world.add(Vec3(apart, 0, 0), Vec3(-speed / 2, 0, 0));
+        world.start();
         double pushed = 0;
         const std::int64_t most = static_cast<std::int64_t>(std::ceil(3 * steps)) + 5;
         for (std::int64_t n = 0; n < most; ++n) {
-            bench.run(1);
-            pushed += bench.grains.load[0].force.squaredNorm() > 0;
+            world.run(1);
+            pushed += world.grains.load[0].force.squaredNorm() > 0;
         }
-        const double e = (bench.grains.motion[1].velocity - bench.grains.motion[0].velocity).x() / speed;
+        const double e = (world.grains.motion[1].velocity - world.grains.motion[0].velocity).x() / speed;
         // The grains come back in spatial order, which for two on a line is that of their places.
         errors.restitution = std::max(errors.restitution, std::abs(std::abs(e) - restitution));
         errors.contact_time = std::max(errors.contact_time, std::abs(pushed / steps - 1));
@@ -100,14 +100,14 @@ struct Rebound {
 
 Rebound oblique(const Method& method, double restitution, double steps, double angle) {
     const double time = contact_time(method, restitution, mass(), radius), length = time / steps;
-    Bench bench(pair_of(method, restitution, mass()), length, method.integrator);
-    bench.add_floor();
+    SmallWorld world(pair_of(method, restitution, mass()), length, method.integrator);
+    world.add_floor();
     const double down = speed * std::cos(angle);
-    bench.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
-    bench.start();
+    world.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
+    world.start();
     // A grazing impact of a Hertz contact lasts longer, by the fifth root of its slowness.
-    bench.run(static_cast<std::int64_t>(std::ceil(4 * steps)) + 5);
-    return {bench.grains.motion[0].velocity.x() / speed, radius * bench.grains.motion[0].spin.y() / speed};
+    world.run(static_cast<std::int64_t>(std::ceil(4 * steps)) + 5);
+    return {world.grains.motion[0].velocity.x() / speed, radius * world.grains.motion[0].spin.y() / speed};
 }
 
 }  // namespace
@@ -135,16 +135,16 @@ namespace {
 // Tangential velocity over the push at 24 times, evenly spread over three contacts.
 std::vector<double> shear(const Method& method, std::int64_t steps_between, double contact) {
     const double length = contact / (8 * static_cast<double>(steps_between));
-    Bench bench(pair_of(method, 1, mass()), length, method.integrator);
-    bench.add_floor();
+    SmallWorld world(pair_of(method, 1, mass()), length, method.integrator);
+    world.add_floor();
     const double push = 0.02, gravity = 4 * push * std::sqrt(stiffness / mass());
-    bench.around.gravity = {0, 0, -gravity};
-    bench.add(Vec3(0, 0, radius - mass() * gravity / stiffness), Vec3(push / 2, 0, -push));
-    bench.start();
+    world.around.gravity = {0, 0, -gravity};
+    world.add(Vec3(0, 0, radius - mass() * gravity / stiffness), Vec3(push / 2, 0, -push));
+    world.start();
     std::vector<double> velocities;
     for (int k = 0; k < 24; ++k) {
-        bench.run(steps_between);
-        velocities.push_back(bench.grains.motion[0].velocity.x() / push);
+        world.run(steps_between);
+        velocities.push_back(world.grains.motion[0].velocity.x() / push);
     }
     return velocities;
 }
@@ -163,15 +163,15 @@ double shear_error(const Method& method, double steps) {
 namespace {
 
 double drift_from(double height, double gravity, const Method& method, double length, std::int64_t steps) {
-    Bench bench(pair_of(method, 1, mass()), length, method.integrator);
-    bench.add_floor();
-    bench.around.gravity = {0, 0, -gravity};
-    bench.add(Vec3(0, 0, radius + height), Vec3(0, 0, 0));
-    bench.start();
-    bench.run(steps);
-    const double end = kinetic_energy(bench.grains).translation +
-                       mass() * gravity * (bench.grains.place[0].position.z() - radius) +
-                       summarise_contacts(*bench.loop, bench.step).stored;
+    SmallWorld world(pair_of(method, 1, mass()), length, method.integrator);
+    world.add_floor();
+    world.around.gravity = {0, 0, -gravity};
+    world.add(Vec3(0, 0, radius + height), Vec3(0, 0, 0));
+    world.start();
+    world.run(steps);
+    const double end = kinetic_energy(world.grains).translation +
+                       mass() * gravity * (world.grains.place[0].position.z() - radius) +
+                       summarise_contacts(*world.loop, world.step).stored;
     return std::abs(end / (mass() * gravity * height) - 1);
 }
 
@@ -194,17 +194,17 @@ double bounce_drift(const Method& method, double steps, int bounces) {
 
 double cost_of_a_contact(const Method& method) {
     constexpr int side = 20, steps = 60;
-    Bench bench(pair_of(method, 0.9, mass() / 2), 1e-9, method.integrator);
+    SmallWorld world(pair_of(method, 0.9, mass() / 2), 1e-9, method.integrator);
     const double apart = 2 * radius * (1 - 1e-4);
     for (int x = 0; x < side; ++x)
         for (int y = 0; y < side; ++y)
-            for (int z = 0; z < side; ++z) bench.add(apart * Vec3(x, y, z), 0.01 * Vec3(y % 2, z % 2, x % 2));
-    bench.start();
+            for (int z = 0; z < side; ++z) world.add(apart * Vec3(x, y, z), 0.01 * Vec3(y % 2, z % 2, x % 2));
+    world.start();
     const double contacts = 3.0 * side * side * (side - 1) * steps * method.forces_a_step();
     double best = 1e9;
     for (int attempt = 0; attempt < 5; ++attempt) {
         const auto begin = std::chrono::steady_clock::now();
-        bench.run(steps);
+        world.run(steps);
         const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
         best = std::min(best, taken.count() / contacts);
     }
@@ -214,7 +214,7 @@ double cost_of_a_contact(const Method& method) {
 namespace {
 
 struct Impactors {
-    Bench::Sphere first, second;
+    SmallWorld::Sphere first, second;
     bool wall = false;
     double effective_mass = 0;  // kg
     double speed = 0;           // m/s
@@ -236,25 +236,25 @@ Impactors impactors_of(const Plan& plan, const PairPlan& pair, const Species& a,
 }
 
 double rebound(const Plan& plan, const PairPlan& pair, const Impactors& two, double phase) {
-    Bench bench(pair, plan.clock.step, plan.integrator);
+    SmallWorld world(pair, plan.clock.step, plan.integrator);
     const double gap = phase * two.speed * plan.clock.step;
     const Vec3 towards(0, 0, two.speed);
-    bench.around.skin = 0.2 * two.first.radius;
-    bench.add(Vec3::Zero(), towards, two.first);
+    world.around.skin = 0.2 * two.first.radius;
+    world.add(Vec3::Zero(), towards, two.first);
     if (two.wall) {
-        bench.add_plane(Vec3(0, 0, two.first.radius + gap), Vec3(0, 0, -1));
+        world.add_plane(Vec3(0, 0, two.first.radius + gap), Vec3(0, 0, -1));
     } else {
-        bench.around.skin = 0.2 * std::min(two.first.radius, two.second.radius);
-        bench.add(Vec3(0, 0, two.first.radius + two.second.radius + gap), Vec3::Zero(), two.second);
+        world.around.skin = 0.2 * std::min(two.first.radius, two.second.radius);
+        world.add(Vec3(0, 0, two.first.radius + two.second.radius + gap), Vec3::Zero(), two.second);
     }
-    bench.start();
+    world.start();
     const auto contact = static_cast<std::int64_t>(std::ceil(pair.contact_time / plan.clock.step));
     double closing = two.speed;
     // Most contacts end within twice their time; an overdamped one creeps out.
     for (int times = 0; times < 40; ++times) {
-        bench.run(contact + 2);
+        world.run(contact + 2);
         const double before = closing;
-        closing = bench.velocity(0).z() - (two.wall ? 0 : bench.velocity(1).z());
+        closing = world.velocity(0).z() - (two.wall ? 0 : world.velocity(1).z());
         if (times > 0 && closing < 0 && closing == before) break;  // parted
     }
     return -closing / two.speed;

@@ -162,19 +162,20 @@ using std::numbers::pi;
 
 constexpr double gravity = 9.81;  // m/s2
 
-std::unique_ptr<Bench> on_a_plate(const PairPlan& pair, int steps_a_period, double g_level, double ramp) {
-    auto whole = std::make_unique<Bench>(pair, 1 / (frequency * steps_a_period));
-    Bench& bench = *whole;
-    bench.plan.clock.steps_per_period = steps_a_period;
+std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period, double g_level,
+                                       double ramp) {
+    auto whole = std::make_unique<SmallWorld>(pair, 1 / (frequency * steps_a_period));
+    SmallWorld& world = *whole;
+    world.plan.clock.steps_per_period = steps_a_period;
     Drive drive;
     drive.present = true;
     drive.frequency = frequency;
     drive.amplitude = g_level * gravity / std::pow(2 * pi * frequency, 2);
     drive.ramp = ramp;
-    bench.add_floor();
-    bench.around.faces[0].body.driven = true;
-    bench.around.motion = WallMotion(drive, bench.plan.clock);
-    bench.around.gravity = {0, 0, -gravity};
+    world.add_floor();
+    world.around.faces[0].body.driven = true;
+    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.around.gravity = {0, 0, -gravity};
     return whole;
 }
 
@@ -185,9 +186,9 @@ Finding kick(double ramp) {
     constexpr double e = 0.9, level = 0.9;
     constexpr int steps = 40000, points = 60;
     const auto whole = on_a_plate(latching_pair(bench_stiffness, e), steps, level, ramp);
-    Bench& bench = *whole;
-    bench.add(Vec3(0, 0, bench_radius - bench_mass() * gravity / bench_stiffness));
-    bench.start();
+    SmallWorld& world = *whole;
+    world.add(Vec3(0, 0, bench_radius - bench_mass() * gravity / bench_stiffness));
+    world.start();
     const double speed = level * gravity / (2 * pi * frequency);
     Finding finding;
     finding.theory = ramp > 0 ? 0 : e;
@@ -195,9 +196,9 @@ Finding kick(double ramp) {
     for (int point = 1; point <= points; ++point) {
         double largest = 0;
         for (int k = 0; k < 3 * steps / points; k += 10) {
-            bench.run(10);
-            const double plate = bench.around.motion.at(bench.step).velocity.z();
-            largest = std::max(largest, bench.velocity(0).z() - plate);
+            world.run(10);
+            const double plate = world.around.motion.at(world.step).velocity.z();
+            largest = std::max(largest, world.velocity(0).z() - plate);
         }
         finding.curve.push_back({3.0 * point / points, largest / speed});
         if (ramp > 0 || point == 1) finding.measured = std::max(finding.measured, largest / speed);
@@ -215,20 +216,20 @@ double steady_error(int steps_a_period) {
     pair.loading_stiffness = pair.unloading_stiffness = natural * natural * bench_mass();
     pair.normal_damping = damping;
     const auto whole = on_a_plate(pair, steps_a_period, 0.5, 3);
-    Bench& bench = *whole;
+    SmallWorld& world = *whole;
     const double amplitude = 0.5 * gravity / (omega * omega),
                  rest = bench_radius - gravity / (natural * natural);
     const std::complex<double> spring(natural * natural, damping * omega);
     const std::complex<double> swing = amplitude * spring / (spring - omega * omega);
-    bench.add(Vec3(0, 0, rest));
-    bench.start();
-    bench.run(8 * steps_a_period);
+    world.add(Vec3(0, 0, rest));
+    world.start();
+    world.run(8 * steps_a_period);
     double largest = 0;
     for (int k = 0; k < steps_a_period; ++k) {
-        bench.run(1);
-        const double angle = 2 * pi * bench.plan.clock.phase(bench.step);
+        world.run(1);
+        const double angle = 2 * pi * world.plan.clock.phase(world.step);
         const double should = rest + (swing * std::polar(1.0, angle)).imag();
-        largest = std::max(largest, std::abs(bench.position(0).z() - should) / amplitude);
+        largest = std::max(largest, std::abs(world.position(0).z() - should) / amplitude);
     }
     return largest;
 }
@@ -284,17 +285,17 @@ double force_error(double stiffness, bool in_single, double shift) {
     pair.model = {NormalForce::spring_dashpot, TangentialLaw::none};
     pair.loading_stiffness = pair.unloading_stiffness = stiffness;
     pair.normal_damping = natural;
-    Bench bench(pair, 0.1 / natural);
-    bench.around.gravity = {0, 0, -gravity};
+    SmallWorld world(pair, 0.1 / natural);
+    world.around.gravity = {0, 0, -gravity};
     const double plate = height + shift * last_place(in_single);
-    bench.add_plane(Vec3(0, 0, plate), Vec3(0, 0, 1));
-    bench.add(Vec3(0, 0, plate + radius - weight() / stiffness), Vec3::Zero(), {radius, bench_density});
-    bench.start();
+    world.add_plane(Vec3(0, 0, plate), Vec3(0, 0, 1));
+    world.add(Vec3(0, 0, plate + radius - weight() / stiffness), Vec3::Zero(), {radius, bench_density});
+    world.start();
     constexpr int settling = 3000, looked_at = 3000;
     double squares = 0;
     for (int k = 0; k < settling + looked_at; ++k) {
-        bench.run(1);
-        double& z = bench.grains.place[0].position.z();
+        world.run(1);
+        double& z = world.grains.place[0].position.z();
         if (in_single) z = static_cast<float>(z);
         if (k < settling) continue;
         const double overlap = radius - (z - plate);

@@ -213,11 +213,11 @@ class HardColumn {
     std::vector<double> height_, velocity_;
 };
 
-bool flies_apart(Bench& bench) {
+bool flies_apart(SmallWorld& world) {
     double below = 0;
     for (std::int32_t id = 0; id < column_of; ++id) {
-        const double v = bench.velocity(id).z();
-        if (v < below || summarise_contacts(*bench.loop, bench.step).carrying > 0) return false;
+        const double v = world.velocity(id).z();
+        if (v < below || summarise_contacts(*world.loop, world.step).carrying > 0) return false;
         below = v;
     }
     return true;
@@ -225,15 +225,15 @@ bool flies_apart(Bench& bench) {
 
 double soft_energy_left(NormalForce law, double e, double gap) {
     const double time = pi / 2 * (1 + e) * std::sqrt(0.5 * bench_mass() / bench_stiffness);
-    Bench bench(contact_of(law, e, 0.5 * bench_mass()), time / 200);
-    bench.plan.wall = {contact_of(law, e, bench_mass())};
-    bench.add_floor();
+    SmallWorld world(contact_of(law, e, 0.5 * bench_mass()), time / 200);
+    world.plan.wall = {contact_of(law, e, bench_mass())};
+    world.add_floor();
     for (int k = 0; k < column_of; ++k)
-        bench.add(Vec3(0, 0, bench_radius + k * 2 * bench_radius + (k + 1) * gap), Vec3(0, 0, -speed));
-    bench.start();
-    const double before = bench.kinetic();
-    for (int looks = 0; looks < 4000 && !(looks > 0 && flies_apart(bench)); ++looks) bench.run(200);
-    return bench.kinetic() / before;
+        world.add(Vec3(0, 0, bench_radius + k * 2 * bench_radius + (k + 1) * gap), Vec3(0, 0, -speed));
+    world.start();
+    const double before = world.kinetic();
+    for (int looks = 0; looks < 4000 && !(looks > 0 && flies_apart(world)); ++looks) world.run(200);
+    return world.kinetic() / before;
 }
 
 Experiment detachment(NormalForce law, double e, const std::string& name) {

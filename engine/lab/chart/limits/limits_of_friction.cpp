@@ -107,15 +107,15 @@ double corner_ratio(const Plan& plan, double from_normal, double around) {
                                         std::sin(from_normal) * std::sin(around), std::cos(from_normal));
     double largest = 0;
     for (double delay = -1; delay <= 1; delay += 0.25) {
-        Bench bench(plan, 0.2 * bench_radius);
-        bench.add_plane(Vec3::Zero(), Vec3(0, 0, 1));
-        bench.add_plane(Vec3(-bench_radius * (1 + 1e-9) + velocity.x() * delay * time, 0, 0), Vec3(1, 0, 0));
-        bench.add(Vec3(std::max(0.0, velocity.x() * delay * time), 0, bench_radius) - 0.3 * step * velocity,
+        SmallWorld world(plan, 0.2 * bench_radius);
+        world.add_plane(Vec3::Zero(), Vec3(0, 0, 1));
+        world.add_plane(Vec3(-bench_radius * (1 + 1e-9) + velocity.x() * delay * time, 0, 0), Vec3(1, 0, 0));
+        world.add(Vec3(std::max(0.0, velocity.x() * delay * time), 0, bench_radius) - 0.3 * step * velocity,
                   velocity);
-        bench.start();
-        const double before = bench.kinetic();
-        bench.run(static_cast<std::int64_t>(6 * time / step));
-        largest = std::max(largest, bench.kinetic() / before);
+        world.start();
+        const double before = world.kinetic();
+        world.run(static_cast<std::int64_t>(6 * time / step));
+        largest = std::max(largest, world.kinetic() / before);
     }
     return largest;
 }
@@ -305,26 +305,26 @@ Experiment loop_of(TangentialLaw law, const std::string& name, const std::string
 double slip_a_cycle(LeverArms arms, bool swing, int steps) {
     constexpr double depth = 1e-3 * bench_radius, swings = 0.1;
     constexpr int cycles = 10;
-    Bench bench(contact_of(TangentialLaw::linear_spring, 1e9), 1e-5);
-    bench.plan.arms = arms;
-    const Bench::Sphere immovable{bench_radius, 1e18 * bench_density};
+    SmallWorld world(contact_of(TangentialLaw::linear_spring, 1e9), 1e-5);
+    world.plan.arms = arms;
+    const SmallWorld::Sphere immovable{bench_radius, 1e18 * bench_density};
     const auto place = [&](int k) {
         const double psi = 2 * pi * k / steps, angle = swing ? swings * std::sin(psi) : 0;
         const double apart = 2 * bench_radius - depth * (1 + 0.5 * std::cos(psi));
         return Vec3(apart * std::cos(angle), apart * std::sin(angle), 0);
     };
-    bench.add(Vec3::Zero(), Vec3::Zero(), immovable);
-    bench.add(place(0), Vec3::Zero(), immovable);
-    bench.start();
+    world.add(Vec3::Zero(), Vec3::Zero(), immovable);
+    world.add(place(0), Vec3::Zero(), immovable);
+    world.start();
     for (int k = 0; k < cycles * steps; ++k) {
         const double turn = swings * (std::sin(2 * pi * (k + 1) / steps) - std::sin(2 * pi * k / steps));
-        bench.velocity(1) = (place(k + 1) - bench.position(1)) / bench.plan.clock.step;
-        for (Motion& m : bench.grains.motion) m.spin = Vec3(0, 0, turn / bench.plan.clock.step);
-        bench.run(1);
+        world.velocity(1) = (place(k + 1) - world.position(1)) / world.plan.clock.step;
+        for (Motion& m : world.grains.motion) m.spin = Vec3(0, 0, turn / world.plan.clock.step);
+        world.run(1);
     }
     double sheared = 0;
-    bench.loop->visit_contacts(
-        bench.step, [&](const ContactView& c) { sheared = c.tangential.norm() / (0.8 * bench_stiffness); });
+    world.loop->visit_contacts(
+        world.step, [&](const ContactView& c) { sheared = c.tangential.norm() / (0.8 * bench_stiffness); });
     return sheared / cycles / (depth * swings);
 }
 

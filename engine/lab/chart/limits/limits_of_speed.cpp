@@ -19,15 +19,15 @@ namespace {
 double after_head_on(double speed, double step, double phase) {
     const double frequency = std::sqrt(bench_stiffness / (0.5 * bench_mass()));
     const double closing = speed * 2 * bench_radius * frequency, length = step / frequency;
-    Bench bench(latching_pair(bench_stiffness, 1), length);
+    SmallWorld world(latching_pair(bench_stiffness, 1), length);
     const double apart = bench_radius + 0.5 * phase * closing * length;
-    bench.add(Vec3(-apart, 0, 0), Vec3(0.5 * closing, 0, 0));
-    bench.add(Vec3(apart, 0, 0), Vec3(-0.5 * closing, 0, 0));
-    bench.start();
-    while ((bench.position(1) - bench.position(0)).norm() < 2.5 * apart &&
-           static_cast<double>(bench.step) < 100 / step)
-        bench.run(1);
-    return (bench.velocity(1) - bench.velocity(0)).x() / closing;
+    world.add(Vec3(-apart, 0, 0), Vec3(0.5 * closing, 0, 0));
+    world.add(Vec3(apart, 0, 0), Vec3(-0.5 * closing, 0, 0));
+    world.start();
+    while ((world.position(1) - world.position(0)).norm() < 2.5 * apart &&
+           static_cast<double>(world.step) < 100 / step)
+        world.run(1);
+    return (world.velocity(1) - world.velocity(0)).x() / closing;
 }
 
 // m/s over 2 r sqrt(K1/m_eff): what the plan allows, overlap / diameter.
@@ -58,14 +58,14 @@ Finding through_a_wall(bool) {
     finding.usual = 0.02;  // overlap of 1 % of the diameter
     const double frequency = std::sqrt(bench_stiffness / bench_mass());
     const auto depth = [&](double speed) {
-        Bench bench(latching_pair(bench_stiffness, 1), std::numbers::pi / 2 / frequency / steps);
-        bench.add_floor();
-        bench.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -speed * 2 * bench_radius * frequency));
-        bench.start();
+        SmallWorld world(latching_pair(bench_stiffness, 1), std::numbers::pi / 2 / frequency / steps);
+        world.add_floor();
+        world.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -speed * 2 * bench_radius * frequency));
+        world.start();
         double deepest = 0;
         for (int k = 0; k < 2 * steps; ++k) {
-            bench.run(1);
-            deepest = std::max(deepest, bench_radius - bench.position(0).z());
+            world.run(1);
+            deepest = std::max(deepest, bench_radius - world.position(0).z());
         }
         return deepest / (2 * bench_radius);
     };
@@ -111,33 +111,33 @@ std::size_t touching_by_search(const Grains& grains, double period) {
 // smallest share of touching pairs and wall contacts that the loop has, over the steps.
 double share_listed(double way, int steps) {
     constexpr double half = 0.012, step = 1e-5;
-    Bench bench(latching_pair(1e-9, 1), step);
-    bench.around.period = 2 * half;
-    const double speed = way * bench.around.skin / step;
+    SmallWorld world(latching_pair(1e-9, 1), step);
+    world.around.period = 2 * half;
+    const double speed = way * world.around.skin / step;
     Random random(7, Stream::centres);
     const auto anywhere = [&](double size) {
         return Vec3(random.between(-size, size), random.between(-size, size), random.between(-size, size));
     };
     for (int k = 0; k < 300; ++k)
-        bench.add(anywhere(half), anywhere(speed), {k % 5 == 0 ? bench_radius : 0.4 * bench_radius});
-    bench.add_plane(Vec3(0, 0, -half), Vec3(0, 0, 1));
-    bench.around.faces[0].body.velocity = {0, 0, speed};
-    bench.start();
+        world.add(anywhere(half), anywhere(speed), {k % 5 == 0 ? bench_radius : 0.4 * bench_radius});
+    world.add_plane(Vec3(0, 0, -half), Vec3(0, 0, 1));
+    world.around.faces[0].body.velocity = {0, 0, speed};
+    world.start();
     double least = 1;
     for (int k = 0; k < steps; ++k) {
-        for (Place& p : bench.grains.place)  // kept in a box, by turning back what leaves it
+        for (Place& p : world.grains.place)  // kept in a box, by turning back what leaves it
             for (int axis = 1; axis < 3; ++axis)
                 if (std::abs(p.position[axis]) > half) {
-                    double& v = bench.grains.motion[&p - bench.grains.place.data()].velocity[axis];
+                    double& v = world.grains.motion[&p - world.grains.place.data()].velocity[axis];
                     v = std::copysign(v, -p.position[axis]);
                 }
-        bench.run(1);
-        std::size_t expected = touching_by_search(bench.grains, bench.around.period), found = 0;
-        for (const Place& p : bench.grains.place) {
-            const Vec3 moved = bench.around.faces[0].displacement(bench.around.motion.at(bench.step));
-            expected += distance_to(bench.around.faces[0], moved, p.position).distance < p.radius;
+        world.run(1);
+        std::size_t expected = touching_by_search(world.grains, world.around.period), found = 0;
+        for (const Place& p : world.grains.place) {
+            const Vec3 moved = world.around.faces[0].displacement(world.around.motion.at(world.step));
+            expected += distance_to(world.around.faces[0], moved, p.position).distance < p.radius;
         }
-        bench.loop->visit_contacts(bench.step, [&](const ContactView&) { ++found; });
+        world.loop->visit_contacts(world.step, [&](const ContactView&) { ++found; });
         least = std::min(least, static_cast<double>(found) / static_cast<double>(expected));
     }
     return least;
@@ -190,29 +190,29 @@ double measured_gain(int count, double omega) {
     const double unit = std::sqrt(bench_mass() / bench_stiffness), gravity = 9.81;
     const double period = 2 * pi / omega;
     const int steps = 8 * static_cast<int>(std::ceil(period / (0.05 * unit) / 8));
-    Bench bench(latching_pair(bench_stiffness, 1), period / steps);
-    bench.plan.clock.steps_per_period = steps;
+    SmallWorld world(latching_pair(bench_stiffness, 1), period / steps);
+    world.plan.clock.steps_per_period = steps;
     Drive drive;
     drive.present = true;
     drive.frequency = 1 / period;
     drive.amplitude = 0.02 * gravity / (omega * omega);
     drive.ramp = ramp;
-    bench.add_floor();
-    bench.around.faces[0].body.driven = true;
-    bench.around.motion = WallMotion(drive, bench.plan.clock);
-    bench.around.gravity = {0, 0, -gravity};
+    world.add_floor();
+    world.around.faces[0].body.driven = true;
+    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.around.gravity = {0, 0, -gravity};
     double z = -bench_radius;
     for (int k = 0; k < count; ++k) {
         const double weight = (count - k) * bench_mass() * gravity;
         z += 2 * bench_radius - weight / bench_stiffness;
-        bench.add(Vec3(0, 0, z));
+        world.add(Vec3(0, 0, z));
     }
-    bench.start();
-    bench.run(static_cast<std::int64_t>(ramp) * steps);
+    world.start();
+    world.run(static_cast<std::int64_t>(ramp) * steps);
     std::complex<double> sum = 0;
     for (int k = 0; k < looked_at * steps; ++k) {
-        bench.run(1);
-        sum += (bench.position(count - 1).z() - z) * std::polar(1.0, -2 * pi * k / steps);
+        world.run(1);
+        sum += (world.position(count - 1).z() - z) * std::polar(1.0, -2 * pi * k / steps);
     }
     return 2 * std::abs(sum) / (looked_at * steps) / drive.amplitude;
 }
@@ -263,28 +263,28 @@ double rebound_by_theory(double natural, double omega, double phase) {
 double rebound_measured(double natural, double omega, double phase) {
     const double period = 2 * pi / omega;
     const auto steps = 8 * static_cast<std::int64_t>(std::ceil(period * natural / 0.01 / 8));
-    Bench bench(latching_pair(bench_stiffness, 1), period / static_cast<double>(steps));
-    bench.plan.clock.steps_per_period = steps;
-    bench.plan.clock.initial_phase = phase / (2 * pi);
+    SmallWorld world(latching_pair(bench_stiffness, 1), period / static_cast<double>(steps));
+    world.plan.clock.steps_per_period = steps;
+    world.plan.clock.initial_phase = phase / (2 * pi);
     Drive drive;
     drive.present = true;
     drive.frequency = 1 / period;
     drive.amplitude = speed / omega;
-    drive.phase = bench.plan.clock.initial_phase;
+    drive.phase = world.plan.clock.initial_phase;
     drive.ramp = 0;
-    bench.add_floor();
-    bench.around.faces[0].body.driven = true;
-    bench.around.motion = WallMotion(drive, bench.plan.clock);
-    bench.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -speed));
-    bench.start();
+    world.add_floor();
+    world.around.faces[0].body.driven = true;
+    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -speed));
+    world.start();
     bool touched = false;
-    while (bench.plan.clock.time(bench.step) < 100 / natural) {
-        bench.run(1);
-        const bool touches = bench.grains.load[0].force.z() > 0;
+    while (world.plan.clock.time(world.step) < 100 / natural) {
+        world.run(1);
+        const bool touches = world.grains.load[0].force.z() > 0;
         if (touched && !touches) break;
         touched |= touches;
     }
-    return bench.velocity(0).z();
+    return world.velocity(0).z();
 }
 
 // How far the rebound is off that from a plate whose velocity does not change meanwhile, over the speed, at

@@ -38,22 +38,22 @@ struct Disturbance {
 
 // Factor by which the amplitude grows in a step, 1 for no growth. It is taken while the energy is more than
 // ten thousand times that of the start, or over all steps where it stays below.
-double growth_of(Bench& bench, const Disturbance& disturbance) {
+double growth_of(SmallWorld& world, const Disturbance& disturbance) {
     Random random(1, Stream::centres);
     const double speed = 1e-9 * overlap / unit();
-    for (Motion& motion : bench.grains.motion)
+    for (Motion& motion : world.grains.motion)
         for (int axis = 0; axis < 3; ++axis)
             motion.velocity[axis] = disturbance.along[axis] * random.between(-speed, speed);
-    const double begin = bench.kinetic();
+    const double begin = world.kinetic();
     double from = begin, now = begin;
     std::int64_t since = 0;
-    while (bench.step < disturbance.steps && now < 1e12 * begin) {
-        bench.run(1);
-        now = bench.kinetic();
-        if (from == begin && now > 1e4 * begin) from = now, since = bench.step;
+    while (world.step < disturbance.steps && now < 1e12 * begin) {
+        world.run(1);
+        now = world.kinetic();
+        if (from == begin && now > 1e4 * begin) from = now, since = world.step;
     }
     if (now < 1e8 * begin) return std::max(1.0, std::pow(now / begin, 0.5 / disturbance.steps));
-    return std::pow(now / from, 0.5 / static_cast<double>(bench.step - since));
+    return std::pow(now / from, 0.5 / static_cast<double>(world.step - since));
 }
 
 // The limit over sqrt(m / K), and the growth about there with the step over that of theory.
@@ -83,19 +83,19 @@ Finding find_limit(const Build& build, const Disturbance& disturbance, double th
 const Disturbance along_z{{0, 0, 1}, 2000};
 
 // Grains one above the other between two plates, all pressed together by the same force.
-std::unique_ptr<Bench> column(int count, double plate_stiffness, double step, Integrator integrator) {
-    auto whole = std::make_unique<Bench>(spring(1, 0, 0), step, integrator);
-    Bench& bench = *whole;
-    bench.plan.wall[0].loading_stiffness = bench.plan.wall[0].unloading_stiffness = plate_stiffness;
+std::unique_ptr<SmallWorld> column(int count, double plate_stiffness, double step, Integrator integrator) {
+    auto whole = std::make_unique<SmallWorld>(spring(1, 0, 0), step, integrator);
+    SmallWorld& world = *whole;
+    world.plan.wall[0].loading_stiffness = world.plan.wall[0].unloading_stiffness = plate_stiffness;
     const double at_plate = overlap * bench_stiffness / plate_stiffness;
     double z = bench_radius - at_plate;
-    bench.add_floor();
+    world.add_floor();
     for (int k = 0; k < count; ++k) {
-        bench.add(Vec3(0, 0, z));
+        world.add(Vec3(0, 0, z));
         z += 2 * bench_radius - overlap;
     }
-    bench.add_plane(Vec3(0, 0, z - bench_radius + overlap - at_plate), Vec3(0, 0, -1));
-    bench.start();
+    world.add_plane(Vec3(0, 0, z - bench_radius + overlap - at_plate), Vec3(0, 0, -1));
+    world.start();
     return whole;
 }
 
@@ -124,15 +124,15 @@ Finding unloading_limit(bool) {
     constexpr double e = 0.5, plate = 0.01;
     const auto build = [](double step) {
         auto whole = column(2, plate * bench_stiffness, step, Integrator::velocity_verlet);
-        Bench& bench = *whole;
-        bench.plan.grain = {spring(e, 0, 0)};
-        bench.start();  // the contact has seen `overlap`
+        SmallWorld& world = *whole;
+        world.plan.grain = {spring(e, 0, 0)};
+        world.start();  // the contact has seen `overlap`
         const double back = 0.5 * e * e * overlap, less = 0.5 * overlap / plate;  // to half the force
-        const std::size_t low = bench.at(0), high = bench.at(1);
-        bench.grains.place[high].position.z() += back;
-        for (Face& face : bench.around.faces) face.point.z() -= face.normal.z() * less;
-        bench.around.faces[1].point.z() += back;
-        bench.grains.load[low] = bench.grains.load[high] = {};
+        const std::size_t low = world.at(0), high = world.at(1);
+        world.grains.place[high].position.z() += back;
+        for (Face& face : world.around.faces) face.point.z() -= face.normal.z() * less;
+        world.around.faces[1].point.z() += back;
+        world.grains.load[low] = world.grains.load[high] = {};
         return whole;
     };
     return find_limit(build, along_z, 2 / std::sqrt(2 / (e * e) + plate));
@@ -142,49 +142,49 @@ Finding unloading_limit(bool) {
 Finding sideways_limit(bool) {
     constexpr double ratio = 0.8;
     const auto build = [](double step) {
-        auto whole = std::make_unique<Bench>(spring(1, 1e6, ratio), step);
-        Bench& bench = *whole;
-        bench.around.gravity = {0, 0, -bench_stiffness * overlap / bench_mass()};
-        bench.add_floor();
-        bench.add(Vec3(0, 0, bench_radius - overlap));
-        bench.start();
+        auto whole = std::make_unique<SmallWorld>(spring(1, 1e6, ratio), step);
+        SmallWorld& world = *whole;
+        world.around.gravity = {0, 0, -bench_stiffness * overlap / bench_mass()};
+        world.add_floor();
+        world.add(Vec3(0, 0, bench_radius - overlap));
+        world.start();
         return whole;
     };
     return find_limit(build, {{1, 0, 0}, 2000}, 2 / std::sqrt(3.5 * ratio));
 }
 
 // A face-centred cubic block, twelve contacts a grain inside, pressed by its six walls and brought to rest.
-std::unique_ptr<Bench> block(int planes, const PairPlan& pair, double step) {
-    auto whole = std::make_unique<Bench>(pair, step);
-    Bench& bench = *whole;
+std::unique_ptr<SmallWorld> block(int planes, const PairPlan& pair, double step) {
+    auto whole = std::make_unique<SmallWorld>(pair, step);
+    SmallWorld& world = *whole;
     const double half_edge = (2 * bench_radius - overlap) / std::sqrt(2.0);
     const double middle = 0.5 * (planes - 1), reach = middle * half_edge + bench_radius - 2 * overlap;
     for (int x = 0; x < planes; ++x)
         for (int y = 0; y < planes; ++y)
             for (int z = 0; z < planes; ++z)
-                if ((x + y + z) % 2 == 0) bench.add(half_edge * (Vec3(x, y, z) - Vec3::Constant(middle)));
+                if ((x + y + z) % 2 == 0) world.add(half_edge * (Vec3(x, y, z) - Vec3::Constant(middle)));
     for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0})
-            bench.add_plane(side * reach * Vec3::Unit(axis), -side * Vec3::Unit(axis));
+            world.add_plane(side * reach * Vec3::Unit(axis), -side * Vec3::Unit(axis));
     return whole;
 }
 
 Grains block_at_rest(int planes) {
-    const auto bench = block(planes, spring(1, 0, 0), 0.1 * unit());
-    bench->start();
-    bench->loop->run(0, 10000, bench->plan.clock.step, 0.2 / unit());
-    for (Motion& motion : bench->grains.motion) motion.velocity.setZero();
-    return bench->grains;
+    const auto world = block(planes, spring(1, 0, 0), 0.1 * unit());
+    world->start();
+    world->loop->run(0, 10000, world->plan.clock.step, 0.2 / unit());
+    for (Motion& motion : world->grains.motion) motion.velocity.setZero();
+    return world->grains;
 }
 
 Finding bed_limit(bool quick, const PairPlan& pair, double theory) {
     const int planes = quick ? 7 : 11;
     const Grains at_rest = block_at_rest(planes);
     const auto build = [&](double step) {
-        auto bench = block(planes, pair, step);
-        bench->grains = at_rest;
-        bench->start();
-        return bench;
+        auto world = block(planes, pair, step);
+        world->grains = at_rest;
+        world->start();
+        return world;
     };
     Finding finding = find_limit(build, {{1, 1, 1}, 1000}, theory);
     for (CurvePoint& point : finding.curve) point.theory = unknown;  // of many modes

@@ -167,25 +167,25 @@ Rebound rebound(const ImpactLaw& law, double degrees, Target target) {
     const double mass = density * sphere_volume(radius), share = target == Target::plane ? 1 : 0.5;
     const double length = contact_time(law) / steps_per_contact;
     const double angle = degrees * pi / 180, along = speed * std::sin(angle), down = speed * std::cos(angle);
-    Bench bench(pair_of(law, share * mass, share * radius), length);
+    SmallWorld world(pair_of(law, share * mass, share * radius), length);
     const Vec3 approach(along, 0, -down);
     const double gap = 0.4 * down * length;
     if (target == Target::plane) {
-        bench.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
-        bench.add(Vec3(0, 0, radius + gap), approach, {radius, density});
+        world.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
+        world.add(Vec3(0, 0, radius + gap), approach, {radius, density});
     } else {
-        bench.add(Vec3(0, 0, radius + gap / 2), approach / 2, {radius, density});
-        bench.add(Vec3(0, 0, -radius - gap / 2), -approach / 2, {radius, density});
+        world.add(Vec3(0, 0, radius + gap / 2), approach / 2, {radius, density});
+        world.add(Vec3(0, 0, -radius - gap / 2), -approach / 2, {radius, density});
     }
-    bench.start();
-    bench.run(3 * steps_per_contact);
+    world.start();
+    world.run(3 * steps_per_contact);
     Rebound after{0, 0, 0};
-    for (std::size_t i = 0; i < bench.grains.size(); ++i) {
-        const Vec3& v = bench.grains.motion[i].velocity;
-        const double side = bench.grains.id[i] == 0 ? 1 : -1;
+    for (std::size_t i = 0; i < world.grains.size(); ++i) {
+        const Vec3& v = world.grains.motion[i].velocity;
+        const double side = world.grains.id[i] == 0 ? 1 : -1;
         after.normal += side * v.z() / speed;
         after.tangential += side * v.x() / speed;
-        after.spin += radius * bench.grains.motion[i].spin.y() / speed;
+        after.spin += radius * world.grains.motion[i].spin.y() / speed;
     }
     return after;
 }

@@ -23,32 +23,32 @@ double natural_frequency() {  // 1/s
 // All grains, centres at random, between walls at +- edge/2 in y and z.
 struct Crowd {
     const JammedPacking& setting;
-    Bench bench;
+    SmallWorld world;
     double edge = 0;
 
     explicit Crowd(const JammedPacking& packing)
         : setting(packing),
-          bench(latching_pair(stiffness, 1, packing.friction, packing.precision), 0.1 / natural_frequency()) {
-        bench.plan.wall = {latching_pair(stiffness, 1, 0, packing.precision)};
+          world(latching_pair(stiffness, 1, packing.friction, packing.precision), 0.1 / natural_frequency()) {
+        world.plan.wall = {latching_pair(stiffness, 1, 0, packing.precision)};
         edge = std::cbrt(setting.grains * sphere_volume(diameter / 2) / setting.solid_fraction);
         const double room = edge / 2 - diameter / 2;
         Random centres(setting.seed, Stream::centres);
         for (int k = 0; k < setting.grains; ++k) {
             const double x = centres.between(-edge / 2, edge / 2), y = centres.between(-room, room);
-            bench.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), {diameter / 2, density});
+            world.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), {diameter / 2, density});
         }
         for (const Vec3& normal : {Vec3::UnitY().eval(), Vec3::UnitZ().eval()}) {
-            bench.add_plane(-edge / 2 * normal, normal);
-            bench.add_plane(edge / 2 * normal, -normal);
+            world.add_plane(-edge / 2 * normal, normal);
+            world.add_plane(edge / 2 * normal, -normal);
         }
-        bench.around.period = edge;
-        bench.around.skin = 0.3 * diameter;
-        bench.start();
+        world.around.period = edge;
+        world.around.skin = 0.3 * diameter;
+        world.start();
     }
     // Shrinking leaves all lists valid, so contacts keep their histories.
     void shrink(double factor) {
-        for (std::size_t i = 0; i < bench.grains.size(); ++i)
-            bench.grains.set_radius(i, factor * bench.grains.place[i].radius, density);
+        for (std::size_t i = 0; i < world.grains.size(); ++i)
+            world.grains.set_radius(i, factor * world.grains.place[i].radius, density);
     }
     Vec3 inner() const {  // m: half the sizes of the measured part
         const double half = edge / 2 - setting.margin * diameter;
@@ -62,12 +62,12 @@ bool lies_in(const Vec3& point, const Vec3& inner) {
 
 double unbalanced(const Crowd& crowd) {
     double forces = 0, contacts = 0, squares = 0;
-    crowd.bench.loop->visit_contacts(crowd.bench.step, [&](const ContactView& c) {
+    crowd.world.loop->visit_contacts(crowd.world.step, [&](const ContactView& c) {
         forces += c.normal_force;
         contacts += c.normal_force > 0;
     });
-    for (const Load& load : crowd.bench.grains.load) squares += load.force.squaredNorm();
-    const double grains = static_cast<double>(crowd.bench.grains.size());
+    for (const Load& load : crowd.world.grains.load) squares += load.force.squaredNorm();
+    const double grains = static_cast<double>(crowd.world.grains.size());
     return contacts > 0 ? std::sqrt(squares / grains) / (forces / contacts) : 0;
 }
 
@@ -75,7 +75,7 @@ double unbalanced(const Crowd& crowd) {
 void rest(Crowd& crowd, double drag, double balance, int most_steps) {
     constexpr int steps_per_look = 500;
     for (int done = 0; done < most_steps; done += steps_per_look) {
-        crowd.bench.run(steps_per_look, drag * natural_frequency());
+        crowd.world.run(steps_per_look, drag * natural_frequency());
         if (unbalanced(crowd) < balance) return;
     }
 }
@@ -104,12 +104,12 @@ std::vector<bool> rattlers(const std::vector<Touching>& contacts, std::size_t gr
 }
 
 PackingState state_of(const Crowd& crowd) {
-    const Grains& grains = crowd.bench.grains;
+    const Grains& grains = crowd.world.grains;
     const Vec3 inner = crowd.inner();
     const double volume = 8 * inner.prod();
     PackingState state;
     std::vector<Touching> contacts;
-    crowd.bench.loop->visit_contacts(crowd.bench.step, [&](const ContactView& c) {
+    crowd.world.loop->visit_contacts(crowd.world.step, [&](const ContactView& c) {
         if (c.normal_force <= 0) return;
         contacts.push_back({c.first, c.second});
         if (c.second < 0 || !lies_in(c.point, inner)) return;

@@ -39,48 +39,48 @@ struct Cylinder {
         return static_cast<int>(expected * area() * height / sphere_volume(radius));
     }
     // Floor first, then the wall.
-    void surround(Bench& bench) const {
-        bench.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
+    void surround(SmallWorld& world) const {
+        world.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
         Face wall;
         wall.kind = Face::Kind::cylinder;
         wall.radius = bore / 2;
-        bench.around.faces.push_back(wall);
-        bench.around.skin = 0.3 * diameter;
+        world.around.faces.push_back(wall);
+        world.around.skin = 0.3 * diameter;
     }
 };
 
 // A loose crowd: random centres, pushed apart without friction or gravity under a lid.
 Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
-    Bench bench(latching_pair(stiffness, 1), step_length());
-    cylinder.surround(bench);
+    SmallWorld world(latching_pair(stiffness, 1), step_length());
+    cylinder.surround(world);
     const double height = grains * sphere_volume(radius) / (loose * cylinder.area());
-    bench.add_plane(Vec3(0, 0, height), Vec3(0, 0, -1));
+    world.add_plane(Vec3(0, 0, height), Vec3(0, 0, -1));
     Random random(seed, Stream::centres);
     for (int k = 0; k < grains; ++k) {
         const double out = (cylinder.bore / 2 - radius) * std::sqrt(random.uniform());
         const double angle = random.between(0, 2 * pi), z = random.between(radius, height - radius);
-        bench.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), {radius, density});
+        world.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), {radius, density});
     }
-    bench.start();
+    world.start();
     const double drag = 0.5 * std::sqrt(stiffness / mass());
     for (int look = 0; look < 100; ++look) {
-        bench.run(200, drag);
-        if (summarise_contacts(*bench.loop, bench.step).largest_overlap < 1e-3) break;
+        world.run(200, drag);
+        if (summarise_contacts(*world.loop, world.step).largest_overlap < 1e-3) break;
     }
-    return bench.grains;
+    return world.grains;
 }
 
 // Until the mean kinetic energy of a grain is below 1e-6 m g d. Steps before 0 are for this: the floor stands
 // still until then.
-void settle(Bench& bench) {
+void settle(SmallWorld& world) {
     constexpr double drag = 20;  // 1/s
     constexpr std::int64_t steps_per_look = 1000, most = 100 * steps_per_look;
-    const double rest = 1e-6 * mass() * gravity * diameter * static_cast<double>(bench.grains.size());
-    for (bench.step = -most; bench.step < 0;) {
-        bench.run(steps_per_look, drag);
-        if (kinetic_energy(bench.grains).translation < rest) break;
+    const double rest = 1e-6 * mass() * gravity * diameter * static_cast<double>(world.grains.size());
+    for (world.step = -most; world.step < 0;) {
+        world.run(steps_per_look, drag);
+        if (kinetic_energy(world.grains).translation < rest) break;
     }
-    bench.step = 0;  // the lists count the jump as free flight, and are made again
+    world.step = 0;  // the lists count the jump as free flight, and are made again
 }
 
 // Sums over the contacts with floor and wall, and what grains and wall make of the vertical stress.
@@ -92,19 +92,19 @@ struct Sums {
     double height = 0;  // m
     double samples = 0;
 
-    void add(const Bench& bench) {
-        const double level = bench.around.faces[0].displacement(bench.around.motion.at(bench.step)).z();
+    void add(const SmallWorld& world) {
+        const double level = world.around.faces[0].displacement(world.around.motion.at(world.step)).z();
         double z = 0;
-        for (const Place& p : bench.grains.place) z += p.position.z() - level;
+        for (const Place& p : world.grains.place) z += p.position.z() - level;
         moment += mass() * gravity * z;
-        bench.loop->visit_contacts(bench.step, [&](const ContactView& c) {
+        world.loop->visit_contacts(world.step, [&](const ContactView& c) {
             if (c.second == -1) floor += c.normal_force;
             if (c.second != -2) return;
             wall += c.normal_force;
             lift -= c.tangential.z();
             moment += c.tangential.z() * (c.point.z() - level);
         });
-        height += 2 * z / static_cast<double>(bench.grains.size());
+        height += 2 * z / static_cast<double>(world.grains.size());
         samples += 1;
     }
 };
@@ -114,23 +114,23 @@ struct Sums {
 SiloLoad load_of(const SiloColumn& column) {
     const Cylinder cylinder(column);
     const int grains = cylinder.grains(column.aspect * cylinder.bore);
-    Bench bench(latching_pair(stiffness, 0.7, column.friction, column.precision), step_length());
-    bench.plan.wall = {latching_pair(stiffness, 0.7, column.wall_friction, column.precision)};
-    cylinder.surround(bench);
-    bench.grains = crowd(cylinder, grains, column.seed);
-    for (Motion& m : bench.grains.motion) m.velocity.setZero();
+    SmallWorld world(latching_pair(stiffness, 0.7, column.friction, column.precision), step_length());
+    world.plan.wall = {latching_pair(stiffness, 0.7, column.wall_friction, column.precision)};
+    cylinder.surround(world);
+    world.grains = crowd(cylinder, grains, column.seed);
+    for (Motion& m : world.grains.motion) m.velocity.setZero();
     const double speed = sinking * std::sqrt(gravity * diameter);
-    bench.around.faces[0].body.velocity = Vec3(0, 0, -speed);
-    bench.around.motion = WallMotion(Drive(), bench.plan.clock);
-    bench.around.gravity = Vec3(0, 0, -gravity);
-    bench.start();
-    settle(bench);
+    world.around.faces[0].body.velocity = Vec3(0, 0, -speed);
+    world.around.motion = WallMotion(Drive(), world.plan.clock);
+    world.around.gravity = Vec3(0, 0, -gravity);
+    world.start();
+    settle(world);
     Sums resting, sums;
-    resting.add(bench);
-    const auto steps = static_cast<std::int64_t>(way / speed / bench.plan.clock.step);
-    while (bench.step < steps) {
-        bench.run(50);
-        if (bench.step > steps / 2) sums.add(bench);
+    resting.add(world);
+    const auto steps = static_cast<std::int64_t>(way / speed / world.plan.clock.step);
+    while (world.step < steps) {
+        world.run(50);
+        if (world.step > steps / 2) sums.add(world);
     }
     const double weight = grains * mass() * gravity, height = sums.height / sums.samples;
     SiloLoad load;
