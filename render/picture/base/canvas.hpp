@@ -2,6 +2,7 @@
 // which they are added. Walls and marks are drawn with them after their projection.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "render/picture/gl/opengl.hpp"
@@ -15,6 +16,11 @@ struct Paint {
     Colour colour;  // sRGB
     double alpha = 1;
 };
+
+// Pixels: the pen of marks over the grains, by which their widths are counted.
+inline double mark_pen(int picture_height) {
+    return std::max(1.0, picture_height / 540.0);
+}
 
 // The corners of a circle.
 std::vector<Pixel> circle_corners(const Pixel& middle, double radius, int corners);

@@ -153,11 +153,11 @@ double arrow_scale(const FilmedScene& scene) {
 }
 
 double widest_streamline(int picture_height) {
-    return (thin + thick) * std::max(1.0, picture_height / 540.0);
+    return (thin + thick) * mark_pen(picture_height);
 }
 
 FlowMarks::FlowMarks(const FilmedScene& scene, const Palette& palette)
-    : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)) {
+    : scene_(scene), palette_(palette), pen_(mark_pen(scene.film.height)) {
     const FilmShows& shows = scene.film.shows;
     if (shows.arrows.across > 0) arrows_.emplace(scene_, arrow_kernel(scene), shows.arrows.period);
     if (shows.streamlines.across > 0)

@@ -131,7 +131,7 @@ std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const 
 }
 
 WallForceMarks::WallForceMarks(const FilmedScene& scene, const Palette& palette)
-    : scene_(scene), palette_(palette), pen_(std::max(1.0, scene.film.height / 540.0)) {
+    : scene_(scene), palette_(palette), pen_(mark_pen(scene.film.height)) {
     const std::vector<Face> faces = faces_of(scene);
     const std::vector<std::string> names = face_names(scene);
     for (std::size_t f = 0; f < faces.size(); ++f) walls_.push_back({faces[f], names.at(f)});

@@ -86,7 +86,7 @@ double widest_line(int picture_height) {
 Marks::Marks(const FilmedScene& scene, const Palette& palette)
     : scene_(scene),
       palette_(palette),
-      pen_(std::max(1.0, scene.film.height / 540.0)),
+      pen_(mark_pen(scene.film.height)),
       flow_(scene, palette),
       trails_(scene),
       condition_(scene, scene.film.shows.highlight_if.of) {

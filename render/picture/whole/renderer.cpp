@@ -240,7 +240,7 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     const auto seen = [&](std::size_t i) { return marked ? 1 : of_all.seen_share(beside_cut.place(i)); };
     marks.draw(eye, marked ? *marked : to_be_marked(all), seen, shapes.over);
     draw_point_forces(eye.moved_by(true_frame.container().place - frame.container().place), point_forces,
-                      palette, std::max(1.0, scene.film.height / 540.0), shapes.over);
+                      palette, mark_pen(scene.film.height), shapes.over);
     const Layer* marked_alone = draw_before();
     compose({.background = background(palette.background, scene.film.transparent),
              .ground = ground ? &*ground : nullptr,
