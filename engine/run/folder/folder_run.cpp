@@ -197,6 +197,16 @@ void FolderRun::stop_before_page() {
     desk_.failure.attempt([&] { write_record(); });
 }
 
+bool FolderRun::tell_export(const std::string& format, double done) {
+    Progress progress;
+    progress.stage = Progress::Stage::exporting;
+    progress.what = format;
+    progress.done = done;
+    progress.elapsed = desk_.watch.seconds();
+    desk_.listener.progress(progress);
+    return !desk_.listener.in_a_hurry() && desk_.folder->lock().is_there();
+}
+
 std::string FolderRun::page_text() const {
     return desk_.record.page.empty() ? "" : ", " + desk_.record.page;
 }

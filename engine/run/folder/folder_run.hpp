@@ -94,6 +94,8 @@ class FolderRun {
     void mark_begun();
     // Shows the warnings and writes run.json for the first time.
     void begin_record(const std::vector<std::string>& warnings);
+    // Shows how far the export to a format is, and says whether it may go on. For write_also().
+    bool tell_export(const std::string& format, double done);
     std::string page_text() const;  // ", report.html"; empty without a page
 
     const RunRequest request_;

@@ -146,15 +146,8 @@ void SceneFolderRun::side_work_closed() {
     if (!driver_.has_other_formats()) return;
     const Stopwatch writing;
     const std::string written =
-        write_also(folder(), driver_.scene(), [&](const std::string& format, double share) {
-            Progress progress;
-            progress.stage = Progress::Stage::exporting;
-            progress.what = format;
-            progress.done = share;
-            progress.elapsed = desk_.watch.seconds();
-            desk_.listener.progress(progress);
-            return !desk_.listener.in_a_hurry() && desk_.folder->lock().is_there();
-        });
+        write_also(folder(), driver_.scene(),
+                   [&](const std::string& format, double done) { return tell_export(format, done); });
     desk_.times.add("writing other formats", writing.seconds());
     if (!written.empty()) desk_.listener.info(fmt::format("wrote {}: {}", folder().string(), written));
     if (desk_.listener.in_a_hurry())

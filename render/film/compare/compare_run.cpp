@@ -154,15 +154,7 @@ void CompareRun::keep_state() {
 }
 
 void CompareRun::side_work_closed() {
-    const auto watcher = [&](const std::string& format, double share) {
-        Progress progress;
-        progress.stage = Progress::Stage::exporting;
-        progress.what = format;
-        progress.done = share;
-        progress.elapsed = desk_.watch.seconds();
-        desk_.listener.progress(progress);
-        return !desk_.listener.in_a_hurry() && desk_.folder->lock().is_there();
-    };
+    const auto watcher = [&](const std::string& format, double done) { return tell_export(format, done); };
     for (const auto& member : all_.members) member->write_other_formats(watcher);
 }
 
