@@ -2,7 +2,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"
-#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/contact_questions.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/state/container_faces.hpp"

@@ -13,7 +13,7 @@
 #include "engine/base/numbers.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
-#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/contact_questions.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"

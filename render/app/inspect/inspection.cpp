@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frame_faults.hpp"
-#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/contact_questions.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
-#include "engine/questions/answer_forces.hpp"
+#include "engine/questions/contact_questions.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "render/film/answers/pictured_answer.hpp"
