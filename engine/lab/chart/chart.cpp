@@ -7,7 +7,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/accuracy/accuracy.hpp"
-#include "engine/lab/chart/accuracy/savings.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
 

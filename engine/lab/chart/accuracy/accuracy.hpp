@@ -19,4 +19,10 @@ std::size_t convergence_pieces(bool quick);
 // Commands for gnuplot that draw convergence.csv into `convergence`, svg or png by the variable `form`.
 const char* convergence_drawing();
 
+// `grainreel chart savings`: what a scene saves that does without friction, moving walls, a second species
+// and the like. One table, savings.csv: cost of a grain's step with and without.
+
+bool run_savings(const ChartRequest& request, const ChartWatcher& watcher);
+std::string savings_drawing();
+
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-#include "engine/lab/chart/accuracy/savings.hpp"
+#include "engine/lab/chart/accuracy/accuracy.hpp"
 
 #include <fmt/format.h>
 
