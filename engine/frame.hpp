@@ -1,4 +1,5 @@
-// What leaves the engine: the state of every grain and of the container at one step. Neutral: no laws in it.
+// What leaves the engine: the state of every grain and of the container at one step, and contacts as files
+// keep them. It knows no laws and no step loop, so that frames are drawn and written without them.
 #pragma once
 
 #include <algorithm>

@@ -17,10 +17,10 @@
 
 namespace grainreel {
 
-// What run.json keeps of final.csv, so that a table that was cut off or damaged is not believed. The table
-// itself stays a plain CSV: nothing in it says where it ends.
 inline constexpr const char* kFinalTable = "final.csv";
 
+// What run.json keeps of final.csv, so that a table that was cut off or damaged is not believed. The table
+// itself stays a plain CSV: nothing in it says where it ends.
 struct TableMark {
     std::int64_t grains = 0;
     std::uint64_t checksum = 0;  // XXH64 of the file's bytes
@@ -32,14 +32,14 @@ TableMark mark_of_table(std::int64_t grains, std::string_view bytes);
 std::optional<TableMark> mark_in_run_json(const std::filesystem::path& run_json);
 
 // A table of that many grains, which lies beside a run.json. Throws UserError when it is a final.csv that its
-// run wrote with others, or with other bytes. A table of another name is nobody's, and may be changed.
+// run wrote with others, or with other bytes. A table of another name belongs to no run, and may be changed.
 void check_as_written(const std::filesystem::path& table, std::int64_t grains);
 
-// Whether a file that begins so is such a table, by its first line.
+// Whether a file that begins with these bytes is such a table, by its first line.
 bool begins_grain_table(std::string_view bytes);
 
-// What run.json is to keep of it. Throws RunError when the file cannot be written; what it held before stays
-// then.
+// Writes a table and returns its mark for run.json. Throws RunError when the file cannot be written; its
+// former content stays then.
 TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame);
 
 // The frame's step, time and wall poses stay at their defaults: the table does not hold them.

@@ -1,5 +1,5 @@
-// What all observers of observer_list.hpp give, without a state and without the step loop: what is known
-// where a scene is read or a frame is drawn.
+// The columns of measures.csv: which observer gives which, and how each is drawn. Needs no state and no step
+// loop, so that scenes can be read and frames drawn with it.
 #pragma once
 
 #include <string>
@@ -17,18 +17,18 @@ struct ObserverColumns {
 // In the order of their columns.
 const std::vector<ObserverColumns>& observer_columns();
 
-// The columns of all of them, those of instruments that the scene does not ask for among them.
+// The columns of all observers, also of instruments that the scene does not ask for.
 std::vector<MeasureColumn> measure_columns(const Scene& scene);
-// They, and the instruments' names, for the reader of a scene.
+// These columns and the names of the instruments, for the reader of a scene.
 Measurable measurable_in(const Scene& scene);
 
 // The table of all columns in Markdown, as in docs/reference/scenes.md.
 std::string column_table_markdown();
 
-// What axis a column of measures.csv takes where it is drawn.
+// The axis on which a column of measures.csv is drawn.
 struct ColumnAxis {
     bool from_zero = false;  // it cannot be negative: the axis begins at 0
-    double expected = 0;     // SI, about how large it gets, by the scene; 0 where nobody knows
+    double expected = 0;     // SI, how large it gets by the scene, roughly; 0: not known
 };
 
 ColumnAxis axis_of_column(const Scene& scene, const std::string& column);

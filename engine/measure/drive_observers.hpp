@@ -1,4 +1,4 @@
-// When: step, time, phase and periods of the drive.
+// Observers of the drive: the time of a row, what the drive does then, and where it has moved the floor.
 #pragma once
 
 #include <limits>
@@ -8,6 +8,7 @@
 
 namespace grainreel::observers {
 
+// Step, time, phase and periods of the drive.
 class Times final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -24,7 +25,7 @@ class Times final : public Observer {
 };
 
 // What the drive does: frequency and acceleration of the stage that is on.
-// f, and Gamma = a (2 pi f)^2 / g; in a change and in the ramp those of the moment.
+// It gives f and Gamma = a (2 pi f)^2 / g; during a change and the ramp, those of the moment.
 class DriveNow final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

@@ -1,4 +1,5 @@
-// Energies of the grains. J.
+// Energies of the grains (J), and the energy balance of a run. Both look at the contacts through the step
+// loop.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +37,8 @@ ContactSummary summarise_contacts(const StepLoop& loop, std::int64_t step);
 double total_energy(const Surroundings& around, const Grains& grains, const StepLoop& loop,
                     std::int64_t step);
 
-// The energy balance of a run, term by term: what walls give and what contacts take is measured at the
-// contacts, and none of it is inferred from the others. What is left is the error of the finite step.
+// The energy balance of a run, term by term. What walls give and what contacts take is measured at the
+// contacts; no term is inferred from the others. The rest is the error of the finite step.
 //
 // Latching takes what its law says, the area between its slopes: (K1/2)(1 - e^2) a_max^2, as a_max grows.
 // Friction takes T . ds less what its springs keep, dashpots their force times velocity, walls give theirs
@@ -75,8 +76,8 @@ class EnergyBalance {
     // Call after every step, with its number.
     void note(std::int64_t step);
 
-    // All of it, bit by bit, to go on with the same grains and loop. The reading fails where save() could not
-    // have written what is read.
+    // All of its state, bit by bit, to go on with the same grains and loop. The reading fails where save()
+    // could not have written what is read.
     void save(std::ostream& out) const;
     void load(Bytes& in);
 

@@ -1,4 +1,4 @@
-// What the grains hold, what moving walls have put in, and the rest of that balance.
+// Observers of energy: the energies at each row, and the shares of the energy balance.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 namespace grainreel::observers {
 
+// What the grains hold, what moving walls have put in, and the rest of that balance.
 class Energies final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -43,7 +44,7 @@ class Energies final : public Observer {
 
 // Where the energy goes, term by term: each is measured at the contacts, and none is the rest of the others.
 // The formulas are those of engine/measure/energy.hpp.
-// It looks at all contacts after every step, so that a run takes several times as long.
+// This observer looks at all contacts after every step, so a run takes several times as long.
 class EnergyShares final : public Observer {
   public:
     static constexpr const char* instrument = "energy_balance";

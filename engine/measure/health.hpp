@@ -1,4 +1,5 @@
-// Health of a run: a state that is no longer physics stops it, naming step, grain, place and remedy.
+// The health of a run: a state that is no longer physics stops it. The message names step, grain, place and
+// remedy.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The numbers of one moment, by the names of their columns: a row of measures.csv, or a part of one.
+// Measured values in memory: a row of measures.csv (Measures), all its rows (MeasureTable), and fields on
+// grids. Light: who reads, writes or draws values includes it without the observers.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,7 @@
 
 namespace grainreel {
 
+// The numbers of one moment, by the names of their columns: a row of measures.csv, or a part of one.
 class Measures {
   public:
     using Names = std::shared_ptr<const std::vector<std::string>>;
@@ -42,8 +44,8 @@ class Measures {
     std::vector<double> values_;
 };
 
-// The rows of measures.csv in memory, growing while others read: the engine's thread adds, the drawing one
-// reads rows that are complete.
+// The rows of measures.csv in memory. The engine's thread adds rows while the drawing thread reads complete
+// ones.
 class MeasureTable {
   public:
     explicit MeasureTable(std::vector<std::string> columns) : columns_(std::move(columns)) {}
@@ -75,14 +77,14 @@ class MeasureTable {
     std::vector<double> values_;  // row after row
 };
 
-// What a column holds at a moment at which there is nothing to measure.
+// The value of a column at a moment when there is nothing to measure.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 inline void add_no_values(std::vector<double>& row, std::size_t columns) {
     row.insert(row.end(), columns, kNoValue);
 }
 
-// Fields: what an observer knows place by place, on grids that stay the same for the whole run.
+// Fields are what an observer knows place by place, on grids that stay the same for the whole run.
 
 // One direction of a grid: a place, a phase of the drive, a species.
 struct FieldAxis {
@@ -106,7 +108,7 @@ struct FieldSet {
     std::vector<FieldInfo> fields;
 };
 
-// A value for each cell, in the order of the field's axes; NaN where there is none. One a field of the set.
+// For each field of the set, a value for each cell in the order of the field's axes; NaN where there is none.
 using FieldValues = std::vector<std::vector<double>>;
 
 }  // namespace grainreel

@@ -1,12 +1,12 @@
-// What measures: an observer sees the state and changes nothing.
+// Observers measure: they look at the state of a run and change nothing.
 //
-// An observer is a class in a file NAME_observer.hpp, beside the formula that it uses, and a name in
-// observer_list.hpp. Besides what is virtual here it has
+// An observer is a class in the folder of its subject, beside the formula that it uses (bed/bed_observers.hpp
+// and others), and a name in observer_list.hpp. Besides the virtual functions below it has
 //     static std::vector<ColumnGroup> columns(const Scene& scene);
-// which says what it gives, without a state: the scene's reader knows columns from it. An observer that is
-// made only where the scene asks for it (output.instruments, or somebody's wish: Scene::wishes) also has
+// which names its columns without a state; the reader of scenes knows them from it. An observer that is made
+// only where the scene asks for it (output.instruments or Scene::wishes) also has
 //     static constexpr const char* instrument = "walls";
-// and one that a key of its own asks for
+// and one that has a key of its own in the scene has
 //     static bool wanted(const Scene& scene);
 #pragma once
 
@@ -73,20 +73,20 @@ class Observer {
     // After the last contact: adds a value for each of its columns to `row`.
     virtual void look(const ObservedState& moment, std::vector<double>& row) = 0;
 
-    // On grids: what it gives, which stays the same for the whole run, and the values of a moment, which are
-    // asked for in place of look() and after the same calls.
+    // For an observer of fields: what they are, which stays the same for the whole run, and their values at a
+    // moment. These are asked for in place of look(), after the same calls.
     virtual const FieldSet* fields() const { return nullptr; }
     virtual FieldValues look_at_fields(const ObservedState&) { return {}; }
 
-    // An observer that gathers says here the first step after `step` at which gather() is called: every step,
-    // every row, some phases. It depends on nothing that was gathered, so that it does not matter where a run
+    // The first step after `step` at which gather() is called, for an observer that gathers: every step,
+    // every row, some phases. It must not depend on what was gathered, so that it does not matter where a run
     // was broken off and taken up again. gather() comes after the same calls as look(), and before it.
     static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
     virtual std::int64_t gathers_after(std::int64_t) const { return kNever; }
     // Whether ObservedState::wall_sums is there.
     virtual bool needs_wall_sums() const { return false; }
-    // Once, before all gathering: when the drive starts, or where a run goes on from a checkpoint that has
-    // nothing of this observer.
+    // Called once, before all gathering: when the drive starts, or where a run goes on from a checkpoint that
+    // knows nothing of this observer.
     virtual void start(const ObservedState&) {}
     virtual void gather(const ObservedState&) {}
     // Everything it has gathered, bit by bit, for the checkpoint. load() takes the place of start() and makes
@@ -95,10 +95,10 @@ class Observer {
     virtual void load(const ObservedState&, Bytes&) {}
 };
 
-// What is known of an observer before one is made.
+// What is known of an observer before it is made.
 struct ObserverEntry {
     const char* instrument;              // null: it is always made, unless `wanted` says otherwise
-    bool (*wanted)(const Scene& scene);  // null: as `instrument` says
+    bool (*wanted)(const Scene& scene);  // null: `instrument` decides
     std::vector<ColumnGroup> (*columns)(const Scene& scene);
     std::unique_ptr<Observer> (*make)(const Scene& scene, const Plan& plan);
 };
@@ -117,13 +117,13 @@ ObserverEntry entry_of() {
     return entry;
 }
 
-// When rows of measures.csv come, for observers that gather at them.
+// The steps at which rows of measures.csv come, for observers that gather at them.
 class Rows {
   public:
     explicit Rows(const Plan& plan)
         : rhythm_(plan.measures_every, plan.measures_periods), clock_(plan.clock) {}
 
-    // The first after this step, which is at least -1.
+    // The first such step after `step`, which is at least -1.
     std::int64_t after(std::int64_t step) const { return rhythm_.next(step + 1, clock_); }
 
   private:

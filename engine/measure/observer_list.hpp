@@ -1,8 +1,8 @@
-// Every observer of measures.csv, in the order of the columns. A new one is a file NAME_observer.hpp beside
-// its formula, and its include and its name here.
+// Every observer of measures.csv, in the order of the columns. A new observer is a class beside its formula;
+// its include and its name come here.
 //
 // Two files read this list. columns.cpp takes only what is static of each, so it needs no step loop;
-// observer_list.cpp makes them.
+// observers.cpp makes them.
 #pragma once
 
 #include "engine/measure/bed/bed_observers.hpp"

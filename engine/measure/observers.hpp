@@ -1,4 +1,5 @@
-// The observers that somebody wants: their row of numbers, and what they gather.
+// The observers of one run: made from the list, asked for their row of values, and saved with what they
+// gather.
 #pragma once
 
 #include <functional>
@@ -15,18 +16,18 @@ namespace grainreel {
 // Shows all contacts of a moment to `see`.
 using ShowContacts = std::function<void(const std::function<void(const ContactView&)>& see)>;
 
-// Those of observer_list.hpp, in the order of their columns.
+// The observers of observer_list.hpp, in the order of their columns.
 const std::vector<ObserverEntry>& all_observers();
 
 class Observers {
   public:
-    // Makes those of `table` that are always made, and those of the instruments that scene.output names.
+    // Makes the observers of `table` that are always made, and the instruments that scene.output names.
     Observers(const std::vector<ObserverEntry>& table, const Scene& scene, const Plan& plan);
 
     const std::vector<std::string>& names() const { return *names_; }
     // A value for each name. Calls show_contacts once where an observer needs contacts, else not at all.
     Measures look(const ObservedState& moment, const ShowContacts& show_contacts);
-    // One of them. Asks the observer alone that gives it. The column must be there.
+    // The value of one column, which must be there. Only the observer that gives it is asked.
     double look(const ObservedState& moment, const ShowContacts& show_contacts, const std::string& column);
 
     // On grids, observer by observer: what they give, and the values of a moment in the same order.
@@ -35,7 +36,7 @@ class Observers {
 
     // Whether somebody needs ObservedState::wall_sums.
     bool need_wall_sums() const;
-    // When the drive starts, or for those that load() has found nothing of.
+    // Starts the observers when the drive starts, or those of which load() has found nothing.
     void start(const ObservedState& moment, const ShowContacts& show_contacts);
     // The first step after `step` at which somebody gathers; Observer::kNever.
     std::int64_t gathers_after(std::int64_t step) const;
@@ -43,7 +44,7 @@ class Observers {
     void gather(const ObservedState& moment, const ShowContacts& show_contacts);
 
     // What they have gathered, for the checkpoint. The reading fails where save() could not have written what
-    // is read. What is there of observers that are not is passed over.
+    // is read. What stands there of observers that are not made is passed over.
     void save(std::ostream& out) const;
     void load(const ObservedState& moment, Bytes& in);
 

@@ -1,4 +1,5 @@
-// The edges of a mesh, each with all sides of triangles that lie on it.
+// The edges of a mesh, and which of its parts are closed. Each edge has all sides of triangles that lie on
+// it.
 #pragma once
 
 #include <algorithm>
@@ -78,10 +79,9 @@ class DisjointSets {
     std::vector<std::int32_t> parent_;
 };
 
-// Which parts of a surface bound a solid.
-
-// For each triangle, whether its part (what hangs together by edges) is closed and consistently wound: each
-// edge is run through as often one way as the other. Such a part has an inside, and rays tell it.
+// Whether the part of each triangle bounds a solid. A part hangs together by edges. It bounds a solid if it
+// is closed and consistently wound: each edge is run through as often one way as the other. Rays tell the
+// inside of such a part.
 std::vector<char> in_closed_part(const TriangleMesh& mesh);
 
 }  // namespace grainreel

@@ -24,8 +24,8 @@
 
 namespace grainreel {
 
-// Answers for most places of a room at once: a grid of 32 x 32 x 32 cells. What one place of a cell without
-// surface is, all are, and those of the cells beyond its sides at the same height.
+// A grid of 32 x 32 x 32 cells that answers at once for most places of a room. All places of a cell without
+// surface have one answer, and so have the cells beyond its sides at the same height.
 class RoomGrid {
   public:
     enum class Answer : std::uint8_t { unknown, inside, outside };

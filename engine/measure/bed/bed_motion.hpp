@@ -1,4 +1,5 @@
-// When a shaken bed leaves the floor and when it lands.
+// How a shaken bed moves: when it leaves the floor and lands (Flight), and after how many periods of the
+// drive it repeats itself (PeriodMultiple). Observers of bed_observers.hpp feed both.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,11 @@
 
 namespace grainreel {
 
-// Is told the force on the floor, over the bed's weight, as its means over stretches of steps that follow
-// each other. The bed flies from the beginning of the first stretch in which the floor carries less than a
-// tenth of the weight to the beginning of the first one in which it carries more than half; so a few grains
-// that stay behind, or jump, neither end a flight nor make one. Flights shorter than a sixteenth of a period
-// are the bed's own vibrations and do not count.
+// Finds flights of the bed. It is told the mean force on the floor, over the bed's weight, for one stretch of
+// steps after the other. The bed flies from the beginning of the first stretch in which the floor carries
+// less than a tenth of the weight to the beginning of the first one in which it carries more than half. So a
+// few grains that stay behind, or jump, neither end a flight nor make one. Flights shorter than a sixteenth
+// of a period are the bed's own vibrations and do not count.
 //
 // An inelastic block on a plate leaves it where the plate's acceleration is that of gravity, at the phase
 // asin(1 / Gamma) / 2 pi of a sine.
@@ -49,10 +50,10 @@ class Flight {
     State state_;
 };
 
-// After how many periods of the drive does the bed repeat itself? A bed that is thrown so high that it lands
-// only in every second period does so after two: an inelastic block on a plate at more than sqrt(pi^2 + 4) g.
-
-// Sees the height of the bed's centre of mass at the same phases of every period, and compares each period
+// After how many periods of the drive the bed repeats itself. A bed that is thrown so high that it lands only
+// in every second period does so after two: an inelastic block on a plate at more than sqrt(pi^2 + 4) g.
+//
+// It sees the height of the bed's centre of mass at the same phases of every period, and compares each period
 // with the one before it, with the one before that, and so on.
 class PeriodMultiple {
   public:
@@ -66,7 +67,7 @@ class PeriodMultiple {
     explicit PeriodMultiple(double diameter) : least_(0.1 * diameter) {}
 
     // m above the floor, at phase number `number`, which counts on from period to period and starts anywhere.
-    // After a gap all begins anew.
+    // After a gap everything begins anew.
     void add(std::int64_t number, double height);
 
     // Periods; 1 until another multiple is known.

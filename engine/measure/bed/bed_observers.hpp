@@ -1,4 +1,5 @@
-// How high the bed is, and how dense.
+// Observers of the bed as a whole: its shape and motion, its centre of mass, its contacts and a single
+// intruder. Each class gives columns of measures.csv; the formulas stand in bed_shape.hpp and bed_motion.hpp.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 
 namespace grainreel::observers {
 
+// How high the bed is, and how dense.
 class BedShape final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -60,7 +62,7 @@ class BedMotion final : public Observer {
 
     bool needs_wall_sums() const override { return true; }
     std::int64_t gathers_after(std::int64_t step) const override {
-        if (!shaken_) return step < 0 ? 0 : kNever;  // the bed at rest is wanted all the same
+        if (!shaken_) return step < 0 ? 0 : kNever;  // the bed at rest is needed all the same
         return (step + every_) / every_ * every_;
     }
     void start(const ObservedState& m) override {
@@ -113,7 +115,7 @@ class BedMotion final : public Observer {
         if (has_floor(m)) floor_ = floor_of(m);
     }
     // Mean force of the grains on the floor along gravity since the step before, over their weight. The sums
-    // are those of walls/wall_forces.hpp.
+    // are those of walls/wall_forces_observer.hpp.
     double carried(const ObservedState& m) const {
         const FaceSums& now = floor_of(m);
         double counts = 0, mass = 0;  // counts times m/s2
@@ -167,7 +169,7 @@ class BedPeriods final : public Observer {
     void load(const ObservedState&, Bytes& in) override { multiple_.load(in); }
 
   private:
-    // m, of the centre of mass above the floor where that is now.
+    // Height of the centre of mass above the present place of the floor, m.
     static double centre_height(const ObservedState& m) {
         double moment = 0, mass = 0;
         for (std::size_t i = 0; i < m.grains.size(); ++i) {
@@ -209,7 +211,7 @@ class CentreOfMass final : public Observer {
     }
 };
 
-// Where the grains of each species are on average, each counted alike.
+// Mean place of the grains of each species. Every grain counts alike.
 class SpeciesPlaces final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene& scene) {

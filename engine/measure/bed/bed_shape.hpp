@@ -1,4 +1,5 @@
-// How much of the container, up to a height, is filled by grains.
+// How the bed is built: its solid fraction, the directions of its contacts (Fabric), and the height of a
+// single large grain in it. Plain formulas without the step loop.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ namespace grainreel {
 double solid_fraction(const Container& container, const Grains& grains, double floor, double top);
 
 // How the contacts between grains are oriented.
-
+//
 // The fabric tensor F = <n n^T> over the unit normals n of contacts: Oda (1982, Soils Found. 22(4), 96),
 // Rothenburg & Bathurst (1989, Geotechnique 39, 601). Its trace is 1; F = I / 3 when no direction is
 // preferred.
@@ -41,8 +42,6 @@ class Fabric {
     Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();
     double contacts_ = 0;
 };
-
-// A single large grain in a bed of others.
 
 // Index of the one grain of the species of the largest mean diameter; none where there is one species only,
 // or that species has not just one grain.

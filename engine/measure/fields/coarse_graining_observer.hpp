@@ -1,4 +1,5 @@
-// Density, velocity, temperature and stress on a grid; see engine/measure/fields/coarse_graining.hpp.
+// The observer of coarse-grained fields (density, velocity, temperature, stress): their names and units, and
+// their means over the stretches of time that fields.nc has. The formulas stand in coarse_graining.hpp.
 #pragma once
 
 #include <iosfwd>
@@ -19,8 +20,7 @@ FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by);
 // The values in the order of that set. `fields` may be missing: then all are NaN.
 FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const CoarseGraining& by);
 
-// Fields by coarse-graining as a run goes on: it gathers moments, and has the mean of each record when the
-// record ends.
+// Gathers moments while a run goes on, and has the mean of each stretch of time when the stretch ends.
 class FieldRecord {
   public:
     FieldRecord(const Scene& scene, const FieldTimes& times);

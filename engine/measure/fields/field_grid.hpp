@@ -98,7 +98,7 @@ class FieldKernel {
     std::vector<double> values_;  // with zeros behind
 };
 
-// As inside_shares() of field_grid.hpp, of a vessel that is a mesh.
+// As inside_shares(), of a vessel that is a mesh.
 std::vector<double> shares_inside_mesh(const FieldGrid& grid, const Scene& scene);
 
 }  // namespace grainreel

@@ -1,5 +1,5 @@
-// How far grains have drifted, on average, in a period of the drive: across the container, in the container's
-// own frame.
+// Convection of a shaken bed: the mean drift of grains in a period of the drive (in the container's frame),
+// what turns in that velocity field, and the observer of both.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@
 
 namespace grainreel {
 
-// A velocity field on equal cells of a plane, and what turns in it.
-
+// A velocity field on equal cells of a plane.
+//
 // Cells in (y, z), y to the right and z up; cell (j, k) at index j + k * across. Any unit of speed: m/s, or m
 // a period.
 struct VelocityGrid {

@@ -1,4 +1,5 @@
-// What has flowed out: how much of each species, how fast, and when the container was empty.
+// The observer of outflow: how much of each species has left, how fast, and when the container was empty.
+// Masses are whole numbers of a quantum, so that no rounding adds up.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +16,8 @@
 
 namespace grainreel {
 
-// Masses as whole numbers, so that what has come, what is there and what has left agree to the last one, in
-// whatever order they are summed; and what the feeds of a scene have given.
-
-// By species.
+// Masses as whole numbers, species by species. What has come, what is there and what has left then agree to
+// the last digit, in whatever order they are summed.
 using MassCounts = std::vector<WideInt>;
 
 WideInt total(const MassCounts& counts);

@@ -1,4 +1,5 @@
-// How far apart two kinds of grain are.
+// Measures of segregation of two kinds of grain: mixing by samples, order by height, and grains at side
+// walls. Plain formulas; the observers stand in segregation_observers.hpp.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +15,12 @@
 
 namespace grainreel {
 
-// Grains a sample of the Lacey index, on average; the index depends on it, so it is fixed.
+// Mean number of grains in a sample of the Lacey index. The index depends on it, so it is fixed.
 inline constexpr int kLaceySample = 32;
 
-// Grains of the rarer kind that a sample must have on average; with fewer there is no index. By chance one
-// sample in exp(3) = 20 then has none of them (Poisson), and what the samples hold no longer tells a layer
-// from a mixture.
+// Mean number of grains of the rarer kind that a sample must have; with fewer there is no index. At this
+// number one sample in exp(3) = 20 has none of them by chance (Poisson). With fewer still, samples of a
+// mixture look like those of a layer.
 inline constexpr double kLeastOfRareKind = 3;
 
 // What samples of the bed show of one kind of grain among all. The samples have equal counts of grains,
@@ -54,10 +55,10 @@ double share_above(std::vector<double>& these, std::vector<double>& those);
 // flight have no say in it. Reorders.
 double bed_height(std::vector<double>& heights);
 
-// Which species the segregation indices compare.
-
-// The species of the largest and of the smallest mean diameter. All of one size: the first and the second.
-// There must be two at least.
+// The two species that the segregation indices compare.
+//
+// These are the species of the largest and of the smallest mean diameter; where all are of one size, the
+// first and the second. There must be two at least.
 struct BigAndSmall {
     std::size_t big = 0, small = 0;
 };
@@ -81,13 +82,11 @@ class SideWalls {
     double gap_ = 0;  // m
 };
 
-// Heights of grains above the floor. m.
-
-// Heights of all grains' centres above the floor, or of those of one species. floor: m, its height.
+// Heights (m) of all grains' centres above the floor, or of those of one species. floor: m, its height.
 std::vector<double> heights_above(const Grains& grains, double floor,
                                   std::optional<std::size_t> species = {});
 
-// Mean of each of so many species.
+// The mean height of each species. species: how many there are.
 std::vector<double> mean_heights(const Grains& grains, std::size_t species, double floor);
 
 }  // namespace grainreel

@@ -1,4 +1,5 @@
-// How much higher big grains lie than small ones.
+// Observers of segregation: each class gives columns of measures.csv, by the formulas of segregation.hpp and
+// unlike_neighbours.hpp.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 namespace grainreel::observers {
 
+// How much higher big grains lie than small ones.
 class HeightDifference final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -126,7 +128,7 @@ class Mixing final : public Observer {
     }
 };
 
-// Do grains of different species lie side by side as often as by chance?
+// Whether grains of different species lie side by side as often as by chance.
 class Unlike final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

@@ -1,4 +1,5 @@
-// Do grains of different species lie side by side as often as by chance?
+// Whether grains of different species lie side by side as often as by chance, and the search for neighbours
+// that this needs.
 #pragma once
 
 #include <cstdint>

@@ -39,9 +39,9 @@ std::size_t bins_across(const SurfaceFrame& frame);
 BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
 
 // Where the surface of a scene's bed is looked for.
-
-// The frame of the container at rest, as wide as it is free at the height that the grains fill. Bins go by
-// the mean diameter of all grains. It has no width in empty space, nor in a drum (drum_surface.hpp).
+//
+// This is the frame of the container at rest, as wide as it is free at the height that the grains fill. Bins
+// go by the mean diameter of all grains. It has no width in empty space, nor in a drum (drum_surface.hpp).
 SurfaceFrame surface_frame(const Scene& scene);
 
 // How far a surface is heaped up.
@@ -85,9 +85,8 @@ class Spectrum {
 double mean_height_of(const std::vector<double>& heights);
 double variance_of(const std::vector<double>& heights);  // about their mean
 
-// Whether a surface repeats itself with each period of the drive, or only after two or four.
-
-// Periods of which surfaces are compared.
+// The surfaces of so many periods are compared. They tell whether a surface repeats itself with each period
+// of the drive, or only after two or four.
 constexpr int kComparedPeriods = 8;
 
 struct Subharmonics {

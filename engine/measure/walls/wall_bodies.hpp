@@ -1,4 +1,4 @@
-// The walls of a scene by the bodies that they belong to.
+// The walls of a scene, the bodies that they belong to, and which of these turn. Needs no step loop.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,6 @@ struct WallBody {
     Vec3 axis{0, 0, 0};    // unit
 };
 std::vector<WallBody> wall_bodies(const Scene& scene);
-
-// Which bodies of a scene turn, and which one the drum is.
 
 // Which of the scene's meshes is the container; empty where none is.
 std::optional<std::size_t> vessel_of(const Scene& scene);

@@ -1,4 +1,5 @@
-// The faces of a scene as measures see them: what their sums are counted in, and pressure on them.
+// Forces on walls as measures count them: the quantum of their sums, pressure on standing faces, and the work
+// of walls that move by themselves.
 #pragma once
 
 #include <cstdint>

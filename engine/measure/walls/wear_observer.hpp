@@ -15,16 +15,13 @@
 
 namespace grainreel {
 
-// What grains do to the surface of a mesh, triangle by triangle: how hard they press, the work of impacts and
-// that of rubbing.
-//
-// The work of a contact with the normal force N and the tangential force T on the mesh, and the velocity u of
-// the grain's surface against the mesh there: it presses with N; impacts do the work N max(0, u . n) dt, n
-// into the mesh, which is what compresses the two; rubbing does T . u dt. All are looked at every second
-// step, six times or more in a collision, and each look counts for the steps since the one before. The work
-// of rubbing over the area is what Archard's law of wear is proportional to (J. F. Archard 1953, J. Appl.
-// Phys. 24, 981, at a constant coefficient of friction), that of impacts what erodes (I. Finnie 1960, Wear 3,
-// 87).
+// The tally, triangle by triangle. A contact with the normal force N and the tangential force T on the mesh,
+// and the velocity u of the grain's surface against the mesh there: it presses with N; impacts do the work N
+// max(0, u . n) dt, n into the mesh, which is what compresses the two; rubbing does T . u dt. All are looked
+// at every second step, six times or more in a collision, and each look counts for the steps since the one
+// before. The work of rubbing over the area is what Archard's law of wear is proportional to (J. F. Archard
+// 1953, J. Appl. Phys. 24, 981, at a constant coefficient of friction), that of impacts what erodes (I.
+// Finnie 1960, Wear 3, 87).
 inline constexpr std::int64_t kLookSteps = 2;
 
 // One number for each triangle of one mesh, since the drive started.

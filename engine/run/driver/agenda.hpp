@@ -1,4 +1,5 @@
-// Who wants which step: frames that are handed out, the trajectory and the measures, merged in order of time.
+// The steps at which a run stops, and what for: frames that are handed out, rows of files, and key moments
+// for the run's page. All are merged in order of time.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct Stop {
     bool measures = false;
     bool moment = false;  // a frame that is handed out later wants to know how the grains are now
     bool fields = false;  // a record of fields ends
-    bool key = false;     // a key moment (key_moments.hpp)
+    bool key = false;     // a key moment (key_steps())
 };
 
 class Agenda {
@@ -54,13 +55,11 @@ class Agenda {
     bool begins_ = true;
 };
 
-// Key moments of a run: those of which it keeps all contacts with their forces (key_moments.nc,
-// key_contacts.nc), for its page. The start, the end and the two periods before it, times that somebody
-// names, and some in between.
-
-// Their steps, from `first` to the plan's last. named: s of simulated time, such as those at which captions
-// of a film begin. The more grains, the fewer, so that both files together take 40 MB or so; none where a
-// single moment takes more.
+// Key moments of a run are those of which it keeps all contacts with their forces (key_moments.nc,
+// key_contacts.nc), for its page: the start, the end and the two periods before it, times that somebody
+// names, and some in between. Returns their steps, from `first` to the plan's last. named: s of simulated
+// time, such as those at which captions of a film begin. The more grains, the fewer, so that both files
+// together take 40 MB or so; none where a single moment takes more.
 std::set<std::int64_t> key_steps(const Scene& scene, const Plan& plan, std::int64_t first,
                                  const std::vector<double>& named);
 

@@ -1,6 +1,5 @@
-// A run in formats of other programs ([output] also): RUN/also/vtk/, RUN/also/gsd.gsd. Made of the run's own
-// files when it has ended, whether it came to its end or not, so that nothing of this costs a running run
-// anything.
+// A run in formats of other programs ([output] also): RUN/also/vtk/, RUN/also/gsd.gsd. They are made of the
+// run's own files after the run has stopped, at its end or before, so that they cost a running run nothing.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +16,9 @@ void check_also(const Scene& scene);
 // "vtk", "gsd.gsd": the name in the folder also.
 std::string name_in_also(const std::string& format);
 
-// Writes each format whole, in place of what had its name. The run's folder holds a trajectory with a frame.
-// watcher: told the format and the share of all that is done; false stops, and what is not whole is left
-// out. Returns "also/vtk, also/gsd.gsd", those that were written; a format that is not written keeps its
+// Writes each format whole and replaces a former file of that name. The run's folder holds a trajectory with
+// a frame. watcher: told the format and the share of all that is done; false stops, and what is not whole is
+// left out. Returns "also/vtk, also/gsd.gsd", those that were written; a format that is not written keeps its
 // former file. Throws RunError or UserError when one cannot be written.
 std::string write_also(const std::filesystem::path& run, const Scene& scene,
                        const std::function<bool(const std::string& format, double done)>& watcher);

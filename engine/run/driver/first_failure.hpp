@@ -1,4 +1,5 @@
-// What went wrong first, while the rest is still tried: a run that ends badly keeps all it can.
+// Remembers what went wrong first while the rest is still tried, so that a run that ends badly keeps all it
+// can.
 #pragma once
 
 #include <exception>

@@ -1,5 +1,5 @@
-// What frames that a run hands out want of its earlier steps, such as a picture that is exposed over a while.
-// It is kept until the last frame that wants it has been handed out.
+// Earlier moments that the frames of a run need (KeptMoments), such as for a picture that is exposed over a
+// while, and all that a film or another program wants of a run beside its files (FrameWishes).
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,22 @@
 
 namespace grainreel {
 
-// Ids, positions and bodies alone, and the moment.
+// The frame's moment with ids, positions and bodies alone.
 Frame places_of(const Frame& frame);
 
 struct WantedMoment {
     std::int64_t step = 0;
-    bool whole = false;  // all of the grains; else places_of() them
+    bool whole = false;  // all of the frame; else places_of() it
 };
 
+// A moment is kept until the last frame that needs it has been handed out.
 class KeptMoments {
   public:
     // The frame that is handed out at a step wants these; such frames come by rising step.
     void want(std::int64_t frame, const std::vector<WantedMoment>& moments);
-    // At which something has to be kept.
+    // The steps at which something has to be kept.
     std::set<std::int64_t> steps() const;
-    // Copies of the frame what is wanted, when its step is one of those.
+    // Copies what is wanted of the frame, when its step is one of those.
     void keep(const Frame& frame);
     // Null when it was not kept.
     FramePtr at(std::int64_t step) const;

@@ -1,5 +1,5 @@
-// How fast a run goes: how many steps to take at a stretch, so that Ctrl-C and the progress line never wait
-// long, and the rate to show.
+// The pace of a run by the clock on the wall: steps at a stretch, times of its stages, and when checkpoints
+// are due.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 
 namespace grainreel {
 
+// How many steps to take at a stretch, so that Ctrl-C and the progress line never wait long, and the rate to
+// show.
 class Pace {
   public:
     std::int64_t steps() const { return steps_; }
@@ -30,7 +32,7 @@ class Pace {
     std::int64_t steps_ = 8;
 };
 
-// Work a second, forgetting what is a few seconds old.
+// Work in a second. It forgets what is a few seconds old.
 class RecentRate {
   public:
     void add(double work, double seconds) {
@@ -91,21 +93,20 @@ class StageTimes {
     std::vector<std::pair<std::string, double>> sums_;  // in order of first use
 };
 
-// When a run writes its checkpoints.
-
-// The next one 2 s after the first, then after 4 s, 8 s, ... 30 s: what a killed run loses is never much more
-// than what it has done. Those of the ring come beside them. A checkpoint of a million grains takes its time;
-// so all together never cost more than a hundredth of the run.
+// When a run writes its checkpoints. The second one comes 2 s after the first, the next after 4 s, 8 s, ...
+// 30 s, so that a killed run never loses much more than it has done. Checkpoints of the ring come beside
+// them. All together never cost more than a hundredth of the run, because a checkpoint of a million grains
+// takes its time.
 class CheckpointPace {
   public:
-    // After one that took so long to write, s.
+    // Call after a checkpoint. cost: s, how long it took to write.
     void saved(double cost) {
         interval_ = std::min(longest, 2 * interval_);
         cost_ = cost;
         since_ = Stopwatch();
     }
     bool due() const { return due(since_.seconds()); }
-    // So long after the last one.
+    // Whether a checkpoint is due so many seconds after the last one.
     bool due(double seconds) const { return seconds > std::max(interval_, share * cost_); }
     // Whether one more costs no more than it may.
     bool affordable() const { return since_.seconds() > share * cost_; }

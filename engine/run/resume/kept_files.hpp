@@ -1,4 +1,5 @@
-// How much of a run's growing files belongs to the steps before one.
+// The growing files of a run that goes on: how far they reach, and how they are opened and checked before any
+// of them is touched.
 #pragma once
 
 #include <cstddef>
@@ -22,22 +23,21 @@ bool keeps_fields(const Scene& scene);
 
 // Steps of a trajectory's frames, up to the first that is damaged; none where there is no such file.
 std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file);
-// The steps of the rows of measures.csv, on the same terms.
+// The steps of the rows of measures.csv, up to the first that is damaged; none where there is no such file.
 std::vector<std::int64_t> steps_in_measures(const std::filesystem::path& file);
 
 // Throws UserError for a file that the run writes and that is missing or cannot be read, before any of them
 // is touched.
 void check_files_of_run(const std::filesystem::path& run, const Scene& scene, const Plan& plan);
 
-// How far a run has come whose last checkpoint is of that step: a checkpoint may have been lost, and the rows
-// of measures.csv tell too.
+// The step that a run has reached, by its last checkpoint and by the rows of measures.csv: a checkpoint may
+// have been lost.
 std::int64_t reached_step(const std::filesystem::path& run, std::int64_t last_checkpoint);
 
-// Whether its files have all that a run which began at `first` has written before `step`.
+// Whether the files have all that a run which began at `first` has written before `step`.
 bool files_reach(const std::filesystem::path& run, const Scene& scene, const Plan& plan, std::int64_t first,
                  std::int64_t step);
 
-// The growing files of a run that goes on, before any of them is touched.
 struct ReadyFiles {
     bool key_moments = false;      // the run goes on with them
     std::string key_moments_lost;  // what is wrong with them; empty: nothing, or the run has none

@@ -1,4 +1,5 @@
-// Where a run that is taken up again goes on.
+// Where a run that is taken up again goes on, and changes to its scene that it may take up there (`resume
+// --accept`).
 #pragma once
 
 #include <cstdint>
@@ -26,23 +27,22 @@ struct ResumePoint {
     std::vector<AcceptedKey> accepted{};  // what was changed on the run's way up to there
 };
 
-// Up to which step a checkpoint will do for whoever wants all frames of the run once more, as its film does:
-// those before come from film_moments.nc, which has them at the steps `kept`, and the later ones as the run
-// goes. first: the step at which the run began; last: that of its last checkpoint. With `first` the run goes
-// on from its beginning, without the packing.
+// The last step whose checkpoint will do for a caller that wants all frames of the run once more, as a film
+// does. Earlier frames come from film_moments.nc, which has them at the steps `kept`; later ones come as the
+// run goes. first: the step at which the run began; last: that of its last checkpoint. With `first` the run
+// goes on from its beginning, without the packing.
 using FramesReach =
     std::function<std::int64_t(const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t last)>;
 
-// The last checkpoint from which all files of the run's folder can go on, and whoever wants its frames.
-// reach: null where nobody does.
+// The last checkpoint from which all files of the run's folder can go on, and the frames as well where they
+// are wanted. reach: null where they are not.
 //
 // scene, plan: how the run is to go on. Throws UserError where there is no such checkpoint, and where the
 // scene was changed.
 ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const std::filesystem::path& run,
                               int threads, const FramesReach& reach = {});
 
-// Changes to a scene that a run may take up while it goes on (`resume --accept`): those that leave stiffness
-// and step as they are.
+// A change to a scene that a run may take up while it goes on: stiffness and step stay as they are.
 struct AcceptedChange {
     std::string key;        // "drive.amplitude"
     std::string then, now;  // as TOML

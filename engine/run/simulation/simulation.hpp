@@ -19,7 +19,7 @@
 
 namespace grainreel {
 
-// A contact as one who asks what pushes a grain wants to know it.
+// A contact with all that a question about the forces on a grain needs.
 struct ContactForce {
     std::int32_t first, second;  // ids; second is -1 - face for a wall
     Vec3 normal;                 // unit, from first to second
@@ -63,7 +63,7 @@ struct PackingResult {
     double solid_fraction = 0;     // of the bed below the height under which 95 % of the centres lie
 };
 
-// Throws UserError where the grains of a file or a list do not fit the scene, as a run of it would.
+// Throws UserError, as a run would, where the grains of a file or a list do not fit the scene.
 void check_start(const Scene& scene, const Plan& plan);
 
 class Simulation {
@@ -140,8 +140,6 @@ class Simulation {
     explicit Simulation(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
-
-// How many threads a run is worth.
 
 // How many of these processors to use. A thread with too few grains waits longer than it works.
 int useful_threads(int processors, std::int64_t grains);

@@ -1,5 +1,5 @@
-// The parts of a simulation, for the files that make it up: simulation.cpp (steps and health), packing.cpp,
-// kept_packing.cpp, going_on.cpp (checkpoints) and views.cpp (what leaves it).
+// The parts of a simulation, for the files that make it up: simulation.cpp (steps, feeds and what leaves it),
+// packing.cpp (packings, new or kept) and going_on.cpp (checkpoints). No other file includes this.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,10 @@
 namespace grainreel {
 
 // The scene's feeds at work: which grains come, and when.
-
-// Feeds look every so many steps, so that lists are made anew no oftener. A grain comes at the first look
-// after it is due. One that finds no place waits for the next look, and those behind it wait too.
+//
+// Feeds look for places only every so many steps, so that lists are not made anew more often. A grain comes
+// at the first look after it is due. One that finds no place waits for the next look, and those behind it
+// wait too.
 class Feeder {
   public:
     // The scene and the surroundings must outlive it.
