@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// Where what the drive moves is.
+// Where the things are that the drive moves.
 
 // Its displacement from rest and its velocity, both at the same time level.
 struct Pose {

@@ -1,5 +1,5 @@
-// The file of a checkpoint: name, version and checksum, the scene, the grains, and behind them what belongs
-// to the step loop, of which this knows nothing. So its grains can be read where there are no laws.
+// The file of a checkpoint: name, version and checksum, the scene, the grains, and behind them the state of
+// the step loop. That part is bytes here, so that grains can be read where there are no laws.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ struct CheckpointHeader {
     Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
 };
 
-// Whether it is one, of this version or another; and whether a file that begins so is.
+// Whether a file is a checkpoint, of this version or another; and whether a file that begins with these bytes
+// is one.
 bool is_checkpoint(const std::filesystem::path& path);
 bool begins_checkpoint(std::string_view bytes);
 
@@ -36,7 +37,7 @@ std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& 
 // Whether it has the bytes that were written, by its checksum.
 bool is_whole_checkpoint(const std::filesystem::path& path);
 
-// A checkpoint that was read whole. What its grains are is not looked at: whoever uses them does that.
+// A checkpoint that was read whole. Its grains are not checked here; the code that uses them does that.
 class CheckpointFile {
   public:
     enum class Fault { none, unreadable, other_version, damaged };

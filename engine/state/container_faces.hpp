@@ -1,6 +1,6 @@
 // The container as faces that grains can touch. A closed container is convex, so whole planes serve: a grain
 // in a corner touches two of them, and both contacts are real. With an open outlet the faces are thin plates
-// that end at edges (outlet_faces.hpp).
+// that end at edges.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ struct Face {
     double gap = 0;       // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
     bool round_gap = false;
 
-    // For a face whose body turns; see set_reach() (face_reach.hpp).
+    // For a face whose body turns; see set_reach().
     double reach = 0;  // m, of its farthest point from the axis
 
     // For a face whose body does not turn (Body::has_own_motion); else see distance_at() and velocity_of().
@@ -77,16 +77,13 @@ std::vector<Face> faces_of(const Scene& scene);
 // 0 when the depth is not periodic.
 double period_of_depth(const Container& container);
 
-// How far faces reach from the axis about which their body turns.
-
-// Sets Face::reach of a container's faces, where it turns. Walls that go on upwards without end count up to
-// twice the height.
+// Sets Face::reach of a container's faces, where the container turns. Walls that go on upwards without end
+// count up to twice the height.
 void set_reach(const Container& container, std::vector<Face>& faces);
 
-// The faces of the tray that catches what flows out of an outlet.
-
-// None without a tray. Its floor is an endless plane. Its walls are thin plates that end above, at their rim,
-// so that they touch nothing in the container. They stand still and are there before the outlet opens.
+// The faces of the tray that catches what flows out of an outlet; none without a tray. Its floor is an
+// endless plane. Its walls are thin plates that end above, at their rim, so that they touch nothing in the
+// container. They stand still and are there before the outlet opens.
 std::vector<Face> tray_faces(const Scene& scene);
 
 // What becomes of a container's faces when its outlet opens: the floor gets a slot or a hole, and the walls
@@ -98,10 +95,9 @@ std::vector<Face> tray_faces(const Scene& scene);
 // `faces` are those of container_faces(), perhaps with others behind them, which stay as they are.
 void open_outlet(const Container& container, std::vector<Face>& faces);
 
-// The walls of a scene as columns of measures and files name them.
-
-// Container and planes, in the order of the surroundings' faces, then the meshes, as parts of columns:
-// "left_slant". Each name once: of walls of one name the second is "NAME_2".
+// The walls of a scene as columns of measures and files name them: container and planes, in the order of the
+// surroundings' faces, then the meshes, as parts of columns
+// ("left_slant"). Each name comes once: the second of two walls of one name is "NAME_2".
 std::vector<std::string> face_names(const Scene& scene);
 
 }  // namespace grainreel

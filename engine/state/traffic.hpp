@@ -60,10 +60,8 @@ struct Traffic {
     bool any() const { return came != 0 || left != 0 || next_id != 0 || openings != 0; }
 };
 
-// The grains that feeds give: which one comes as a feed's n-th is settled by the scene and its seed, so that
-// how many have come tells what has come.
-
-// All but its place. feed: which of the scene's; number: from 0.
+// The n-th grain that a feed gives, all but its place. Scene and seed settle it, so that the number of grains
+// that have come tells which ones have come. feed: which of the scene's; number: from 0.
 NewGrain fed_grain(const Scene& scene, std::size_t feed, std::int64_t number);
 
 }  // namespace grainreel

@@ -122,8 +122,8 @@ void StepLoop::move(int member, bool first, const KickInput& kicks) {
     }
 }
 
-// Allows grains to begin the next step as soon as their loads are complete. vanguard.hpp says where this
-// pays.
+// Allows grains to begin the next step as soon as their loads are complete. Vanguard
+// (forces/contact_forces.hpp) says where this pays.
 void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
     const bool pays = team_.size() > 1 || is_large_bed(grains_);
     const bool may = goes_on && pays && !scheme_.corrects;

@@ -1,12 +1,12 @@
 // The step loop: kicks and drifts of the grains, lists, contacts, on a team of threads. It says in which
 // order a step does its work. The parts have files of their own:
-//   evaluation.hpp                when forces are evaluated, and the kicks and drifts between two evaluations
+//   motion/scheme.hpp             when forces are evaluated, and the kicks and drifts between two evaluations
 //   lists/list_life.hpp           how long lists last
 //   lists/bed_lists.hpp           the lists
 //   threads/work_shares.hpp       which grains each thread has
 //   forces/contact_forces.hpp     the forces
-//   step_loop_traffic.cpp         grains that leave and enter
-//   step_loop_faults.cpp          what ends a run
+//   step_loop_traffic.cpp         grains that leave and enter, and walls that change
+//   step_loop.cpp                 the loop itself, its state for checkpoints, and what ends a run
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ class StepLoop {
 
     // After a restart(): contacts that touch take up histories, and the forces are those of these. history_of
     // gets a group of contacts, the indices of the two bodies (as in ContactTable) and the numbers of the
-    // history to fill in; it says whether it has one. The same on every thread.
+    // history to fill in; it says whether it has one. It must answer the same on every thread.
     using HistoryOf =
         std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
     void take_histories(const HistoryOf& history_of);
@@ -53,8 +53,8 @@ class StepLoop {
 
     // Between two runs, `step` being the one that has been reached. Grains that are not there are left out.
     void remove(const std::vector<std::int32_t>& ids, std::int64_t step);
-    // Likewise, after a restart(). New grains must touch nothing. They get rising ids, none of which any
-    // grain has had; returns the first of them.
+    // Between two runs, after a restart(). New grains must touch nothing. They get rising ids, none of which
+    // any grain has had; returns the first of them.
     std::int32_t insert(const std::vector<NewGrain>& grains);
     // Between two runs: `change` opens an outlet, so that faces of the surroundings end or have a gap. Faces
     // keep their numbers, and no face grows.
@@ -69,7 +69,7 @@ class StepLoop {
     // where it was not tallied, those that contacts have at `step`, the present one. It changes nothing of
     // the run, and costs it some percent of what its walls cost.
     void tally_walls(const WallScale& scale, std::int64_t step);
-    // Likewise, and goes on where `before` stopped. Its vectors must be as long as there are faces and
+    // The same, but goes on where `before` stopped. Its vectors must be as long as there are faces and
     // slices.
     void go_on_tallying(const WallSums& before, const WallScale& scale);
     WallSums wall_sums() const;
@@ -152,7 +152,7 @@ class StepLoop {
     static constexpr std::int64_t kGoesOn = std::numeric_limits<std::int64_t>::min();
 
     Traffic traffic_;
-    std::vector<Departure> departures_;  // nobody has asked for yet
+    std::vector<Departure> departures_;  // that nobody has asked for yet
 };
 
 }  // namespace grainreel

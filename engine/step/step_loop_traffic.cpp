@@ -1,6 +1,6 @@
-// Grains leave and enter between two steps. Those that stay keep their order, their forces and their
-// histories, so that nothing depends on the threads. A grain that has lost a contact in this way begins its
-// next step with the forces of those contacts that it keeps.
+// Grains leave and enter, and walls change, between two steps. Grains that stay keep their order, their
+// forces and their histories, so that nothing depends on the threads. A grain that has lost a contact in this
+// way begins its next step with the forces of those contacts that it keeps.
 
 #include <algorithm>
 #include <utility>

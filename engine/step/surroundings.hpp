@@ -1,4 +1,5 @@
-// The surroundings of the grains.
+// The surroundings of the grains: faces, glued grains, meshes, gravity and exits. The step loop reads them
+// and never changes them.
 #pragma once
 
 #include <memory>
@@ -21,7 +22,6 @@ struct MeshWall {
     Vec3 point{0, 0, 0};  // m, about which its moment counts, at rest
 };
 
-// The step loop reads them and never changes them.
 struct Surroundings {
     std::vector<Face> faces;
     GluedGrains glued;  // to these faces
@@ -33,9 +33,8 @@ struct Surroundings {
     std::vector<Exit> exits;  // through which grains leave; may change between two runs
 };
 
-// What a wall is called in messages.
-
-// wall: as ContactView counts them, faces first and meshes behind them (wall = -1 - second).
+// The name of a wall in messages. wall: as ContactView counts them, faces first and meshes behind them (wall
+// = -1 - second).
 inline std::string wall_name(const Surroundings& around, std::int32_t wall) {
     const auto number = static_cast<std::size_t>(wall);
     const std::size_t faces = around.faces.size();

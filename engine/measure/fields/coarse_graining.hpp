@@ -13,9 +13,9 @@
 // 14, 289). Stresses count pressure as positive; the first index is that of force or momentum.
 //
 // W has the width that the fields ask for, but the kernel W_i of a grain is never narrower than the grain's
-// radius (kernel_width() in kernel.hpp): else a large grain has a solid fraction above 1. Where two grains in
-// contact have kernels of different widths, Goldhirsch's line becomes a line along which the kernel W_s
-// changes its width w_s evenly, and in place of b stands the velocity that its parts have then:
+// radius (kernel_width() in field_grid.hpp): otherwise a large grain has a solid fraction above 1. Where two
+// grains in contact have kernels of different widths, Goldhirsch's line becomes a line along which the kernel
+// W_s changes its width w_s evenly, and in place of b stands the velocity that its parts have then:
 //
 //   contact stress     < sum over contacts  f x integral over s of W_s (b + (r - r_i - s b) d(ln w_s)/ds) >
 //

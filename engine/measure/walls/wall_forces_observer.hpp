@@ -1,7 +1,8 @@
 // What each wall takes: the mean force on it and its moment, the weight that it carries, and the pressure
 // against height; of walls that turn or move by themselves also the torque about their axis and the power
-// that they give (walls/wall_work.hpp). The forces are summed at every step, so that no impact is missed.
-// Forces are means between two rows of measures.csv, pressures between two ends of records of fields.nc.
+// that they give (WallWork in wall_faces.hpp). The forces are summed at every step, so that no impact is
+// missed. Forces are means between two rows of measures.csv, pressures between two ends of records of
+// fields.nc.
 //
 // Between the steps n1 < n2 the impulse on a face is dt (C(n2) - C(n1)) with C(n) = F_1 + ... + F_n - (1 - s)
 // F_n, where s is the share of a step's force that the grains have felt by its end: 1/2 with velocity Verlet.

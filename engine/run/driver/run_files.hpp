@@ -1,4 +1,5 @@
-// The files of one run that grow while it goes on: trajectory, contacts, measures, outflow.
+// The files of one run that grow while it goes on: trajectory, contacts, measures, outflow; and means of the
+// last measures.
 #pragma once
 
 #include <deque>
@@ -21,8 +22,8 @@
 
 namespace grainreel {
 
-// Means of the measures over the last periods of a run: a single row of a shaken bed says where in its period
-// it was taken.
+// Means of the measures over the last periods of a run, because a single row of a shaken bed depends on where
+// in its period it was taken.
 class LateMeans {
   public:
     // Over the last ten periods of the drive, or as many whole ones as there are; without a drive over the
@@ -55,8 +56,8 @@ class RunFiles {
     // (measures()). Throws RunError when a file cannot be made.
     RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
              const Simulation& simulation, const std::string& program_version, bool keep_rows);
-    // Likewise, of a run that goes on in its folder from where the simulation is: what its files have of that
-    // step and later ones is cut off first. ready_files() has looked at them. Throws UserError where they
+    // For a run that goes on in its folder from where the simulation is: what its files have of that step and
+    // later ones is cut off first. ready_files() has looked at them. Throws UserError where they
     // lack something of what was before.
     struct GoesOn {};
     RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,

@@ -1,5 +1,5 @@
-// What everybody does that fills a folder with a run: folder, log, record, and an end that keeps what there
-// is, whatever happened.
+// What all runs share that fill a folder: the folder, its log, run.json, and an end that keeps what there is,
+// whatever happened.
 #pragma once
 
 #include <cstdint>
@@ -33,18 +33,18 @@ struct RunRequest {
     ProgramInfo program;  // for run.json
 };
 
-// What is made in a run's folder beside the run itself, on threads of its own: a film.
+// Something else that is made in a run's folder, on threads of its own: a film.
 class SideWork {
   public:
     virtual ~SideWork() = default;
-    // Begun, and neither closed nor dropped.
+    // Whether it has begun, and is neither closed nor dropped.
     virtual bool is_open() const = 0;
     // For the sentence "stopping: finishing the film".
     virtual const char* name() const = 0;
     // Finishes it; in a hurry, or when the folder is gone, leaves it as it is. Notes a failure and throws
     // nothing. Nothing happens where it is not open.
     virtual void close() = 0;
-    // The run is put back as it was; nothing else is called afterwards.
+    // Called when the run is put back as it was; nothing else is called afterwards.
     virtual void drop() = 0;
     // What run.json says of it: before it is begun, while it is open, and when it is closed.
     virtual void describe(RunJson& record) const = 0;
@@ -71,7 +71,7 @@ class FolderRun {
 
     // The work itself, between the made folder and what is kept at the end; false when asked to stop.
     virtual bool work() = 0;
-    // What is made beside it; null for nothing.
+    // What is made beside the run; null for nothing.
     virtual SideWork* side_work() { return nullptr; }
     // After the work, whatever happened, and before side work is finished, which may take its time: what else
     // is to be kept.

@@ -1,5 +1,5 @@
-// To whom a run tells what it does, and who may ask it to stop. Nothing here prints or ends the process:
-// whoever runs a scene decides where the words go.
+// Who is told what a run does, and who may ask it to stop. Nothing here prints or ends the process: the
+// caller of a run decides where the words go.
 #pragma once
 
 #include <cstdint>
@@ -58,9 +58,9 @@ class RunListener {
 
     // The signal (SIGINT, say) that asked the run to end in good order; 0 while none did. On any thread.
     virtual int stop_signal() const = 0;
-    // From here there is something that may not be lost, however much of a hurry there is.
+    // From now on there is something that must not be lost, however much of a hurry there is.
     virtual void keep_before_exit() = 0;
-    // Whether it is to end at once, but for what is to be kept. On any thread.
+    // Whether the run is to end at once, apart from what must be kept. On any thread.
     virtual bool in_a_hurry() const = 0;
 };
 
@@ -115,7 +115,7 @@ class LoggingListener final : public RunListener {
 // replay.
 ReplayWatcher replay_progress(std::function<void(const Progress&)> tell);
 
-// What lies at hand for everybody who works on one run's folder.
+// What all parts that work on one run's folder share.
 struct RunDesk {
     explicit RunDesk(RunListener& to) : listener(to) {}
 

@@ -1,6 +1,5 @@
-// A run on disk brought back to one of its steps, bit by bit: from the nearest checkpoint before it the
-// engine goes there once more. How often it stops on its way, and who measured in the first run, changes
-// nothing.
+// Brings a run on disk back to one of its steps, bit by bit: the engine goes there once more from the nearest
+// checkpoint before. It does not matter how often it stops on its way, or what was measured in the first run.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +38,8 @@ Simulation replayed(const std::filesystem::path& run, const std::vector<KeptChec
 // Goes on to a later step. Throws RunError.
 void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher);
 
-// A run on disk brought back to one step after the other. Steps that rise cost no more than the run itself
-// did from the first to the last of them: the engine goes on from one to the next.
+// Brings a run on disk back to one step after the other. Rising steps cost no more than the run itself did
+// from the first to the last of them, because the engine goes on from one to the next.
 class Replayer {
   public:
     // kept: the run's checkpoints by rising step. run: named in messages.
@@ -63,11 +62,12 @@ class Replayer {
     std::optional<Simulation> simulation_;
 };
 
-// The checkpoints of a run's folder that are of this run: with its scene, so far as that decides the future,
-// and at the step that they are named by. A file from elsewhere leads nowhere that this run has been.
+// The checkpoints in a run's folder that belong to this run: they have its scene, as far as that decides the
+// future, and the step that their name says. A file from elsewhere would lead to states that this run never
+// had.
 struct OwnCheckpoints {
     std::vector<KeptCheckpoint> kept;  // by rising step; the last one is whole
-    std::vector<std::string> news;     // of those that are passed over: which, and why
+    std::vector<std::string> news;     // which checkpoints are passed over, and why
 };
 
 // scene: that of the run's folder. What was changed on the run's way (`resume --accept`) is in its run.json.

@@ -229,8 +229,8 @@ namespace {
 
 constexpr double kLeastPatience = 20;  // looks
 
-// s: how long a grain may wait for a place: twice as long as it takes to fall through the container, so that
-// the one before it has had time to leave the box; and at least some looks.
+// How long a grain may wait for a place, s: twice as long as a fall through the container takes, so that the
+// grain before it has had time to leave the box; and at least some looks.
 double patience(const Scene& scene, double look) {
     const double gravity = scene.gravity.norm();
     const double height = scene.container.height - scene.container.base();
@@ -288,7 +288,7 @@ std::vector<NewGrain> Feeder::take(std::int64_t step, const Grains& grains) {
     return more;
 }
 
-// The next grain of a feed has found no place at this time, s.
+// Throws RunError where the next grain of a feed has waited too long for a place. time: s.
 void Feeder::check_patience(std::size_t feed, double time) const {
     const Feed& from = scene_.feeds[feed];
     const double waited = time - from.from - static_cast<double>(given_[feed] + 1) / from.rate;

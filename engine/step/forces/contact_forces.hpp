@@ -1,4 +1,5 @@
-// The forces of one step: new contacts, then each contact's geometry, law and load.
+// The forces of one step: new contacts, then each contact's geometry, law and load. view_contacts() shows
+// contacts to observers in the same way. Hot: all but view_contacts() runs in each step.
 #pragma once
 
 #include <algorithm>
@@ -48,17 +49,14 @@ inline void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
 void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
                         Vanguard& vanguard, CostClock& clock);
 
-// Contacts with meshes, in each step: which patches a grain touches, and what their contacts remember.
-
-// Takes the place of add_new_contacts() for a group of meshes: finds the patches that grains touch, begins
-// their contacts at the end of the table, and sets MeshLists::touch. Notes the first fault.
+// For contacts with meshes it takes the place of add_new_contacts() for a group of meshes: finds the patches
+// that grains touch, begins their contacts at the end of the table, and sets MeshLists::touch. Notes the
+// first fault.
 void find_patches(const ForceInput& in, std::size_t group, ThreadContacts& contacts, PatchMatcher& matcher);
 
 // After the law of a chunk that begins at contact c: its contacts remember their patches.
 void remember_patches(const ContactGroup& group, const MeshTouch* touch, const ChunkMemory& memory,
                       std::int32_t c, int count, Histories& histories);
-
-// The candidates that have come to touch.
 
 // Once a step: candidates of a group that touch become contacts, at the end of its table.
 void add_new_contacts(const ForceInput& in, std::size_t group, ThreadContacts& contacts);
@@ -77,11 +75,9 @@ inline std::uint64_t which_touch(const ForceInput& in, const ContactGroup& group
     return touching() & bits_of_first(count);
 }
 
-// Shows contacts to observers.
-
-// Shows every touching contact of a group under an own grain of the thread. Late contacts began since the
-// last refresh; the others come by rising first and second body. Which contacts are late does not depend on
-// the threads.
+// Shows observers every touching contact of a group under an own grain of the thread. Late contacts began
+// since the last refresh; the others come by rising first and second body. Which contacts are late does not
+// depend on the threads.
 void view_contacts(const ForceInput& in, std::size_t group, const ThreadContacts& contacts,
                    const std::function<void(const ContactView&)>& in_order,
                    const std::function<void(const ContactView&)>& late);

@@ -1,4 +1,6 @@
-// From a chunk of contacts to what its law reads.
+// From a chunk of contacts to the input of its law: what forces are computed from (ForceInput), the patches
+// of meshes that grains touch (PatchMatcher), and the rows of the chunk (law_input()). Hot: it runs for every
+// chunk in each step.
 #pragma once
 
 #include <array>
@@ -18,9 +20,7 @@
 
 namespace grainreel {
 
-// What the forces of one step are computed from.
-
-// All zero: the forces as they stand, for observers.
+// Times of the forces of one step. All zero: the forces as they stand, for observers.
 struct ForceTimes {
     double since = 0;    // s, time since the last forces
     double ahead = 0;    // steps, from the time of the known velocity to the time of these forces
@@ -87,7 +87,7 @@ class PatchMatcher {
 
     Patches patches_;
     std::vector<Vec3> normals_;      // of the patches, in the frame of the scene
-    std::vector<double> distances_;  // likewise, m; negative for a centre that is to be pushed back
+    std::vector<double> distances_;  // of the patches, m; negative for a centre that is to be pushed back
     std::vector<Before> before_;
     std::array<int, kMostPatches> owner_{};  // of each patch: which of before_; -1 for none
     std::vector<MatchedPatch> matched_;

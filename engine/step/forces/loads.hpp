@@ -34,9 +34,8 @@ struct WallForces {
 // Adds the forces of walls to the grains' loads, and the work of moving walls to Grains::wall_work.
 void add_walls(const WallForces& forces);
 
-// Adds the forces of walls whose points move in different ways: of meshes, and of faces where one turns.
-
-// As add_walls(). The contacts' second bodies are faces, or patches of meshes.
+// As add_walls(), for walls whose points move in different ways: meshes, and faces where one turns. The
+// contacts' second bodies are faces, or patches of meshes.
 void add_at_points(const WallForces& forces, bool of_meshes);
 // Adds the load of contact c alone, which must touch.
 void add_at_point(const WallForces& forces, bool of_meshes, int c);

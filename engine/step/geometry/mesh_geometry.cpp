@@ -1,5 +1,5 @@
-// The geometry of contacts between a grain and a mesh, which touch where forces/match_patches.hpp says. The
-// numbers are those of touch_point() to the bit: nothing is fused.
+// The geometry of contacts between a grain and a mesh, which touch where PatchMatcher (forces/law_input.hpp)
+// says. The numbers are those of touch_point() to the bit: nothing is fused.
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/geometry/wall_point.hpp"
 

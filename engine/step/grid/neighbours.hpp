@@ -54,8 +54,6 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
 void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 
-// Picks those grains around a grain that are near enough for its neighbour list.
-
 // keep_near() may read and write this many numbers behind the candidates.
 constexpr std::int32_t kNearSlack = 16;
 
@@ -108,8 +106,6 @@ class GluedSearch {
     LargeArray<Place> at_rest_;
     std::vector<OfBody> parts_;
 };
-
-// Which grains are near meshes.
 
 // As list_walls(): under the grains [begin, end), by rising grain, then mesh. Every mesh whose surface is
 // closer to a grain's surface than `skin` (m).

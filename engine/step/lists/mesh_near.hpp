@@ -1,6 +1,6 @@
 // The triangles that grains near meshes may touch before the next refresh. They take the place of candidates:
 // which of them a grain touches, and in how many patches, is found anew in each step
-// (forces/mesh_contacts.hpp).
+// (find_patches() in forces/contact_forces.hpp).
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // Two threads compute a contact between their grains both, each for its own grain. This is cheaper than
 // handing forces over. It also lets every grain sum its contacts in one order, whatever the threads.
 //
-// Who changes the contacts: candidates.hpp at each refresh, new_contacts.hpp in each step, and
+// Three parts change the contacts: candidates.hpp at each refresh, add_new_contacts() in each step, and
 // change_owners.hpp when grains get other owners or leave.
 #pragma once
 

@@ -12,8 +12,8 @@ namespace grainreel {
 // Marks those of a thread's grains that have contacts. Only these can get a load before the lists are made
 // again. The load of any other grain is zero and stays zero, so it is neither read nor cleared. Another
 // thread can compute the flight of such a grain as well as its owner can.
-
-// One bit for each grain, so that the bits of a million grains fit into the cache.
+//
+// There is one bit for each grain, so that the bits of a million grains fit into the cache.
 class Loaded {
   public:
     // The thread owns [begin, end), and none of these grains is marked.

@@ -1,4 +1,5 @@
-// How a step is put together from kicks (velocities by forces) and drifts (positions by velocities).
+// How a step is put together from kicks (velocities by forces) and drifts (positions by velocities), and when
+// its forces are evaluated.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Which grains each thread has: a range of them, the longer the faster the thread was lately. The bits of a
-// run do not depend on the ranges.
+// Which grains each thread has, and where its time goes. A thread has a range of grains, which is the longer,
+// the faster the thread was lately. The bits of a run do not depend on the ranges.
 #pragma once
 
 #include <array>
