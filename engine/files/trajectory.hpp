@@ -117,8 +117,8 @@ class TrajectoryReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// The header for files of moments of a run: trajectory.nc, film_moments.nc, key_moments.nc. It has places for all
-// grains that the plan expects.
+// The header for files of moments of a run: trajectory.nc, film_moments.nc, key_moments.nc. It has places for
+// all grains that the plan expects.
 TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::string& program_version);
 
 }  // namespace grainreel
