@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
+#include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "render/app/estimate/engine_cost.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -55,5 +58,18 @@ struct DiskEstimate {
 
 // pictures: of the film; 0 without one.
 DiskEstimate estimate_disk(const FilmedScene& scene, const Plan& plan, std::int64_t pictures);
+
+// How long a frame of a scene's film takes, found by making a few.
+
+// s of processor time that a film takes besides its frames: the context, the first frame, the poster.
+constexpr double film_setup_seconds = 0.2;
+
+// Draws and encodes some frames of the scene's grains, stacked as the bed will lie, in a folder that is gone
+// afterwards. None when that is not possible here (no OpenGL, no codec, no room),
+// and of beds of more than 200,000 grains.
+std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads);
+
+// The scene's grains in a stack from the floor up, as loose as a shaken bed. Exposed for tests.
+Frame stacked_bed(const FilmedScene& scene);
 
 }  // namespace grainreel

@@ -8,7 +8,6 @@
 
 #include "engine/measure/columns.hpp"
 #include "render/app/estimate/engine_cost.hpp"
-#include "render/app/estimate/film_probe.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
