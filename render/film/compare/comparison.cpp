@@ -12,7 +12,7 @@
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/sampling/timeline.hpp"
-#include "render/film/sources/choice.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/scene/filmed_scene.hpp"
 

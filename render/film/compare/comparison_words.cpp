@@ -15,7 +15,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
-#include "render/film/sources/choice.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/missing_letters.hpp"

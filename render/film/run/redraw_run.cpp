@@ -10,7 +10,7 @@
 #include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
-#include "render/film/sources/choice.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/state/container_faces.hpp"
-#include "render/film/sources/choice.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 
 namespace grainreel {

@@ -12,7 +12,6 @@
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/bed_periods.hpp"
-#include "render/film/sources/choice.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
