@@ -67,8 +67,8 @@ bool lock_patiently(int file) {
 void write_holder(int file, const std::string& command) {
     const std::string text = fmt::format("{}\n{}\n{}\n{}\n", ::getpid(), host_name(), utc_now(), command);
     if (::ftruncate(file, 0) != 0) return;
-    [[maybe_unused]] const ssize_t ignored =
-        ::pwrite(file, text.data(), text.size(), 0);  // only for messages
+    // The text is only for messages.
+    [[maybe_unused]] const ssize_t ignored = ::pwrite(file, text.data(), text.size(), 0);
 }
 
 std::string read_holder(const fs::path& path) {

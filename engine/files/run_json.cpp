@@ -102,8 +102,8 @@ constexpr off_t reserve = 32768;  // bytes
 void reserve_room(const std::filesystem::path& path) {
     const int file = open_plain(path);
     if (file < 0) return;
-    ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0,
-                reserve);  // not every file system can do this; then there is no room
+    // Not every file system can do this; then there is no room.
+    ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, reserve);
     ::close(file);
 }
 

@@ -17,8 +17,8 @@ inline constexpr const char* data_name = "grains.data";
 inline constexpr const char* end_name = "end.restart";
 std::string deck_name(PeerEngine engine);  // "in.lammps"
 std::string dump_name(PeerEngine engine);  // "lammps.dump"
-std::string restart_name(
-    PeerEngine engine);  // "lammps.restart", to which a point and the engine's step are added
+// "lammps.restart", to which a point and the engine's step are added.
+std::string restart_name(PeerEngine engine);
 // "restart 1000 lammps.restart.*", so that about ten are written.
 std::string restart_line(const CarriedScene& carried);
 

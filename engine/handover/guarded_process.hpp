@@ -36,8 +36,8 @@ class GuardedProcess {
     void reap();
 
     pid_t guard_ = -1;
-    int alive_ = -1,
-        result_ = -1;  // our ends of pipes: the guard notices when the first closes, and writes to the second
+    // Our ends of pipes: the guard notices when the first closes, and writes to the second.
+    int alive_ = -1, result_ = -1;
     std::optional<int> status_;
 };
 

@@ -112,8 +112,8 @@ double luding_depth(const CarriedPair& pair) {
 
 LiggghtsLaw liggghts_law(const CarriedScene& carried) {
     const CarriedLaw kind = law_of(carried);
-    GRAINREEL_CHECK(kind !=
-                    CarriedLaw::hertz);  // it was refused before, because there E and nu belong to types
+    // It was refused before, because there E and nu belong to types.
+    GRAINREEL_CHECK(kind != CarriedLaw::hertz);
     LiggghtsLaw law = kind == CarriedLaw::luding      ? luding(carried)
                       : kind == CarriedLaw::edinburgh ? edinburgh(carried)
                                                       : spring_dashpot(carried);

@@ -109,8 +109,8 @@ class ForeignArchive final : public FrameArchive {
     std::filesystem::path path_;
     ReadingOptions options_;
     Looks looks_;
-    std::unique_ptr<RawSeries> grains_,
-        contacts_;  // contacts_ is null where the grains' files have the contacts, or there are none
+    // The second is null where the grains' files have the contacts, or there are none.
+    std::unique_ptr<RawSeries> grains_, contacts_;
     std::vector<std::vector<std::filesystem::path>> wall_files_;
     std::vector<std::filesystem::path> all_files_;
     std::optional<GrainMeaning> meaning_;

@@ -19,8 +19,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t buffer_size =
-    1 << 20;  // bytes; with the library's default of 8 KiB there are many small writes
+// In bytes. With the library's default of 8 KiB there are many small writes.
+constexpr std::size_t buffer_size = 1 << 20;
 
 // Writes the true number of records into the header. It stands after the magic "CDF" and the version byte:
 // four bytes, big-endian, or eight in CDF-5 (NetCDF classic format specification). After a write that failed

@@ -56,8 +56,8 @@ class NetcdfFile {
     // units: empty for none. Types are those of <netcdf.h>: NC_INT, NC_FLOAT, NC_DOUBLE, NC_CHAR.
     int variable(const std::string& name, int type, const std::vector<int>& dimensions,
                  const std::string& units = {});
-    void attribute(int variable, const std::string& name,
-                   const std::string& text);  // variable NC_GLOBAL: of the file
+    // variable NC_GLOBAL: the attribute is one of the file.
+    void attribute(int variable, const std::string& name, const std::string& text);
     void end_definitions();
 
     int find_variable(const std::string& name) const;  // throws UserError when there is none

@@ -118,8 +118,8 @@ class HeadReader {
         for (std::size_t k = 0; k < 3; ++k)
             if (bounds.high[k] < bounds.low[k])
                 return head_.rows == 0 ||
-                       wrong(
-                           "the box ends before it begins");  // a box without grains that was shrink-wrapped
+                       // This happens when a box without grains is shrink-wrapped.
+                       wrong("the box ends before it begins");
         head_.box = cell_of(bounds);
         return true;
     }

@@ -43,8 +43,8 @@ enum class HeadEnd {
 HeadEnd read_head(LineReader& lines, const std::filesystem::path& file, DumpHead& head);
 
 struct DumpFrame {
-    std::uint64_t place = 0,
-                  end = 0;  // bytes of the unpacked content: from its first item to after its last row
+    // Bytes of the unpacked content: from its first item to after its last row.
+    std::uint64_t place = 0, end = 0;
     std::int64_t line = 0;  // number of the line of its first item
     std::int64_t step = 0;
     std::optional<double> time{};

@@ -42,8 +42,8 @@ struct CollectionList {
     std::string format;
     std::string program{};
     std::vector<CollectionMoment> moments{};
-    std::int64_t replaced =
-        0;  // number of files that a later line names again for the same time; the later line counts
+    // Number of files that a later line names again for the same time; the later line counts.
+    std::int64_t replaced = 0;
 };
 
 // One file as the list names it.
