@@ -1,5 +1,5 @@
-#include "engine/questions/profiles.hpp"
-
+// How grains are spread in a bed: profiles along a column, with the solid fraction of each bin, and the
+// radial distribution of pairs. questions.hpp declares both questions.
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
@@ -84,6 +84,43 @@ void add_bins_of_tops(const Snapshot& s, const std::vector<double>& at, Bins& al
     all.bins.resize(std::max(all.bins.size(), static_cast<std::size_t>(highest)), empty);
 }
 
+// Volume (m3) of the part below `height` of a sphere about height 0 with this radius:
+// pi r^3 (2 + 3 t - t^3) / 3 with t = height / r (a spherical segment; Bronshtein and Semendyayev, 3.3.4.6).
+double sphere_below(double radius, double height) {
+    const double t = std::clamp(height / radius, -1.0, 1.0);
+    return std::numbers::pi / 3 * radius * radius * radius * (2 + 3 * t - t * t * t);
+}
+
+// Divides the bed from `low` up (m, in the container's frame) into `count` slices of equal height. Returns
+// the volume of the grains in each slice over the room inside the container. NaN where there is no room:
+// below the floor, above the rim, in empty space. Grains that are glued to walls do not count.
+std::vector<double> solid_fractions(const Snapshot& s, double low, double height, std::size_t count) {
+    std::vector<double> fractions(count, std::numeric_limits<double>::quiet_NaN());
+    const Container& container = s.scene.container;
+    if (container.shape == Container::Shape::none) return fractions;
+    // The part of a slice that is in the container.
+    const auto edge = [&](std::size_t k) {
+        return std::clamp(low + static_cast<double>(k) * height, container.base(), container.height);
+    };
+    std::vector<double> solid(count, 0);
+    for (std::size_t i = 0; i < s.frame.size(); ++i) {
+        const double z = (s.frame.position[i] - container_offset(s.scene, s.frame)).z(),
+                     r = s.frame.radius[i];
+        const double first = std::floor((z - r - low) / height), last = std::floor((z + r - low) / height);
+        const double most = static_cast<double>(count) - 1;
+        if (!(last >= 0 && first <= most)) continue;
+        const auto from = static_cast<std::size_t>(std::max(first, 0.0)),
+                   to = static_cast<std::size_t>(std::min(last, most));
+        for (std::size_t k = from; k <= to; ++k)
+            solid[k] += sphere_below(r, edge(k + 1) - z) - sphere_below(r, edge(k) - z);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        const double room = container.volume_below(edge(k + 1)) - container.volume_below(edge(k));
+        if (room > 0) fractions[k] = solid[k] / room;
+    }
+    return fractions;
+}
+
 // Where the floor alone moves, heights above it are not heights in the container.
 void add_solid_fraction(const Snapshot& s, const Bins& all, bool above_floor, AnswerTable& table) {
     table.columns.push_back({"solid_fraction", Dimension::number,
@@ -131,38 +168,6 @@ Answer profile_answer(const Snapshot& s, const std::string& along) {
     Answer answer{{std::move(table)}, {}};
     if (all.left_out > 0) answer.notes.push_back(fmt::format("{} grains lie outside the bins", all.left_out));
     return answer;
-}
-
-double sphere_below(double radius, double height) {
-    const double t = std::clamp(height / radius, -1.0, 1.0);
-    return std::numbers::pi / 3 * radius * radius * radius * (2 + 3 * t - t * t * t);
-}
-
-std::vector<double> solid_fractions(const Snapshot& s, double low, double height, std::size_t count) {
-    std::vector<double> fractions(count, std::numeric_limits<double>::quiet_NaN());
-    const Container& container = s.scene.container;
-    if (container.shape == Container::Shape::none) return fractions;
-    // The part of a slice that is in the container.
-    const auto edge = [&](std::size_t k) {
-        return std::clamp(low + static_cast<double>(k) * height, container.base(), container.height);
-    };
-    std::vector<double> solid(count, 0);
-    for (std::size_t i = 0; i < s.frame.size(); ++i) {
-        const double z = (s.frame.position[i] - container_offset(s.scene, s.frame)).z(),
-                     r = s.frame.radius[i];
-        const double first = std::floor((z - r - low) / height), last = std::floor((z + r - low) / height);
-        const double most = static_cast<double>(count) - 1;
-        if (!(last >= 0 && first <= most)) continue;
-        const auto from = static_cast<std::size_t>(std::max(first, 0.0)),
-                   to = static_cast<std::size_t>(std::min(last, most));
-        for (std::size_t k = from; k <= to; ++k)
-            solid[k] += sphere_below(r, edge(k + 1) - z) - sphere_below(r, edge(k) - z);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-        const double room = container.volume_below(edge(k + 1)) - container.volume_below(edge(k));
-        if (room > 0) fractions[k] = solid[k] / room;
-    }
-    return fractions;
 }
 
 namespace {

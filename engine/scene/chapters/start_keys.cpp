@@ -1,4 +1,4 @@
-// The keys of [start].
+// How grains come into a scene: the keys of [start], of [[grain]] and of [[feed]].
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -245,7 +245,7 @@ using namespace keys;
 
 constexpr double default_box = 3;  // its height over the largest diameter, below the container's top
 
-BoundKey<Feed> species_key() {
+BoundKey<Feed> fed_species_key() {
     return bound_by<Feed>(
         entry("species", KeyKind::text, note("the first"),
               "Grains that come during the run, one after the other at even intervals; of which species."),
@@ -258,7 +258,7 @@ BoundKey<Feed> species_key() {
 const KeyTable<Feed>& feed_table() {
     using F = Feed;
     static const KeyTable<F> table{
-        species_key(),
+        fed_species_key(),
         quantity("rate", &F::rate, Dimension::rate, positive, note("required, or `count` and `until`"),
                  "Grains a second."),
         integer("count", &F::count, 1, most_grains, note("no limit"), "How many there are to be."),
