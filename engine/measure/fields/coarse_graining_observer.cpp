@@ -113,16 +113,16 @@ void for_each_grid(CoarseFields& fields, const Each& each) {
 
 }  // namespace
 
-FieldRecord::FieldRecord(const Scene& scene, const FieldTimes& times)
+FieldMeans::FieldMeans(const Scene& scene, const FieldTimes& times)
     : times_(times), settings_(settings_of(scene, times)), sums_(scene, static_cast<int>(times.phases)) {}
 
-void FieldRecord::start(std::int64_t step, const FieldState& state) {
+void FieldMeans::start(std::int64_t step, const FieldState& state) {
     sums_.clear();
     open_ = step == 0;
     gather(step, state);
 }
 
-void FieldRecord::gather(std::int64_t step, const FieldState& state) {
+void FieldMeans::gather(std::int64_t step, const FieldState& state) {
     ended_ = times_.ends_record(step);
     if (ended_) {
         if (open_ && sums_.moments() > 0) last_ = sums_.mean();
@@ -132,7 +132,7 @@ void FieldRecord::gather(std::int64_t step, const FieldState& state) {
     if (open_ && times_.is_moment(step)) sums_.add(state, static_cast<int>(times_.phase_of(step)));
 }
 
-void FieldRecord::save(std::ostream& out) const {
+void FieldMeans::save(std::ostream& out) const {
     write_vector(out, settings_);
     write_value(out, static_cast<std::int32_t>(open_));
     write_value(out, static_cast<std::int32_t>(ended_ && last_));
@@ -143,7 +143,7 @@ void FieldRecord::save(std::ostream& out) const {
     sums_.save(out);
 }
 
-void FieldRecord::load(Bytes& in) {
+void FieldMeans::load(Bytes& in) {
     std::vector<double> settings;
     read_vector(in, settings);
     if (settings != settings_) {
@@ -162,7 +162,7 @@ void FieldRecord::load(Bytes& in) {
     sums_.load(in);
 }
 
-void FieldRecord::load_last(Bytes& in) {
+void FieldMeans::load_last(Bytes& in) {
     const auto cells = static_cast<std::size_t>(sums_.grid().cells());
     CoarseFields last;
     last.solid_fraction.resize(sums_.species());

@@ -21,9 +21,9 @@ FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by);
 FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const CoarseGraining& by);
 
 // Gathers moments while a run goes on, and has the mean of each stretch of time when the stretch ends.
-class FieldRecord {
+class FieldMeans {
   public:
-    FieldRecord(const Scene& scene, const FieldTimes& times);
+    FieldMeans(const Scene& scene, const FieldTimes& times);
 
     const CoarseGraining& sums() const { return sums_; }
     const FieldTimes& times() const { return times_; }
@@ -60,7 +60,7 @@ namespace grainreel::observers {
 class CoarseGrainedFields final : public Observer {
   public:
     CoarseGrainedFields(const Scene& scene, const Plan& plan)
-        : record_(scene, plan.fields), set_(coarse_field_set(scene, record_.sums())) {}
+        : means_(scene, plan.fields), set_(coarse_field_set(scene, means_.sums())) {}
 
     static std::vector<ColumnGroup> columns(const Scene&) { return {}; }
     static bool wanted(const Scene& scene) { return scene.output.fields.wanted(); }
@@ -80,17 +80,17 @@ class CoarseGrainedFields final : public Observer {
 
     const FieldSet* fields() const override { return &set_; }
     FieldValues look_at_fields(const ObservedState&) override {
-        return coarse_field_values(record_.last(), record_.sums());
+        return coarse_field_values(means_.last(), means_.sums());
     }
 
-    std::int64_t gathers_after(std::int64_t step) const override { return record_.times().next(step); }
-    void start(const ObservedState& m) override { record_.start(m.step, state_); }
-    void gather(const ObservedState& m) override { record_.gather(m.step, state_); }
-    void save(std::ostream& out) const override { record_.save(out); }
-    void load(const ObservedState&, Bytes& in) override { record_.load(in); }
+    std::int64_t gathers_after(std::int64_t step) const override { return means_.times().next(step); }
+    void start(const ObservedState& m) override { means_.start(m.step, state_); }
+    void gather(const ObservedState& m) override { means_.gather(m.step, state_); }
+    void save(std::ostream& out) const override { means_.save(out); }
+    void load(const ObservedState&, Bytes& in) override { means_.load(in); }
 
   private:
-    FieldRecord record_;
+    FieldMeans means_;
     FieldSet set_;
     FieldState state_;
 };

@@ -85,7 +85,7 @@ FieldTimes two_phases() {
 TEST(FieldRecords, KeepPhasesAndRecordsApart) {
     const Scene scene = field_box({5, 5, 5}, FieldOutput::Grid::yz, 0.5, 0.5);
     const FieldTimes times = two_phases();
-    FieldRecord record(scene, times);
+    FieldMeans record(scene, times);
     const GridAxis &y = record.sums().grid().axes[1], &z = record.sums().grid().axes[2];
     const auto middle = static_cast<std::size_t>(record.sums().grid().index(0, y.count / 2, z.count / 2));
     for (std::int64_t step = 0; step != FieldTimes::kNever; step = times.next(step)) {
