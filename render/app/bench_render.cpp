@@ -124,9 +124,9 @@ double coverage(Renderer& renderer, const Frame& frame) {
 
 // Medians of the stages, as they are drawn: what shadows and occlusion cost is what a picture costs less
 // without them, since both are part of a grain's light.
-class StageTimes {
+class DrawnStages {
   public:
-    StageTimes(const FilmedScene& scene, int threads) {
+    DrawnStages(const FilmedScene& scene, int threads) {
         FilmedScene less = scene;
         add(less, threads);
         less.film.look.shadows = false;
@@ -230,7 +230,7 @@ int bench_render(const BenchRenderRequest& request, Reporter& reporter) {
     FilmedScene scene = scene_of(bed, request);
     const Frame frame = frame_of(bed);
     fill_picture(scene, frame);
-    StageTimes stages(scene, threads);
+    DrawnStages stages(scene, threads);
     Renderer& renderer = stages.full();
     const double covered = coverage(renderer, frame);
     std::vector<double> totals;
