@@ -25,8 +25,9 @@ EncoderSettings first_settings(EncoderSettings settings, const WorkFolder& work)
     return settings;
 }
 
-EncoderSettings spool_settings(EncoderSettings settings, const WorkFolder& work) {
-    settings.codec = &spool_of_yuv();
+// Of the exact copy, in pixels that `spool` stores.
+EncoderSettings spool_settings(EncoderSettings settings, const Codec& spool, const WorkFolder& work) {
+    settings.codec = &spool;
     settings.path = work.file("spool.mkv");
     return settings;
 }
@@ -45,7 +46,7 @@ CappedFilm::CappedFilm(const EncoderSettings& settings, std::int64_t cap)
       cap_(cap),
       work_(settings.path),
       film_(std::make_unique<Encoder>(first_settings(settings, work_))),
-      spool_(std::make_unique<Encoder>(spool_settings(settings, work_))),
+      spool_(std::make_unique<Encoder>(spool_settings(settings, spool_of_yuv(), work_))),
       description_(film_->description()),
       notes_(film_->notes()) {}
 
@@ -173,12 +174,6 @@ std::string CappedFilm::description() const {
 
 namespace {
 
-EncoderSettings spool_settings(EncoderSettings settings, const WorkFolder& work) {
-    settings.codec = &spool_of_rgb();
-    settings.path = work.file("spool.mkv");
-    return settings;
-}
-
 // One palette for the whole film: with one a frame, colours that stand still would flicker.
 AvFramePtr find_palette(const std::filesystem::path& spool, int colours) {
     FilmReader reader(spool);
@@ -217,7 +212,7 @@ GifFilm::GifFilm(const EncoderSettings& settings, std::optional<std::int64_t> ca
     : settings_(settings),
       cap_(cap),
       work_(settings.path),
-      spool_(std::make_unique<Encoder>(spool_settings(settings, work_))),
+      spool_(std::make_unique<Encoder>(spool_settings(settings, spool_of_rgb(), work_))),
       description_(spool_->description()) {
     work_.keep();
 }
