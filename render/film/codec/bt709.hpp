@@ -1,6 +1,7 @@
-// From sRGB pixels to what a video codec stores: Y'CbCr of ITU-R BT.709-6 in limited range, chroma halved
-// both ways. Our own in place of swscale's: half the time, rounded to the nearest code, and chroma
-// where the film says it is. Integers only: the same bits with every instruction set.
+// Converts sRGB pixels to what a video codec stores: Y'CbCr of ITU-R BT.709-6 in limited range, with half the
+// chroma samples in each direction. It takes half the time of swscale, rounds to the nearest code, and puts
+// chroma where the film says that it is. It computes with integers alone, so the bits are the same with every
+// instruction set.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +16,13 @@ struct YuvPlanes {
     std::ptrdiff_t y_stride, cb_stride, cr_stride;  // bytes a row
 };
 
-// Picture of even width and height, alpha left out. Chroma sits halfway between two rows on the left one of
-// two columns (H.273, Chroma420SampleLocType 0) and is the mean of both rows, and of the columns with 1 : 2 :
-// 1, of which the first stands in for the one before it. Within 0.51 of a code of the formula.
+// Converts a picture of even width and height; alpha is left out. A chroma sample lies on the left one of two
+// columns, halfway between two rows (H.273, Chroma420SampleLocType 0). It is the mean of both rows, and of
+// three columns with weights 1 : 2 : 1; at the left edge the first column stands in for the one before it.
+// Every code is within 0.51 of the formula's value.
 void to_bt709(const Picture& picture, const YuvPlanes& to);
-// The same for a part of it, whose codes alone are written, and those of the pixels beside it that it shows
-// in.
+// Converts a part of the picture. It writes the codes of that part, and of the pixels beside it whose chroma
+// depends on it.
 void to_bt709(const Picture& picture, const Rectangle& part, const YuvPlanes& to);
 
 }  // namespace grainreel

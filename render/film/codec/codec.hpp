@@ -1,5 +1,5 @@
-// What each format of film is: its encoder, its container, its pixels. One line of a table per format
-// (codec.cpp); how an encoder is set up stands in encoder_setup.cpp.
+// What each format of film is: its encoder, its container, its pixels. A table has one line for each format
+// (codec.cpp), and below it how each encoder is set up. A new format begins here.
 #pragma once
 
 #include <string>

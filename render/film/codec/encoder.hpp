@@ -15,9 +15,6 @@
 
 namespace grainreel {
 
-// From drawn pixels to what a codec stores: sRGB to BT.709 Y'CbCr, limited range, chroma halved both ways; or
-// the same RGB in another order.
-
 struct EvenSize {
     int width = 0, height = 0;  // pixels
 };

@@ -1,6 +1,14 @@
 #include "render/film/codec/ffmpeg.hpp"
 
+extern "C" {
+#include <libavfilter/avfilter.h>
+#include <libavfilter/buffersink.h>
+#include <libavfilter/buffersrc.h>
+#include <libavutil/pixdesc.h>
+}
+
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <array>
 #include <cstdarg>
 #include <cstdio>
@@ -8,6 +16,8 @@
 #include <cstring>
 #include <mutex>
 #include <utility>
+
+#include "engine/base/error.hpp"
 
 namespace grainreel {
 
@@ -81,20 +91,6 @@ std::string ffmpeg_error(int code) {
     return detail.empty() ? reason.data() : std::string(reason.data()) + " (" + detail + ")";
 }
 
-}  // namespace grainreel
-
-extern "C" {
-#include <libavfilter/avfilter.h>
-#include <libavfilter/buffersink.h>
-#include <libavfilter/buffersrc.h>
-#include <libavutil/pixdesc.h>
-}
-
-#include <fmt/format.h>
-
-#include "engine/base/error.hpp"
-
-namespace grainreel {
 namespace {
 
 void check(int code) {

@@ -1,8 +1,6 @@
-// Owners of FFmpeg's objects, and its errors in words.
+// What we use of FFmpeg: owners of its objects, its errors in words, and one of its filters. All other files
+// of films go through these.
 #pragma once
-
-#include <memory>
-#include <string>
 
 extern "C" {
 #include <libavcodec/avcodec.h>

@@ -1,4 +1,5 @@
-// Frames of a film file, one after another, as its decoder gives them.
+// Films that lie on disk: their frames, one after another, as the decoder gives them, and copies of their
+// packets without decoding.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +34,6 @@ class FilmReader {
 
 // Pictures that are whole in a film, without decoding them. Throws RunError when the file is no film.
 std::int64_t pictures_in(const std::filesystem::path& film);
-
-// From the fragments or clusters that survive a kill to an ordinary film with its index in front.
 
 // Copies the film's packets to `path`.part, syncs it and renames it over `path`. Throws RunError, naming the
 // file and the reason, and leaves the film as it grew.

@@ -1,4 +1,5 @@
-// A film's packets, one after another, each with its place in the film.
+// Joins films of one encoder without encoding them again. A piece gives its packets one after another, each
+// with its place in the film.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,6 @@
 #include "render/film/codec/ffmpeg.hpp"
 
 namespace grainreel {
-
-// Films of one encoder, put one behind the other without encoding again.
 
 struct FilmPiece {
     std::filesystem::path file;

@@ -1,4 +1,7 @@
-// A film that must not be larger than so many bytes. It is made at its quality, and that is all when it fits.
+// Films that are made from an exact copy of their pictures on disk once all pictures are there: those with a
+// cap on their bytes, and GIFs.
+//
+// A film with a cap is made at its quality, and that is all when it fits.
 // If it does not, two-pass encoding brings it to the cap, as long as the words on it can be read: what the
 // film needs for that is found by encoding it at the least legible quality. Encoding anew needs the pictures
 // once more, and they cannot be drawn again: the trajectory does not have the film's steps. So an exact copy

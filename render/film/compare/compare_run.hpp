@@ -45,10 +45,8 @@ class CompareRun final : public FilmRun {
     std::string still_;  // its file, once it is there
 };
 
-// Several pieces of work at once, each on a thread of its own, while this one keeps watch.
-
-// Returns when all have ended; calls `watch` now and then until then. Of several exceptions the first in
-// order is thrown on.
+// Does several pieces of work at once, each on a thread of its own. Returns when all have ended; calls
+// `watch` now and then until then. Of several exceptions the first in order is thrown on.
 inline void run_together(const std::vector<std::function<void()>>& works,
                          const std::function<void()>& watch) {
     constexpr auto glance = std::chrono::milliseconds(100);
@@ -66,10 +64,8 @@ inline void run_together(const std::vector<std::function<void()>>& works,
     if (problem) std::rethrow_exception(problem);
 }
 
-// A film's drawer whose pictures show several scenes beside each other.
-
-// film: size, title and background of the whole. clock: the panel whose time is shown. segments: of the film,
-// one a picture.
+// Makes a drawer whose pictures show several scenes beside each other. film: size, title and background of
+// the whole. clock: the panel whose time is shown. segments: of the film, one a picture.
 DrawerMaker side_by_side_drawer(const std::vector<Panel>& panels, const Film& film, int raster_threads,
                                 gl::Provider provider, std::size_t clock, std::vector<std::size_t> segments);
 

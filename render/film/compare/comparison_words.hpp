@@ -1,4 +1,5 @@
-// What the panels of a comparison say of time, and what is said of them beforehand.
+// The words of a comparison: what its panels say of time, its warnings, and the values of --vary with their
+// labels.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// One source of a film that shows several: a scene that is run, in a folder of its own with a record of its
+// One source of a film that shows several: a scene that is run, in a folder of its own with a run.json of its
 // own, or a run that lies on disk.
 #pragma once
 

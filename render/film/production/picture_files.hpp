@@ -1,4 +1,5 @@
-// What the encoding thread does with a drawn picture: the film, numbered PNG files, poster and contact sheet.
+// What the encoding thread does with a drawn picture: it goes into the film and its copy for the page,
+// numbered PNG files, the poster and the contact sheet.
 #pragma once
 
 #include <atomic>

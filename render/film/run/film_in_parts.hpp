@@ -1,5 +1,5 @@
-// What a film needs that is drawn in parts: which of its pictures are drawn here, what its file has of the
-// whole, and what its run.json says.
+// A film that is drawn in parts: which pictures a part draws, what its run.json says, and how the parts are
+// joined. The joined film has the same bytes as one drawn in one go.
 #pragma once
 
 #include <cstdint>
@@ -51,15 +51,13 @@ class FilmInParts {
     FilmPart here_;
 };
 
-// By which parts know that they are of one run: its scene (a checksum of scene.toml), its moments, and the
-// grains of the first and of
-// the last moment that it kept.
+// What tells parts that they are of one run: a checksum of scene.toml, the moments, and the grains of the
+// first and the last moment that the run kept.
 std::string checksum_of_run(const FrameArchive& frames, const std::string& scene);
-// And that they are of one film: the scene as it is drawn, and which moments are drawn with which words.
+// What tells parts that they are of one film: the scene as it is drawn, and which moments are drawn with
+// which words.
 std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
                                  const std::vector<std::string>& captions);
-
-// The parts of a film (render --part), put together as one.
 
 struct JoinRequest {
     std::vector<std::filesystem::path> parts;  // folders, in any order

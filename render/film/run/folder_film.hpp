@@ -84,8 +84,6 @@ class FilmRun : public FolderRun {
     FolderFilm film_;
 };
 
-// The film of a run that goes on in its folder.
-
 // Whether the run's folder has a film, or the beginning of one.
 bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
 

@@ -52,8 +52,7 @@ inline std::int64_t frames_of(const Film& film, const std::vector<double>& times
     return frames;
 }
 
-// A film that is drawn in parts: which pictures each of them has.
-
+// What one part of a film has that is drawn in parts.
 struct FilmPart {
     std::int64_t first_picture = 0, pictures = 0;  // of the film's
     std::int64_t first_frame = 0, frames = 0;      // likewise, with those that are held for captions

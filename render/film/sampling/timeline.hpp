@@ -30,12 +30,11 @@ std::vector<Instant> instants_of(const FilmedScene& film, const Clock& reference
 std::vector<Shot> shots_at(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments,
                            const Clock& clock, std::int64_t steps);
 
-// How a film plays whose frames were kept at given moments and not chosen for it: a finished run drawn again.
-
-// The segment that a film of these frames is, one after the other at `rate` frames a second: locked when all
-// phases agree and whole periods lie between, else in motion at the playback that follows from the interval.
-// Its duration is the simulated time from the first to the last. None for fewer than two frames, or when they
-// do not come evenly. Of the frames only time, cycles and phase are looked at.
+// For a finished run that is drawn again, whose frames were not chosen for the film. The segment that a film
+// of these frames is, one after the other at `rate` frames a second: locked when all phases agree and whole
+// periods lie between, else in motion at the playback that follows from the interval. Its duration is the
+// simulated time from the first to the last. None for fewer than two frames, or when they do not come evenly.
+// Of the frames only time, cycles and phase are looked at.
 std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Drive& drive, double rate);
 
 // What the caption says of the time of these frames; where they do not come evenly, as it is on average.

@@ -1,4 +1,5 @@
-// Which locked frames a film shows whose bed repeats itself only every so many periods of the drive.
+// Beds that repeat themselves only every so many periods of the drive: which locked frames their film shows,
+// and means over such periods.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +52,7 @@ class BedPeriods {
     std::vector<std::string> news_;
 };
 
-// Grains where they were on average over whole periods of the drive: what is left of the motion is drift.
-
+// Puts grains where they were on average over whole periods of the drive, so that only drift is left.
 // Positions become means over the moments, velocities how far the span has moved things, of grains and
 // bodies. moments: by rising time, the first of them closes the span and is not in the mean, the last is the
 // frame's own. span: s between these two. depth: m, along x, after which a periodic container repeats; 0 for

@@ -1,4 +1,5 @@
-// What is asked of a run that fills a folder with a film.
+// What the user asks of a film: of one that is run, drawn again or compared; for print; with how many
+// threads; and of which moments of a saved run. It holds values only: verbs fill it in, runs read it.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,7 @@
 
 namespace grainreel {
 
-// One picture for print: pixels an inch and a width on paper.
-
+// The size of one picture for print.
 struct PrintSize {
     std::optional<double> dpi, width_mm;
     bool wanted() const { return dpi || width_mm; }
@@ -67,8 +67,8 @@ struct CompareRequest {
     bool replay = true;               // of finished runs what was not kept is brought back
 };
 
-// How many threads each part gets, planned together so that engine, rasteriser and encoder share the machine.
-
+// How many threads each part of a run gets, planned together so that engine, rasteriser and encoder share the
+// machine.
 struct ThreadPlan {
     int engine = 1;
     int raster = 1;           // of the software rasteriser, beside the drawing thread
@@ -83,10 +83,8 @@ ThreadPlan plan_threads(int processors, bool film, std::int64_t grains);
 // The threads of a film that has the machine for itself. wanted: 0 for as many as the machine gives.
 ThreadPlan drawing_threads(int wanted);
 
-// Which moments of a run that lies on disk are drawn.
-
-// Those from `from` to `to`, every so many, and of frames at one phase of the drive only those at which the
-// bed looks alike. Throws UserError when there is none.
+// The moments of a saved run that are drawn: every so many from `from` to `to`. Of frames at one phase of the
+// drive only those are taken at which the bed looks alike. Throws UserError when there is none.
 std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run);
 
 // Moments at one phase of the drive that lie whole multiples of `periods` behind the first: a bed

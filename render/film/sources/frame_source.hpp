@@ -1,8 +1,8 @@
-// Who yields the frames of pictures: a scene that is being run (SceneRun) or a run that lies on disk
+// A source of frames for pictures: a scene that is being run (SceneRun) or a run that lies on disk
 // (RecordedRun). Whoever draws, looks or counts takes frames from here and need not know which it is.
 //
-// A frame comes with all that the scene's film shows beside the grains: that is added in one place, by
-// PictureParts, from what the source can supply.
+// Each frame comes with all that the scene's film shows beside the grains. PictureParts adds it, from what
+// the source can supply.
 #pragma once
 
 #include <functional>

@@ -71,7 +71,7 @@ class PictureParts {
     double depth_;  // m, along x, after which a periodic container repeats; 0 for none
 };
 
-// The pictures of a film that were taken before its run was broken off, from their kept moments.
+// Gives the pictures of a film that were taken before its run was broken off, from their kept moments.
 
 class EarlierPictures final : private PartSupply {
   public:

@@ -1,4 +1,4 @@
-// The scene of what lies on disk, as it is to be drawn.
+// The scene of a saved run or checkpoint as it is to be drawn, and how high the grains of a saved run got.
 #pragma once
 
 #include <filesystem>
@@ -22,10 +22,9 @@ FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments&
 // as above.
 FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
 
-// How high the grains of a finished run got.
-
-// m above the floor's rest position: below it are 99 of 100 grains, whole, in every frame. Of a long
-// record of many grains evenly spread frames are read. Damaged frames do not count. Empty without grains.
+// How high the grains of a finished run got: m above the floor's rest position: below it are 99 of 100
+// grains, whole, in every frame. Of a long record of many grains evenly spread frames are read. Damaged
+// frames do not count. Empty without grains.
 std::optional<double> known_reach(const FrameArchive& archive);
 
 // The same of one frame.

@@ -1,5 +1,6 @@
-// Which moments the film of a run that lies on disk shows. Where the schedule is that of the run's own film,
-// they are those of that film (film_times.csv); else they follow from the segments as in a run.
+// A run that lies on disk, as a source of any of its moments (RevisitedRun), and which moments its film
+// shows. Where the schedule is that of the run's own film, they are those of that film (film_times.csv); else
+// they follow from the segments as in a run.
 #pragma once
 
 #include <cstdint>
