@@ -1,4 +1,4 @@
-// What will come out of it, and what that costs.
+// What `check` says of the results of a run and of their cost, and what it says of the cost of a study.
 #include "render/app/check/check_cost.hpp"
 
 #include <fmt/format.h>

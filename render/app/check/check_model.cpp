@@ -1,4 +1,5 @@
-// How it is computed: what is modelled, and each kind of contact.
+// What `check` says of the model: what is computed and how, each kind of contact, and walls that come from
+// files.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -129,8 +130,6 @@ void print_contacts(const FilmedScene& scene, const Plan& plan, std::ostream& ou
                    pair.friction, span_text(pair.contact_time), pair.contact_time / plan.clock.step);
     }
 }
-
-// Walls that come from files: what was read, what was mended, how they move.
 
 namespace {
 

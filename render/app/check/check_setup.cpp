@@ -1,4 +1,4 @@
-// What is simulated: grains, container, drive.
+// What `check` says of the experiment: grains, container, drive.
 
 #include <fmt/format.h>
 #include <algorithm>

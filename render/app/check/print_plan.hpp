@@ -1,4 +1,5 @@
-// What `grainreel check` prints.
+// What `grainreel check` prints: the plan of a scene, chapter by chapter. A chapter is a function below;
+// check_setup.cpp, check_model.cpp and check_cost.cpp have them.
 #pragma once
 
 #include <fmt/ostream.h>
@@ -27,8 +28,6 @@ struct PlanWords {
     std::string contacts;
 };
 PlanWords plan_words(const FilmedScene& scene, const Plan& plan);
-
-// The chapters of what `grainreel check` prints. Internal to print_plan.
 
 // Lines of a name and a text, the texts below each other. They are printed and kept.
 class Listing {

@@ -1,4 +1,5 @@
-// What a run will take on this machine, before it begins.
+// What a run will take on this machine, in time and on disk, before it begins. What a frame of the film costs
+// is found by a short trial film, once for each look of a film; the cache keeps it.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,7 @@ struct CostEstimate {
     double total_seconds = 0;
 };
 
-// Engine and film take turns on one or two processors and work beside each other on more (thread_plan.hpp).
+// Engine and film take turns on one or two processors and work beside each other on more (film_request.hpp).
 CostEstimate estimate_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
                            const ThreadPlan& threads, const MachineFigures& machine);
 
@@ -58,8 +59,6 @@ struct DiskEstimate {
 
 // pictures: of the film; 0 without one.
 DiskEstimate estimate_disk(const FilmedScene& scene, const Plan& plan, std::int64_t pictures);
-
-// How long a frame of a scene's film takes, found by making a few.
 
 // s of processor time that a film takes besides its frames: the context, the first frame, the poster.
 constexpr double film_setup_seconds = 0.2;

@@ -1,5 +1,5 @@
-// All that goes to stderr: messages and the progress line, which redraws on a terminal and comes now and then
-// in a pipe. Signals are what asks a run to stop.
+// The reporter writes all that goes to stderr: messages, and the progress line, which is redrawn on a
+// terminal and comes now and then in a pipe. It also passes on that a signal has asked the run to stop.
 #pragma once
 
 #include <chrono>
@@ -51,8 +51,6 @@ class Reporter final : public RunListener {
     std::optional<Progress> last_;  // shown
     Watch::time_point last_time_;
 };
-
-// How far a run has come, in words for people and in JSON for programs.
 
 std::string to_string(Progress::Stage stage);
 

@@ -1,5 +1,5 @@
-// What the program prints as its result: the folder it made, a plan, figures, help. Goes to stdout; all else
-// that it says goes to stderr (reporter.hpp).
+// What the program prints as its result: the folder that it made, a plan, figures, help. Results go to
+// stdout; all else goes to stderr (reporter.hpp).
 #pragma once
 
 #include <string_view>
@@ -19,8 +19,6 @@ void print_exact(std::string_view text);
 // To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader
 // that has closed the pipe wants no more, which is no failure.
 void close_results();
-
-// What the verbs that make films say when they are done.
 
 // Prints where the run's files are, on stdout unless the film went there; gives the exit status.
 int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request);

@@ -18,8 +18,6 @@ std::string where_program_is();
 // Several lines: the program, where it is, its commit, compiler and libraries.
 std::string version_text();
 
-// What every run.json says of the program that wrote it.
-
 // Version, build and libraries.
 ProgramInfo program_info();
 

@@ -90,8 +90,6 @@ struct Choices {
     }
 };
 
-// A number in a range, for options.
-
 // CLI::Range lets "nan" through.
 inline CLI::Validator number_within(double low, double high) {
     return CLI::Validator(
@@ -104,10 +102,8 @@ inline CLI::Validator number_within(double low, double high) {
         "");
 }
 
-// A camera that is kept as a file, and used again on other runs.
-//
-// The file is the keys of [film.camera] of a scene, a line each: azimuth = 20. Lengths are in m, angles in
-// degrees.
+// A camera can be kept as a file and used again on other runs. The file is the keys of [film.camera] of a
+// scene, a line each: azimuth = 20. Lengths are in m, angles in degrees.
 
 struct CameraFiles {
     std::optional<std::filesystem::path> use, keep;

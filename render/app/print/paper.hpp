@@ -34,8 +34,6 @@ std::vector<std::filesystem::path> draw_on_paper(const std::filesystem::path& fo
                                                  const std::string& commands, const std::string& plots,
                                                  const Paper& paper);
 
-// What gnuplot's files do not say by themselves: how large they are on paper.
-
 // The width and height of an SVG file become mm, in the proportions that it has. Its letters may be of any
 // font without serifs where theirs is missing. Throws RunError where the file is none of gnuplot's.
 void say_size_in_mm(const std::filesystem::path& svg, double width_mm);

@@ -18,11 +18,10 @@ std::vector<std::filesystem::path> draw_run_charts(const std::vector<std::filesy
                                                    const std::vector<std::string>& measures,
                                                    const Paper& paper, const std::filesystem::path& folder);
 
-// A curve as rows of a chart's table.
-
-// Rows "number,x,y,name", or without the name where it is empty. A value that is none leaves an empty line,
-// which breaks gnuplot's line. Of more than kMostCurvePoints points those stay that a line of this length
-// shows: of each of so many equal parts the first, the lowest, the highest and the last.
+// A curve as rows of a chart's table: "number,x,y,name", or without the name where it is empty. A value that
+// is none leaves an empty line, which breaks gnuplot's line. Of more than kMostCurvePoints points those stay
+// that a line of this length shows: of each of so many equal parts the first, the lowest, the highest and the
+// last.
 std::string curve_table(std::size_t number, const std::vector<double>& x, const std::vector<double>& y,
                         const std::string& name);
 
