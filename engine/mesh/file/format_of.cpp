@@ -32,7 +32,7 @@ bool is_text(std::string_view bytes) {
 }
 
 std::string_view first_word(std::string_view bytes) {
-    Words words(bytes);
+    WordReader words(bytes);
     std::string_view word = words.next();
     while (word.starts_with('#')) {
         words.skip_line();

@@ -94,7 +94,7 @@ class Header {
     void property() {
         if (header_.elements.empty()) fail("a property stands before the first element");
         PlyProperty property;
-        Words ahead = words_;
+        WordReader ahead = words_;
         property.list = ahead.next_in_line() == "list";
         if (property.list) {
             words_ = ahead;
@@ -121,7 +121,7 @@ class Header {
     }
 
     const fs::path& file_;
-    Words words_;
+    WordReader words_;
     PlyHeader header_;
 };
 

@@ -108,7 +108,7 @@ class Obj {
     }
 
     const fs::path& file_;
-    Words words_;
+    WordReader words_;
     TriangleMesh mesh_;
     std::vector<Later> later_;
     bool comment_ = false, continued_ = false;

@@ -39,7 +39,7 @@ class AsciiBody {
 
   private:
     const fs::path& file_;
-    Words words_;
+    WordReader words_;
     std::int64_t before_;
 };
 

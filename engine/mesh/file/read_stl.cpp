@@ -144,7 +144,7 @@ class AsciiStl {
     }
 
     const fs::path& file_;
-    Words words_;
+    WordReader words_;
     VertexPool pool_;
 };
 

@@ -32,12 +32,12 @@ std::string_view without_plus(std::string_view word) {
 
 }  // namespace
 
-void Words::end_line() {
+void WordReader::end_line() {
     left_.remove_prefix(left_.starts_with("\r\n") ? 2 : 1);
     ++line_;
 }
 
-std::string_view Words::take_word() {
+std::string_view WordReader::take_word() {
     std::size_t size = 0;
     while (size < left_.size() && !is_blank(left_[size]) && !is_end(left_[size])) ++size;
     const std::string_view word = left_.substr(0, size);
@@ -45,7 +45,7 @@ std::string_view Words::take_word() {
     return word;
 }
 
-std::string_view Words::next() {
+std::string_view WordReader::next() {
     while (!left_.empty() && (is_blank(left_[0]) || is_end(left_[0]))) {
         if (is_end(left_[0]))
             end_line();
@@ -55,12 +55,12 @@ std::string_view Words::next() {
     return take_word();
 }
 
-std::string_view Words::next_in_line() {
+std::string_view WordReader::next_in_line() {
     while (!left_.empty() && is_blank(left_[0])) left_.remove_prefix(1);
     return take_word();
 }
 
-void Words::skip_line() {
+void WordReader::skip_line() {
     std::size_t size = 0;
     while (size < left_.size() && !is_end(left_[size])) ++size;
     left_.remove_prefix(size);

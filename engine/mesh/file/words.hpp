@@ -9,9 +9,9 @@
 namespace grainreel {
 
 // Lines end with LF, CRLF or CR.
-class Words {
+class WordReader {
   public:
-    explicit Words(std::string_view text) : left_(text) {}
+    explicit WordReader(std::string_view text) : left_(text) {}
 
     // The next word, over the ends of lines too; empty at the end of the text.
     std::string_view next();

@@ -162,7 +162,7 @@ class HeadReader {
             head_.time = time;
         }
         if (!text(all)) return false;
-        Words words(all);
+        WordReader words(all);
         for (std::string_view word = words.next(); !word.empty(); word = words.next())
             head_.names.emplace_back(word);
         if (head_.names.size() != static_cast<std::size_t>(head_.columns))

@@ -25,7 +25,7 @@ WorldCell cell_of(const BoxBounds& b) {
 }
 
 BoxReader::BoxReader(std::string_view flags) {
-    Words words(flags);
+    WordReader words(flags);
     std::size_t axis = 0;
     for (std::string_view word = words.next_in_line(); !word.empty(); word = words.next_in_line()) {
         if (word == "xy" || word == "xz" || word == "yz")
@@ -42,7 +42,7 @@ std::size_t BoxReader::wanted() const {
 }
 
 std::string BoxReader::take(std::string_view line) {
-    Words words(line);
+    WordReader words(line);
     std::array<double, 4>& row = rows_[static_cast<std::size_t>(lines_++)];
     std::size_t count = 0;
     for (std::string_view word = words.next_in_line(); !word.empty(); word = words.next_in_line(), ++count) {

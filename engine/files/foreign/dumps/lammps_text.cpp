@@ -32,7 +32,7 @@ struct OldColumns {
 };
 
 std::size_t words_in(std::string_view text) {
-    Words words(text);
+    WordReader words(text);
     std::size_t count = 0;
     while (!words.next_in_line().empty()) ++count;
     return count;

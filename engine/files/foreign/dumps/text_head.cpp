@@ -36,7 +36,7 @@ class HeadReader {
                 head_.line = line_.number;
                 any = true;
             }
-            const Found found = item(Words(line_.text.substr(mark.size())));
+            const Found found = item(WordReader(line_.text.substr(mark.size())));
             if (found == Found::cut) return HeadEnd::cut;
             if (found == Found::rows) return HeadEnd::whole;
             passing = found == Found::unknown;
@@ -60,9 +60,9 @@ class HeadReader {
             excerpt(line_.text), next));
     }
 
-    Found item(Words words) {
+    Found item(WordReader words) {
         const std::string_view first = words.next_in_line(), rest = words.left();
-        const std::string_view second = Words(rest).next_in_line();
+        const std::string_view second = WordReader(rest).next_in_line();
         if (first == "TIMESTEP") return step();
         if (first == "TIME") return time();
         if (first == "UNITS") return units();
@@ -90,7 +90,7 @@ class HeadReader {
                 fmt::format("a new frame begins, but the frame of step {} has no rows; is the file damaged?",
                             *head_.step));
         if (!value()) return Found::cut;
-        Words words(line_.text);
+        WordReader words(line_.text);
         const std::string_view word = words.next_in_line();
         const std::optional<std::int64_t> step = whole_in(word);
         if (!step || !words.next_in_line().empty())
@@ -104,7 +104,7 @@ class HeadReader {
 
     Found time() {
         if (!value()) return Found::cut;
-        const std::optional<double> time = number_in(Words(line_.text).next_in_line());
+        const std::optional<double> time = number_in(WordReader(line_.text).next_in_line());
         if (!time) return wrong(fmt::format("\"{}\" is no time", excerpt(line_.text)));
         head_.time = time;
         return Found::item;
@@ -113,16 +113,16 @@ class HeadReader {
     Found units() {
         if (!value()) return Found::cut;
         if (!line_.ended) return Found::cut;
-        head_.units = std::string(Words(line_.text).next_in_line());
+        head_.units = std::string(WordReader(line_.text).next_in_line());
         return Found::item;
     }
 
-    Found count(Words words) {
+    Found count(WordReader words) {
         words.next_in_line();
         label_ = std::string(words.next_in_line());
         head_.pairs = label_ != "ATOMS";
         if (!value()) return Found::cut;
-        Words number(line_.text);
+        WordReader number(line_.text);
         const std::string_view word = number.next_in_line();
         const std::optional<std::int64_t> rows = whole_in(word);
         if (!rows || *rows < 0 || !number.next_in_line().empty())
@@ -133,7 +133,7 @@ class HeadReader {
         return Found::item;
     }
 
-    Found box(Words words) {
+    Found box(WordReader words) {
         words.next_in_line();
         BoxReader reader(words.left());
         for (int k = 0; k < 3; ++k) {
@@ -147,7 +147,7 @@ class HeadReader {
         return Found::item;
     }
 
-    Found names(std::string_view item, Words words) {
+    Found names(std::string_view item, WordReader words) {
         if (!head_.step)
             refuse(fmt::format("rows without a step: \"ITEM: TIMESTEP\" is missing above line {}",
                                line_.number));

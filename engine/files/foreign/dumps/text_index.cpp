@@ -202,7 +202,7 @@ struct Row {
 Row row_of(std::string_view text) {
     Row row;
     row.blank_behind = !text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r');
-    Words words(text);
+    WordReader words(text);
     std::string_view last;
     for (std::string_view word = words.next_in_line(); !word.empty();
          word = words.next_in_line(), ++row.fields)

@@ -174,7 +174,7 @@ std::string_view first_line(std::string_view text) {
 }
 
 std::string name_behind(std::string_view line) {
-    Words words(line);
+    WordReader words(line);
     words.next();
     const std::string_view left = words.left();
     const std::size_t begin = left.find_first_not_of(" \t");
@@ -185,7 +185,7 @@ std::string name_behind(std::string_view line) {
 // Finds the solids. The text was read before and is sound.
 std::vector<Solid> solids_of(std::string_view bytes) {
     std::vector<Solid> solids;
-    Words words(bytes);
+    WordReader words(bytes);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         if (same_word(word, "solid")) {
             solids.push_back({name_behind(first_line(
@@ -272,7 +272,7 @@ bool is_text(std::string_view bytes) {
 
 // Whether a line "v 0 0 1", "f 1 2 3" or "mtllib a.mtl" comes before any other line.
 bool is_obj(std::string_view bytes) {
-    Words words(bytes);
+    WordReader words(bytes);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         const bool comment = word.starts_with('#');
         if (word == "v") return number_in(words.next_in_line()).has_value();
@@ -314,7 +314,7 @@ bool takes_wall_surface(const FileHead& head) {
                (bytes.size() >= kHeadBytes && size > head.size && holds_facets(bytes)) ||
                same_word(bytes.substr(0, 5), "solid");
     }
-    Words words(bytes);
+    WordReader words(bytes);
     const std::string_view word = words.next();
     if (same_word(word, "solid")) {
         words.skip_line();
