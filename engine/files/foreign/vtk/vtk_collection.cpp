@@ -219,10 +219,6 @@ bool takes_collection(const FileHead& head) {
     return type == "Collection" || is_block_type(type) || (type.empty() && is_series(head.bytes));
 }
 
-std::string shown(const fs::path& file) {
-    return excerpt(file.string(), 400);
-}
-
 bool is_there(const VtkPartFile& file) {
     return is_plain(file.file);
 }

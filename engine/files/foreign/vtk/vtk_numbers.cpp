@@ -13,6 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/files/foreign/byte_source.hpp"
 #include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
@@ -205,17 +206,7 @@ bool VtkWords::odd_number(double& value) {
     return false;
 }
 
-namespace {
-
 namespace fs = std::filesystem;
-
-constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
-
-std::string shown(const fs::path& file) {
-    return excerpt(file.string(), most_of_a_path);
-}
-
-}  // namespace
 
 std::string text_of(const VtkPlace& place) {
     const std::string file = place.file == nullptr ? std::string() : shown(*place.file);
