@@ -1,4 +1,5 @@
-// Text and data inside HTML.
+// What a page is put together from: text and data inside HTML, bytes as text, packed bytes, the HTML files
+// that the build puts into the program, and how far the page is. Nothing here knows of runs.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,19 +28,15 @@ std::string file_link(std::string_view name);
 // for a name that has no text.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& texts);
 
-// Bytes as text that a page can hold.
-
 // Base64 of RFC 4648 with padding, in one line. None of its signs means anything in HTML.
 std::string base64(std::span<const std::uint8_t> bytes);
 
-// A file of known, moderate size in memory.
-
-// Throws RunError when it cannot be read, or has more bytes than a page may have.
+// Reads a file of moderate size. Throws RunError when it cannot be read, or has more bytes than a page may
+// have.
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
 
-// Bytes packed as browsers unpack them.
-
-// In zlib's format (RFC 1950), which DecompressionStream calls "deflate".
+// Packs bytes as browsers unpack them: in zlib's format (RFC 1950), which DecompressionStream calls
+// "deflate".
 std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes);
 
 // The files of render/page/html, which the build puts into the program.
@@ -57,9 +54,7 @@ struct PageFiles {
 };
 const PageFiles& page_files();
 
-// Whoever makes a page tells how far that is, and may be stopped.
-
-// Told the share that is done; false: stop.
+// Whoever makes a page tells how far that is, and may be stopped. Told the share that is done; false: stop.
 using PageProgress = std::function<bool(double)>;
 
 // Thrown where one said stop; write_report() catches it.

@@ -1,4 +1,4 @@
-// The film and the picture that stands for it, as a page can hold them.
+// The film of a page, the picture that stands for it, and which moment of the run each of its frames shows.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,6 @@ PageFilm page_film(const FilmedScene& scene, const std::filesystem::path& folder
 // poster.png as a JPEG, 960 pixels wide at most. Empty without one, or where it cannot be read.
 std::vector<std::uint8_t> page_poster(const std::filesystem::path& folder);
 
-// Which moment of the run each frame of its film shows.
-
 struct FilmTimes {
     std::vector<double> times;  // s, one a frame; empty where they are not known
     std::string why_not;        // then: a sentence for the page
@@ -48,8 +46,6 @@ std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, st
 // where the run began. Known only where the number of frames agrees: a film may leave out locked frames of a
 // bed that repeats itself every other period, as the run finds out. whole: the run was complete.
 FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole);
-
-// A picture small enough for a page to bring it with it.
 
 // A JPEG, 960 pixels wide at most, of a frame that this decoder gave. Empty where none can be made. Throws
 // RunError.

@@ -1,4 +1,4 @@
-// The measures as the page has them: which columns have a chart at first, and their values.
+// The numbers of a page: its measures, with the columns that have a chart at first, and its fields.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct PageMeasures {
     std::size_t time = 0;              // the column of time
 };
 
-// Rows of so many, at most so many, evenly spread, the first and the last among them.
+// At most `most` of so many rows, evenly spread, the first and the last among them.
 std::vector<std::size_t> spread_rows(std::size_t rows, std::size_t most);
 
 constexpr std::size_t kMostRowsAtOnce = 2000;

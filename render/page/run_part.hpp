@@ -1,4 +1,4 @@
-// What a page has of one run.
+// The part of a page that shows one run: everything that report.cpp puts in for it.
 #pragma once
 
 #include <cstddef>

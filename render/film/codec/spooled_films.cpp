@@ -25,7 +25,7 @@ EncoderSettings first_settings(EncoderSettings settings, const WorkFolder& work)
     return settings;
 }
 
-// Of the exact copy, in pixels that `spool` stores.
+// The settings of the exact copy, in the pixels that `spool` stores.
 EncoderSettings spool_settings(EncoderSettings settings, const Codec& spool, const WorkFolder& work) {
     settings.codec = &spool;
     settings.path = work.file("spool.mkv");

@@ -59,7 +59,7 @@ class ComparedMember {
 
   private:
     std::unique_ptr<RunDriver> driver_;     // of the source, when it is run
-    const RevisitedRun* record_ = nullptr;  // likewise, when it lies on disk
+    const RevisitedRun* record_ = nullptr;  // of the source, when it lies on disk
     std::unique_ptr<FrameSource> source_;
     std::optional<FolderLock> folder_;  // of what is run, once it is made
     RunJson report_;                    // as above

@@ -1,5 +1,5 @@
-// The film's production line: frames go in on the engine's thread, a bounded queue, a drawing thread, another
-// bounded queue, an encoding thread. Nothing is dropped, nothing reordered.
+// The film's production line: frames go in on the engine's thread and pass a bounded queue, a drawing thread,
+// another bounded queue and an encoding thread. None is dropped, and their order stays.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ class RedrawRun final : public FilmRun {
     // Throws UserError for what the options get wrong; nothing is on disk then.
     RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
               RevisitedRun& source);
-    // Throws likewise, and does nothing else.
+    // Throws the same errors, and does nothing else.
     static void check(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
                       RevisitedRun& source);
 

@@ -55,7 +55,7 @@ inline std::int64_t frames_of(const Film& film, const std::vector<double>& times
 // What one part of a film has that is drawn in parts.
 struct FilmPart {
     std::int64_t first_picture = 0, pictures = 0;  // of the film's
-    std::int64_t first_frame = 0, frames = 0;      // likewise, with those that are held for captions
+    std::int64_t first_frame = 0, frames = 0;      // of the film's, with those that are held for captions
 };
 
 // Fewer pictures than these are no group of an encoder that codes them out of order.

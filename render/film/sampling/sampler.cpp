@@ -40,7 +40,7 @@ struct Stretch {
     std::int64_t first = 0;  // step
     std::int64_t every = 0;  // steps between shots; 0: those nearest to start + k frame, or by periods
     double cycles = 0;       // of the first shot; locked to a drive that changes
-    int periods = 0;         // likewise, between shots; else 0
+    int periods = 0;         // of a locked segment, between shots; else 0
     std::int64_t stop = 0;   // step that the segment does not reach
     std::int64_t count = 0;  // shots, at most: motion may round two to one step
 };

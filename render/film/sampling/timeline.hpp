@@ -34,7 +34,7 @@ std::vector<Shot> shots_at(const std::vector<Instant>& instants, const std::vect
 // of these frames is, one after the other at `rate` frames a second: locked when all phases agree and whole
 // periods lie between, else in motion at the playback that follows from the interval. Its duration is the
 // simulated time from the first to the last. None for fewer than two frames, or when they do not come evenly.
-// Of the frames only time, cycles and phase are looked at.
+// It looks only at time, cycles and phase of the frames.
 std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Drive& drive, double rate);
 
 // What the caption says of the time of these frames; where they do not come evenly, as it is on average.

@@ -1,5 +1,5 @@
-// All moments of a run that its folder has: those of trajectory.nc, those of the film's pictures, and its key
-// moments.
+// All moments of a run that the page may show, and the film's colours of its grains. The moments are those of
+// trajectory.nc, those of the film's pictures, and its key moments.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,8 @@ class AllMoments final : public FrameArchive {
     std::vector<std::string> news_;
 };
 
-// The film's colours on the page's grains: the quantity of film.colour, a byte a grain and moment.
+// The film's colours on the page's grains: a byte for the quantity of film.colour of each grain at each
+// moment.
 
 class FilmColours {
   public:

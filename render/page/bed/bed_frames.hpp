@@ -4,7 +4,7 @@
 //   ids, N int32; species, N uint16; radii in m, N float32;
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the
 //   moment before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the
-//   film colours its grains by a quantity, N bytes of that (film_colours.hpp).
+//   film colours its grains by a quantity, N bytes of that (all_moments.hpp).
 // A contact number of 255 is not known. Where a grain is not present, speed, contacts and presence are 0 and
 // its place repeats the one before. render/page/html/bed_frames.js reads them.
 #pragma once
@@ -26,8 +26,8 @@ namespace grainreel {
 // Who pushes whom, and how hard, at key moments: what the page draws as force chains.
 //
 // The bytes, before they are packed, are for each key moment of P pairs: low, middle and high bytes of the
-// first grain's place in the list of grains, as its difference from the pair before (P each); likewise of the
-// second grain's place, not as a difference, or 2^24 - 1 - face for a wall; P bytes of normal force, as
+// first grain's place in the list of grains, as its difference from the pair before (P each); the same three
+// bytes of the second grain's place itself, or of 2^24 - 1 - face for a wall; P bytes of normal force, as
 // speed_byte() of bed_frames.hpp has speeds. render/page/html/pair_forces.js reads them.
 
 struct PairForces {

@@ -1,11 +1,11 @@
-// Meshes of a scene as the page carries them: each shape once, at rest. Where it is at a moment say the
-// bodies of the frames.
+// Meshes of a scene as the page carries them: each shape once, at rest. The bodies of the frames
+// say where it is at a moment.
 //
 // The bytes, before they are packed, are for each mesh of V vertices, T triangles and E edges, little-endian:
 //   x, y and z of the vertices, each as V low bytes and V high bytes of a zigzag difference from the vertex
 //   before (from 0 at first), in 65535ths of the mesh's box;
 //   the three corners of triangles, each as T low, T middle and T high bytes of a zigzag difference from the
-//   triangle before; the two ends of edges likewise, E bytes each.
+//   triangle before; the two ends of edges in the same way, E bytes each.
 // The first triangles are solid wherever they are seen from, the `glass` ones behind them glass. The `sided`
 // last ones are solid on the side of their normal and glass on the other one.
 // render/page/html/meshes.js reads them.

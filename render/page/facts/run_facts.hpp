@@ -1,4 +1,4 @@
-// What run.json says of a run, as far as it can be read.
+// What run.json says of a run, as far as it can be read, and the methods paragraph that follows from it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the runs of a page are called.
+// What the runs of a page are called, and in what their scenes differ.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,6 @@ struct RunToName {
 // Hz", where that tells all of them apart and is short. Else the folders' names; their whole paths where two
 // have the same.
 std::vector<std::string> names_of_runs(const std::vector<RunToName>& runs);
-
-// In what the scenes of several runs differ.
 
 struct NamedScene {
     std::string name;

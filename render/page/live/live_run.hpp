@@ -85,17 +85,14 @@ class LiveRun {
     LiveSnapshot now_;
 };
 
-// The live page's HTML.
-
-// Its scripts ask for the rest: live.js.
+// The live page's HTML. Its scripts (live.js) ask for the rest.
 std::string live_page(const FilmedScene& scene, const std::filesystem::path& folder,
                       const std::optional<PlannedScene>& planned);
-// Until the run has told its scene: asks again by itself.
+// A page for the time until the scene of the run can be read. It asks again by itself.
 std::string waiting_page(const std::string& title);
 
-// The newest picture of a film that still grows.
-
-// As a JPEG, 960 pixels wide at most. Empty where there is none yet, or the file is damaged.
+// The newest picture of a film that still grows: a JPEG, 960 pixels wide at most. Empty where there is none
+// yet, or the file is damaged.
 std::vector<std::uint8_t> last_picture(const std::filesystem::path& film);
 
 }  // namespace grainreel

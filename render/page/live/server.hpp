@@ -1,4 +1,5 @@
-// HTTP for reading alone: GET and HEAD, by libmicrohttpd, on a thread of its own.
+// The server of the live page: its socket, HTTP for reading alone (GET and HEAD, by libmicrohttpd, on a
+// thread of its own), and files of the run's folder that visitors may have.
 #pragma once
 
 #include <cstdint>
@@ -70,10 +71,8 @@ class WatchServer {
     std::unique_ptr<Impl> impl_;
 };
 
-// A file of a run's folder, for whoever asks for it by name.
-
-// path: of the request, "/measures.csv". 404 for all that is no plain file right in the folder: paths, hidden
-// files, links, folders.
+// A file of a run's folder, for whoever asks for it by name. path: of the request, "/measures.csv". 404 for
+// all that is no plain file right in the folder: paths, hidden files, links, folders.
 WatchAnswer run_file(const std::filesystem::path& folder, const std::string& path);
 
 }  // namespace grainreel

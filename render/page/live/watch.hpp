@@ -1,4 +1,5 @@
-// Shows a run while it goes, to browsers on this machine or, when asked to, on others.
+// Shows a run while it goes, to browsers on this machine or, when asked to, on others; and decides who may
+// look.
 #pragma once
 
 #include <deque>
