@@ -106,7 +106,7 @@ Motion last_motion(const Drive& drive) {
 }
 
 // Another way to say the amplitude, which is what is kept and written. Without either the acceleration stays.
-BoundKey<DriveStage> g_level_key() {
+BoundKey<DriveStage> stage_g_level_key() {
     const auto read = [](Document& document, const Scene& scene, const std::string& path, DriveStage& stage) {
         if (stage.amplitude > 0 || stage.kind == Kind::rest) return;
         const double gravity = scene.gravity.norm(), omega = omega_of(stage.frequency);
@@ -144,7 +144,7 @@ const KeyTable<DriveStage>& stage_table() {
             .useless_for(at_rest)
             .usually(
                 [](S& stage, const Scene& scene) { stage.frequency = last_motion(scene.drive).frequency; }),
-        g_level_key(),
+        stage_g_level_key(),
         quantity("amplitude", &S::amplitude, Dimension::length, positive_or_tiny, note("from `g_level`"),
                  "a, half of the stroke; a tap goes up by 2a and comes back.")
             .read_at(-1)

@@ -157,7 +157,7 @@ void read_tray(Document& document, const Scene& scene, const std::string& path, 
     container.tray = tray;
 }
 
-[[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
+[[noreturn]] void fail_tray(const Scene& scene, const std::string& key, const std::string& what) {
     throw UserError(fmt::format("{}: '{}' {}", scene.where("container.tray." + key), key, what));
 }
 
@@ -182,15 +182,16 @@ void check_tray(const Scene& scene) {
             fmt::format("{}: 'tray' is of no use below a closed floor; add 'outlet', or remove it",
                         scene.where("container.tray")));
     if (clearly_less(c.tray->half_width, c.floor_half_width()))
-        fail(scene, "width",
-             fmt::format("of {:.6g} m is less than that of the container's floor, {:.6g} m; widen it",
-                         2 * c.tray->half_width, 2 * c.floor_half_width()));
+        fail_tray(scene, "width",
+                  fmt::format("of {:.6g} m is less than that of the container's floor, {:.6g} m; widen it",
+                              2 * c.tray->half_width, 2 * c.floor_half_width()));
     const double room = tray_container(scene).height, largest = largest_diameter(scene);
     if (room < largest - kSameDecimals * c.tray->depth)
-        fail(scene, "depth",
-             fmt::format("of {:.6g} m leaves {:.6g} m below the floor where that is lowest, less than the "
-                         "largest grain, {:.6g} m; deepen it",
-                         c.tray->depth, room, largest));
+        fail_tray(
+            scene, "depth",
+            fmt::format("of {:.6g} m leaves {:.6g} m below the floor where that is lowest, less than the "
+                        "largest grain, {:.6g} m; deepen it",
+                        c.tray->depth, room, largest));
 }
 
 }  // namespace grainreel
