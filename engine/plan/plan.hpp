@@ -91,8 +91,9 @@ struct Plan {
 
     std::vector<PairPlan> grain;  // species x species, row-major
     std::vector<PairPlan> wall;   // one a species
-    std::vector<PairPlan> glued;  // likewise, with grains glued to walls; empty where there are none
-    std::vector<PairPlan> mesh;   // mesh x species, row-major
+    std::vector<PairPlan>
+        glued;  // one a species, for contacts with grains glued to walls; empty without these
+    std::vector<PairPlan> mesh;  // mesh x species, row-major
 
     Clock clock;
     std::int64_t steps = 0;                                     // of vibration
@@ -132,7 +133,7 @@ struct Plan {
 // Throws UserError when the scene cannot be run as it stands (does not fit, too many steps, no stiffness).
 // Looks into the file that the scene starts from, if it does (engine/start/start_plan.cpp).
 Plan make_plan(const Scene& scene);
-// Likewise, with what is known of that file. Leaves Plan::start as it is.
+// Plans with facts about that file which are known already. Leaves Plan::start as it is.
 Plan make_plan(const Scene& scene, const StartFacts& file);
 
 }  // namespace grainreel

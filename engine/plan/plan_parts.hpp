@@ -81,7 +81,7 @@ std::vector<std::string> likely_slips(const Scene& scene);
 class Warnings;
 void warn_of_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings);
 void warn_of_few_steps(const Scene& scene, const Plan& plan, Warnings& warnings);
-// Likewise: what will run, but not as one may wish.
+// Lines for the user about what will run, but perhaps not as intended.
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
                                        const StepChoice& step);
 // Warnings of what follows from the start file.

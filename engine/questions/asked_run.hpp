@@ -1,5 +1,5 @@
-// What lies on disk and can be asked questions: frames, the scene that they are of, and, where it is a run of
-// ours, checkpoints from which its other moments and its forces are brought back.
+// What lies on disk and can be asked questions: frames, their scene and, for a run of ours, checkpoints. A
+// checkpoint brings back moments that were not kept, and forces. Nothing here changes a file.
 #pragma once
 
 #include <cstddef>

@@ -133,7 +133,7 @@ class ExpressionParser {
 
     void skip_spaces();
     bool take(std::string_view symbol);     // a sign, if it comes next
-    bool take_word(std::string_view word);  // likewise a word
+    bool take_word(std::string_view word);  // a word, if it comes next
     std::string name_here();                // letters, digits and _; empty when there are none
     [[noreturn]] void fail(std::size_t start, const std::string& what) const;
 

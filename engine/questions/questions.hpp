@@ -23,8 +23,8 @@ Answer grain_answer(const Snapshot& snapshot, std::int64_t id);
 // of them.
 Answer wall_answer(const Snapshot& snapshot, const std::string& name, std::size_t most);
 
-// Likewise: how many touch, how far they overlap and what the plan allows; the `most` contacts that overlap
-// most.
+// The contacts of a moment that was brought back: how many there are, how far they overlap, what the plan
+// allows, and the `most` contacts that overlap most.
 Answer largest_overlap_answer(const Snapshot& snapshot, std::size_t most);
 
 // Says in a sentence whether the overlaps of a moment that was brought back keep to what run.overlap allows.
@@ -40,7 +40,7 @@ Answer slice_answer(const Snapshot& snapshot, const std::string& plane, std::siz
 
 // By bins of a column ("height", "x", "y", "z", or "r" about the container's axis) as wide as the mean
 // diameter: grains and solid volume by species, mean speed and mean upward velocity; along height and z in a
-// container also its solid fraction (solid_fraction.hpp).
+// container also its solid fraction.
 Answer profile_answer(const Snapshot& snapshot, const std::string& along);
 
 // Counts of a column's values in `bins` equal bins from the smallest to the largest, by species.

@@ -14,7 +14,6 @@
 namespace grainreel {
 
 // How a vibration turns into another one: frequency and acceleration go smoothly from one value to the other.
-
 // u = time since the start over `duration`, from 0 to 1, and s(u) as in smooth_step.hpp:
 //   f = f0 + (f1 - f0) s,   A = A0 + (A1 - A0) s,   a = A / (2 pi f)^2,   z = a sin(2 pi integral of f dt).
 // Place, velocity and acceleration are continuous at both ends.
@@ -77,7 +76,7 @@ class DriveSchedule {
     std::vector<Piece> pieces_;
 };
 
-// Likewise, of a drive with stages or without.
+// What is on after so many periods, for a drive with stages or without.
 DriveSchedule::Now drive_now(const Drive& drive, double cycles);
 
 // The most that the drive does in all its course, changes included. Without stages what the drive has.

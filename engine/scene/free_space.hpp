@@ -43,16 +43,12 @@ class FreeSpace {
     std::vector<double> heights_;  // of the places with room, rising; only where measured
 };
 
-// Where a vessel does not hold its grains.
-
-// m, a place near which a grain of this diameter (m) gets out of the room of a vessel; empty where none is
-// found. Out of a vessel that is open above nothing is lost over its rim, so only what lies below the rim
-// counts; a closed one must be closed all round. Two searches, neither of which minds sheets that stand in
-// the room, seams whose vertices do not meet, or walls with a thickness:
-// - from the room to the box around the vessel in steps of a 32nd of its size: finds every hole that is
-// wider,
-//   in walls of any kind;
-// - at the open edges: whether a diameter beyond one of them the room goes over into what is not room.
+// A place (m) where a vessel leaks: a grain of this diameter (m) gets out near it. Empty where none is found.
+// Holes above the rim of an open vessel do not count; a closed vessel must be closed on all sides. There are
+// two searches. The first walks from the room to the box around the vessel, in steps of a 32nd of its size,
+// and finds every wider hole in walls of any kind. The second looks at each open edge: it tells whether a
+// diameter beyond the edge the room meets space outside of it. Sheets in the room, seams whose vertices do
+// not meet, and thick walls disturb neither search.
 std::optional<Vec3> leak_of(const Surface& surface, const EnclosedRoom& room, double diameter);
 
 }  // namespace grainreel

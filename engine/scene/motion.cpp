@@ -24,9 +24,8 @@ Quaternion quaternion_of(const Eigen::Vector4d& w_first) {
     return {w_first[0], w_first[1], w_first[2], w_first[3]};
 }
 
-// p|, q' = (p' - q (q.p')) / |p|, and the spin is 2 q' q*.|The quaternion is scaled to length 1: q = p/|p|,
-// q' = (p' - q (q.p')) / |p|, and the spin is 2 q' q*.|p|, q' = (p' - q (q.p')) / |p|, and the spin is 2 q'
-// q*.
+// The quaternion p of the spline is scaled to length 1. With n = norm(p): q = p / n, q' = (p' - q (q.p')) /
+// n, and the spin is 2 q' q*.
 Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
     const double length = raw.norm();
     const Eigen::Vector4d unit = raw / length;
@@ -34,7 +33,7 @@ Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
     return 2 * (quaternion_of(change) * quaternion_of(unit).conjugate()).vec();
 }
 
-// The mesh rests until the run begins, and would be elsewhere at once.
+// The mesh rests until the run begins. A path that begins elsewhere would make it jump.
 void check_start(const MotionPath& path, const PathRows& rows, const std::filesystem::path& file) {
     constexpr double same = 1e-6;  // of the path's size; rad
     const PathPose start = path.at(0);

@@ -1,7 +1,8 @@
-// The columns of measures.csv: their names there, what to call them where people read, and what they are.
+// What a run can write: columns of measures.csv, fields, and files in formats of other programs. Plain
+// values.
 //
-// Which there are is said by the observers (engine/measure/observer_list.hpp). The reader of a scene is told
-// them, because plots and live words name them.
+// The observers decide which columns there are (engine/measure/observer_list.hpp). The reader of a scene is
+// told them, because plots and live words name them.
 #pragma once
 
 #include <array>

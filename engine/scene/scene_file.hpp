@@ -1,4 +1,5 @@
-// The text of a scene file. A scene that the user names may come through a pipe.
+// The scene file: loading its text, reading it into a Scene, writing a Scene back, and the names of the files
+// that a run keeps beside it. What a single key means is said in engine/scene/chapters and not here.
 #pragma once
 
 #include <cstddef>
@@ -30,15 +31,15 @@ class TableReader;
 // Reads a TOML file, or the shipped scene of that name where there is no such file. `sets` take precedence
 // over it, "run.duration=2 s" or "species.big.count=30"; their values are TOML, or else taken as text. A
 // relative start.file becomes absolute, counted from the scene's folder, and so do the files of meshes and
-// paths, which are loaded. Throws UserError at the first
-// mistake: keys that are unknown or of no use, values of the wrong kind, unit or size, and what does not go
-// together. measurable: what output.instruments may name (measurable_in() of engine/measure/columns.hpp);
-// without it, nothing. [film], which must be a table, and the species' colours are kept as text,
-// whatever they say.
+// paths, which are loaded. Throws UserError at the first mistake: an unknown or useless key, a value of the
+// wrong kind, unit or size, or values that do not go together. measurable: what output.instruments may name
+// (measurable_in() of engine/measure/columns.hpp); without it they may name nothing. [film], which must be a
+// table, and the colours of species are kept as text and are not checked.
 Scene read_scene(const std::filesystem::path& file, const Assignments& sets = {},
                  const MeasurableIn& measurable = nullptr);
 
-// Likewise from text; `file` is the name for messages, and its folder the one that paths count from.
+// Reads a scene from text. `file` is its name in messages, and relative paths count from the folder of
+// `file`.
 Scene read_scene_text(std::string_view text, const std::filesystem::path& file, const Assignments& sets = {},
                       const MeasurableIn& measurable = nullptr);
 
@@ -50,13 +51,11 @@ struct NamedText {
 // The text of a file, or of the shipped scene of that name. Throws UserError where there is neither.
 NamedText text_of_scene(const std::filesystem::path& file);
 
-// Likewise, and `further` reads what the engine does not know (render/scene/read_scene.hpp).
+// Reads a scene, and lets `further` read what the engine does not know (render/scene/read_scene.hpp).
 void read_scene_into(Scene& scene, const NamedText& from, const Assignments& sets,
                      const MeasurableIn& measurable, TableReader* further = nullptr);
 
-// Why values that a scene leaves open are what they are, for a scene in which they have been filled in.
-
-// Empty where the scene itself says the value.
+// Reasons for the values that the plan filled in. A reason is empty where the scene itself gives the value.
 struct Reasons {
     std::string step;
     // Why a stiffness was filled in, or the modulus with Hertz. By kind of contact as in Contact; `glued`:

@@ -75,7 +75,7 @@ struct KeyDifference {
 // chose.
 std::vector<KeyDifference> deciding_differences(std::string_view then, std::string_view now);
 
-// Likewise, all keys of one table, such as "output".
+// Differences between the two texts in all keys of one table, such as "output".
 std::vector<KeyDifference> differences_of_table(std::string_view then, std::string_view now,
                                                 std::string_view table);
 

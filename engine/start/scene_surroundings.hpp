@@ -1,4 +1,5 @@
-// The surroundings of a scene's grains: walls and their motion, gravity, the reach of the neighbour lists.
+// Makes the surroundings that a scene gives its grains: walls and their motion, gravity, the reach of the
+// neighbour lists. engine/step/surroundings.hpp says what surroundings are.
 #pragma once
 
 #include "engine/plan/plan.hpp"

@@ -31,7 +31,7 @@ void check_grains_numbered(const Scene& scene, const Grains& grains);
 // Throws UserError where the grains have other sizes than the scene says.
 void check_sizes_match(const Scene& scene, const Grains& grains);
 
-// Likewise, and as many grains of each species as the scene says, and as large.
+// Throws UserError where the grains of a species are not as many, or not as large, as the scene says.
 void check_grains_match(const Scene& scene, const Grains& grains);
 
 // With the masses that their species has.

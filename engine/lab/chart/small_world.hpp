@@ -1,4 +1,5 @@
-// A few grains, faces and laws put together by hand: the small worlds of the charts' experiments.
+// A few grains, faces and laws put together by hand for the experiments of charts. Scenes and plans play no
+// part.
 #pragma once
 
 #include <cmath>
@@ -38,7 +39,8 @@ inline PairPlan latching_pair(double stiffness, double restitution, double frict
     return pair;
 }
 
-// On one thread. The loop refers to the rest, so a world stays where it is.
+// A small world runs on one thread. Its loop refers to the other members, so a world must not be copied or
+// moved.
 struct SmallWorld {
     Plan plan;
     Surroundings around;

@@ -81,7 +81,7 @@ void size_empty_space(Scene& scene);
 
 // What can be wrong between keys that are right by themselves. Throws UserError.
 void check_scene(const Scene& scene);
-void check_meshes(const Scene& scene);  // likewise, of meshes, exits and turning containers
+void check_meshes(const Scene& scene);  // the same for meshes, exits and turning containers
 
 // What is likely a slip in a mesh's size, as lines for the user.
 std::vector<std::string> doubts_of_meshes(const Scene& scene);
@@ -98,9 +98,8 @@ void make_unit(const Document& document, const std::string& path, Vec3& directio
 // Throws UserError where the box of a table with 'low' and 'high' has no room.
 void check_corners(const Document& document, const std::string& table, const Vec3& low, const Vec3& high);
 
-// Whoever reads tables of a scene file that the engine only keeps as text, such as [film]. It reads them from
-// the same document, so that a mistake is told with its line, and the first one first.
-
+// A reader of tables that the engine keeps only as text, such as [film]. It reads them from the same
+// document, so that messages name lines, and the first mistake of the file is told first.
 class TableReader {
   public:
     virtual ~TableReader() = default;

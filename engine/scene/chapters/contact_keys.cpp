@@ -39,7 +39,8 @@ void check_laws(const Document& document, const PairContact& pair, const std::st
                       "with the overlap; write friction_law = \"mindlin\" or \"none\"");
 }
 
-// Who says how the restitution is found takes back how it was said before.
+// A table that says how restitution is found replaces what the tables before it said: a damping, one value,
+// or values by speed.
 void take_back_restitution(const Document& document, const std::string& table, PairText& pair) {
     const auto says = [&](const char* name) { return document.has(table + "." + name); };
     const auto refuse = [&](const char* name, const char* reason) {
@@ -59,13 +60,14 @@ void take_back_restitution(const Document& document, const std::string& table, P
         for (const char* name : {"normal_damping", "restitution_table"}) pair.said.erase(name);
 }
 
-// Another normal law comes with the friction law that suits it, unless there is to be none.
+// A table that changes the normal law also gets the friction law that suits it, unless friction was turned
+// off.
 void settle_laws(const Document& document, const std::string& table, PairText& pair) {
     const bool none = pair.said.contains("friction_law") && pair.value.tangential == TangentialLaw::none;
     if (document.has(table + ".law") && !none) pair.said.erase("friction_law");
 }
 
-// Read first: what the other keys mean follows from them.
+// Laws are read first, because they decide what the other keys mean.
 bool is_law(const BoundKey<PairContact>& bound) {
     return bound.turn < 0;
 }
@@ -201,8 +203,8 @@ void read_exception(Document& document, const Scene& scene, const std::string& t
     contact.grain[b * count + a] = contact.grain[a * count + b];
 }
 
-// What is said of "wall" holds for meshes too, wherever it stands in the file; what is said of a mesh comes
-// on top of it.
+// An exception for "wall" holds for meshes too, wherever it stands in the file. An exception for a mesh is
+// applied after it.
 void read_exceptions(Document& document, const Scene& scene, ContactText& contact) {
     const std::size_t count = scene.species.size();
     std::vector<std::pair<std::string, Partners>> of_meshes;

@@ -1,4 +1,5 @@
-// The keys of a steady turn, as container.turn and a mesh's turn have them. Internal to these.
+// The parts of [container] that have tables of their own: turn, outlet, tray and glued grains. Each function
+// gives one key; each check looks at a whole scene. Only files of this folder include this header.
 #pragma once
 
 #include <optional>

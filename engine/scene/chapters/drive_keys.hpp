@@ -1,4 +1,4 @@
-// The keys of [[drive.stage]].
+// The keys of [[drive.stage]], and what a run leaves out that the command line ends early.
 #pragma once
 
 #include "engine/scene/keys/document.hpp"

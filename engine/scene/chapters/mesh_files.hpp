@@ -23,7 +23,7 @@ std::string named_file(Document& document, const Scene& scene, const std::string
 // UserError at the key `file` where the file cannot be used, or is not the one that mesh.hash says.
 void load_surface(const Document& document, const std::string& table, SceneMesh& mesh);
 
-// Likewise the path, and the key `path`.
+// Loads the path of a mesh in the same way. Throws UserError at the key `path`.
 void load_path(const Document& document, const std::string& table, SceneMesh& mesh);
 
 // The room that a surface encloses. The last one stays in memory.

@@ -1,5 +1,7 @@
-// The one list of keys that a scene file may have. The reader, the search for the nearest key and the table
-// in docs/reference/scenes.md all live on it. Another kind of file (a study) has a list of its own.
+// Keys: what one is, how lists of them are made and searched, paths and words of keys, and assignments of the
+// command line. The reader, the search for the nearest key and the table in docs/reference/scenes.md use one
+// list, scene_keys(). Another kind of file (a study) has a list of its own. New keys are not added here but
+// in chapters.
 #pragma once
 
 #include <cstddef>
@@ -206,14 +208,12 @@ using Keys = std::vector<Key>;
 namespace grainreel {
 
 // A key that `resume --accept` changed at a step of a run. Checkpoints from before have it as it was.
-
 struct AcceptedKey {
     std::int64_t step = 0;
     std::string key, then, now;  // values as TOML; empty: not there
 };
 
-// Values that take precedence over those of a scene file, and who said them.
-
+// A value that takes precedence over that of a scene file, and the option that gave it.
 struct Assignment {
     Assignment(std::string assignment, std::string said_by = "")
         : text(std::move(assignment)), option(std::move(said_by)) {}

@@ -23,7 +23,7 @@ const std::vector<ShippedScene>& shipped_scenes();
 // The one with this name, with .toml or without; "-" counts as "_". Null when there is none.
 const ShippedScene* shipped_scene(std::string_view name);
 
-// Likewise, or the only one whose name has these words in it: "brazil-nut" is teaching_brazil_nut.
+// The scene of this name, or the only one whose name contains it: "brazil-nut" is teaching_brazil_nut.
 const ShippedScene* shipped_scene_like(std::string_view words);
 
 // The name that somebody meant who mistyped one. Empty when none is near.

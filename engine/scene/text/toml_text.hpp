@@ -19,7 +19,7 @@ std::string toml_number(double value);
 std::string quoted(const std::string& text);
 // "[1.0, 2.0]" of values that are TOML already.
 std::string toml_list(const std::vector<std::string>& values);
-std::string names_text(const std::vector<std::string>& names);  // likewise of words; "" of none
+std::string names_text(const std::vector<std::string>& names);  // a list of quoted words; "" for none
 
 // In the dimension's unit, "" for what is not there.
 std::string as_toml(double value, Dimension dimension = Dimension::number);
@@ -59,10 +59,9 @@ class SceneText {
     std::map<std::string, std::string> remarks_;
 };
 
-// Comments of a scene file that is written again.
-
-// Both texts are of the scene's writer, a key a line. What `before` says above a key is said above it again,
-// where the key has the value that it had, and nothing is said there yet.
+// Carries comments over to a scene file that is written again. Both texts come from the scene's writer, one
+// key a line. A comment above a key in `before` is put above the same key in `text` if its value is the same
+// and it has no comment yet.
 std::string with_comments_of(std::string_view before, std::string text);
 
 }  // namespace grainreel

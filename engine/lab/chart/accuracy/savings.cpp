@@ -40,7 +40,7 @@ double cost(SmallWorld& world, std::int64_t steps) {
     return taken.count() / (static_cast<double>(steps) * side * side * side);
 }
 
-// What is done to two benches alike, so that one has the thing and the other has not.
+// Two small worlds that are alike, except that one has what is to be saved and the other has not.
 struct Saving {
     std::string name;
     std::function<void(SmallWorld&)> with, without;
@@ -109,7 +109,7 @@ struct Measured {
     double low = 1e9, high = 0;        // of without / with, over the rounds
 };
 
-// Turn by turn, so that what else the machine does meets both alike.
+// The two are timed in turns, so that other work of the machine slows both alike.
 Measured measure(const Saving& saving, int rounds) {
     SmallWorld with(contact(), 1e-9), without(contact(), 1e-9);
     saving.with(build(with)), saving.without(build(without));
