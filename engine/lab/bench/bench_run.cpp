@@ -90,9 +90,9 @@ class BenchRun {
     BenchReport& report() { return report_; }
 
   private:
-    // Many copies at once take too long to run through it all: they take over a bed in the middle of the
-    // phase, and, once lists and histories have come to be, about as many grain-steps are timed as the one
-    // bed would make; beside them those of a single copy that does the same.
+    // Many copies take too long to run through a whole phase. They begin with a bed from the middle of the
+    // phase. Once their lists and histories exist, about as many grain-steps are timed as the single bed
+    // makes in the phase. A single copy is timed in the same way, to compare with.
     bool time_phase(Running& run, const BenchPhase& phase, PhaseReport& report) {
         if (copies_ == 1) return advance(run, phase.steps, phase.name, 0, &report);
         if (!advance(run, phase.steps / 2, phase.name, 0, nullptr)) return false;
