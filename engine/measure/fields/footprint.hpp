@@ -37,8 +37,8 @@ class Footprint {
     // an error below 1e-4 of the kernel's largest value, but where the Gaussian is cut off, at 1 % of that
     // value.
     std::span<const CellWeight> of_line(const Vec3& begin, const Vec3& branch, double radius = 0);
-    // Likewise of a line along which the kernel W_s changes its width w_s evenly, from that of the one radius
-    // to that of the other: integral over s of W_s (branch + (r - begin - s branch) d(ln w_s)/ds). Its
+    // The same for a line along which the kernel W_s changes its width w_s evenly, from that of the one
+    // radius to that of the other: integral over s of W_s (branch + (r - begin - s branch) d(ln w_s)/ds). Its
     // divergence is the kernel at the beginning less that at the end. Its sum times volume is the branch.
     std::span<const CellWay> of_changing_line(const Vec3& begin, const Vec3& branch, double radius,
                                               double other_radius);

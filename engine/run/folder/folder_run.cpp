@@ -190,7 +190,7 @@ void FolderRun::page_is_missing(bool missing) {
     if (missing) desk_.record.missing.emplace_back(kPageIsMissing);
 }
 
-// Who is in a hurry goes without the page, which `resume` makes.
+// In a hurry the page is left out; `resume` makes it.
 void FolderRun::stop_before_page() {
     if (desk_.record.missing.empty() || !desk_.folder->lock().is_there()) return;
     settle_status(true);

@@ -109,10 +109,8 @@ class LoggingListener final : public RunListener {
     RunLog* log_ = nullptr;
 };
 
-// How far a replay has come, for whoever waits for the moment.
-
-// Tells `tell` once the replay has gone on for a second, with the time that is left. It never stops the
-// replay.
+// A watcher that tells how far a replay has come. It tells `tell` once the replay has gone on for a second,
+// with the time that is left. It never stops the replay.
 ReplayWatcher replay_progress(std::function<void(const Progress&)> tell);
 
 // What all parts that work on one run's folder share.

@@ -125,7 +125,8 @@ bool Simulation::Impl::pack_rain(const PackingWatcher& watcher, PackingProgress&
     return report.finished;
 }
 
-// Work and balance count from here; the forces belong to the state, so that the first half kick is right.
+// Begins the account of work and energy. The forces are those of the present state, so the first half kick is
+// right.
 void Simulation::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
     loop->begin_account();

@@ -56,7 +56,7 @@ class BedLists {
     // Between two runs: grains leave (rising indices), before they leave the grains' arrays. Returns the new
     // index of each grain, kGone for those that leave. renew_shares() must follow.
     const std::vector<std::int32_t>& leave_out(const std::vector<std::int32_t>& leavers);
-    // Likewise: a grain has come, behind all others. Its lists are made at the end of the next step.
+    // Between two runs: a grain has come, behind all others. Its lists are made at the end of the next step.
     void add_unlisted();
     // Whose grains are whose after some left or came: they have new indices, and nobody's lists are in order.
     void renew_shares();

@@ -70,7 +70,7 @@ class ContactTable {
     void admit(std::int32_t c, std::uint64_t touching) {
         if (const std::uint64_t news = touching & ~admitted_[c / 64]; news != 0) add_candidates(c, news);
     }
-    // Likewise adds a contact that was no candidate, and returns its place. Contacts of one step must come by
+    // Adds a contact that was no candidate, and returns its place. Contacts of one step must come by
     // rising bodies.
     std::int32_t add_new(std::int32_t i, std::int32_t j);
     std::int32_t end_step();  // the first contact that began; size() if none did

@@ -68,7 +68,8 @@ struct MeshLists {
     void find_contacts(const ContactTable& table);
 
   private:
-    // All triangles of a mesh within `reach` (m) of a place in the body's frame. It holds whoever is there.
+    // All triangles of a mesh within `reach` (m) of a place in the body's frame. They hold for any grain
+    // there.
     struct Around {
         std::int32_t grain, mesh;
         Vec3 centre;
