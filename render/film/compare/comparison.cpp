@@ -137,12 +137,6 @@ namespace {
 
 constexpr double hair = 1e-9;  // s
 
-std::vector<FilmedScene> scenes_of(const Comparison& all) {
-    std::vector<FilmedScene> scenes;
-    for (const auto& member : all.members) scenes.push_back(member->scene());
-    return scenes;
-}
-
 double mean_interval(const std::vector<Frame>& moments) {
     return moments.size() < 2
                ? 0
