@@ -195,21 +195,21 @@ bool acts_alike_in(const Plan& other, const Plan& one, const PairPlan& pair) {
 namespace {
 
 // Index of a grain; of the other grain, of the face, of the glued grain or of the mesh; and the group's sort.
-using Bodies = std::tuple<std::int32_t, std::int32_t, int>;
+using BodyKey = std::tuple<std::int32_t, std::int32_t, int>;
 
 // Number of the wall among the meshes; below 0 for a face.
 std::int32_t mesh_of(const ContactView& c, const Surroundings& around) {
     return -1 - c.second - static_cast<std::int32_t>(around.faces.size());
 }
 
-Bodies bodies_of(const ContactView& c, const Surroundings& around) {
+BodyKey bodies_of(const ContactView& c, const Surroundings& around) {
     if (c.second >= 0) return {c.first, c.second, 0};
     if (c.glued >= 0) return {c.first, c.glued, 1};
     const std::int32_t mesh = mesh_of(c, around);
-    return mesh < 0 ? Bodies{c.first, -1 - c.second, 2} : Bodies{c.first, mesh, 3};
+    return mesh < 0 ? BodyKey{c.first, -1 - c.second, 2} : BodyKey{c.first, mesh, 3};
 }
 
-Bodies bodies_of(const ContactGroup& group, std::int32_t first, std::int32_t second) {
+BodyKey bodies_of(const ContactGroup& group, std::int32_t first, std::int32_t second) {
     return {first, second, group.of_pairs ? 0 : group.of_glued ? 1 : group.of_mesh ? 3 : 2};
 }
 
@@ -268,7 +268,7 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
         const PairPlan* pair;
         double overlap;
     };
-    std::map<Bodies, Latch> fresh;
+    std::map<BodyKey, Latch> fresh;
     const WeightMoments moments(around.gravity, grains);
     double wanted = moments.of_weights(), there = 0;
     loop.visit_contacts(kBefore, [&](const ContactView& c) {
