@@ -25,6 +25,21 @@ Keys top_level() {
     };
 }
 
+Keys of_variant() {
+    return {
+        entry("variant[].name", KeyKind::text, required(),
+              "What tables, charts and the page call it; `--variant` runs it alone."),
+        entry(
+            "variant[].set", KeyKind::name_list, required(),
+            "Its values for keys of the scene, which come after those of the study: "
+            "`[\"container.depth=27 mm\", \"species.grains.count=9400\"]`. An empty list is the scene as it "
+            "is."),
+        of_dimension(entry("variant[].seeds", KeyKind::seeds, note("those of the study"),
+                           "Its own seeds, so many or a list."),
+                     Dimension::number, {0, largest_seed, false, false}),
+    };
+}
+
 Keys of_vary() {
     return {
         entry("vary[].key", KeyKind::text, required(),
@@ -82,7 +97,7 @@ Keys of_chart() {
 const std::vector<Key>& study_keys() {
     static const Keys all = [] {
         Keys keys;
-        for (const Keys& part : {top_level(), of_vary(), of_measure(), of_chart()})
+        for (const Keys& part : {top_level(), of_variant(), of_vary(), of_measure(), of_chart()})
             keys.insert(keys.end(), part.begin(), part.end());
         return keys;
     }();
