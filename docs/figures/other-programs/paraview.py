@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The last moment of what `export --to vtk` made, as ParaView draws it. Usage: pvbatch draw.py FOLDER PICTURE."""
+"""The last moment of what `export --to vtk` made, as ParaView draws it. Usage: pvbatch paraview.py FOLDER PICTURE."""
 import sys
 
 from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction, Glyph, OpenDataFile,
