@@ -79,7 +79,8 @@ Keys of_measure() {
 Keys of_chart() {
     return {
         entry("chart[].y", KeyKind::text, required(), "The name of a measure."),
-        entry("chart[].x", KeyKind::text, note("the first numeric key"), "A key that is varied, or \"variant\"."),
+        entry("chart[].x", KeyKind::text, note("the first numeric key"),
+              "A key that is varied, or \"variant\"."),
         entry("chart[].name", KeyKind::text, note("that of `y`"), "Name of its files."),
         entry("chart[].title", KeyKind::text, note("none"), "Above the chart."),
         choice("chart[].logarithmic", {"x", "y", "both", "none"}, literal("\"none\""), "Which axes are."),
