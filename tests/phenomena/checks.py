@@ -1,6 +1,6 @@
 """The quick form of each phenomenon: one number, the range in which it must lie, and the control. See check.py.
 
-docs/phenomena.md has the numbers of the longer studies, and what is published. Ranges here are wide: they tell an effect
+docs/phenomena has the numbers of the longer studies, and what is published. Ranges here are wide: they tell an effect
 from none, and a sign from the other one.
 """
 import math

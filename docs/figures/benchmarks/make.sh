@@ -15,7 +15,7 @@ still() { # CASE OPTIONS...
 }
 for case in ${*:-impact drum_soft silo_soft}; do
     python3 "$root/tests/bench/nine_codes.py" "$grainreel" "$data" "$case" --threads 1 --out "$work" || [ $? = 1 ]
-    cp "$work/$case/$case.csv" "$work/$case/$case.svg" "$work/$case/$case.gp" "$here"
+    cp "$work/$case/$case.svg" "$here"
     case $case in
         impact) still impact --at 0.0235 --size 560x640 --set film.cut.normal=[1,0,0] --set film.camera.azimuth=0 \
             --set film.camera.elevation=5 --set film.camera.reach=0.09 --set species.ball.colour=grey \

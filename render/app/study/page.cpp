@@ -55,7 +55,7 @@ std::string chart_figures(const Study& study, const std::vector<std::string>& st
             "href=\"charts/{0}.png\">PNG</a></figcaption></figure>\n",
             html_text(stem));
     if (text.empty()) return "";
-    const char* bars = study.seed_count() > 1
+    const char* bars = study.has_intervals()
                            ? "<p>Points are means over seeds; bars are 95 % intervals of the mean "
                              "(Student’s t).</p>\n"
                            : "";
@@ -89,7 +89,8 @@ std::string settings_table(const Study& study, const std::vector<Member>& member
             text += fmt::format("<td class=\"number\">{}</td>", interval_text(interval));
             most = std::max(most, interval.count);
         }
-        text += fmt::format("<td class=\"number\">{} of {}</td></tr>\n", most, study.seed_count());
+        text +=
+            fmt::format("<td class=\"number\">{} of {}</td></tr>\n", most, study.seed_count(members[m].at));
     }
     return text + "</table></div>\n";
 }

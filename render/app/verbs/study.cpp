@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
@@ -58,6 +59,11 @@ class StudyVerb final : public Verb {
         parser.add_option("--jobs", request_.jobs, "Members at a time [as many as there are processors]")
             ->check(CLI::Range(1, 4096))
             ->type_name("N");
+        parser
+            .add_option("--variant", variants_,
+                        "Run this variant of the study alone; several, one --variant each, run together")
+            ->type_name("NAME")
+            ->allow_extra_args(false);
         parser.add_flag("--films", request_.films,
                         "Make the film of each member; one that has none is run again");
         parser.add_flag("--retry", request_.retry, "Run failed members again");
@@ -95,6 +101,7 @@ class StudyVerb final : public Verb {
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
         check_folder();
+        choose_members(study);
         for (const Member& member : members_) {
             results_.push_back(read_result(folder_.member(member), study.measures));
             request_.cost.push_back(estimate.of(member).seconds);
@@ -118,6 +125,31 @@ class StudyVerb final : public Verb {
         print->excludes(collect);
     }
 
+    // Members of other variants than those of --variant are left as they are.
+    void choose_members(const Study& study) {
+        if (variants_.empty()) return;
+        if (!study.has_variants())
+            throw UserError(fmt::format("--variant {}: {} has no [[variant]]; leave it out",
+                                        variants_.front(), study.file.string()));
+        const std::vector<Variation::Value>& all = study.variations.front().values;
+        std::vector<bool> chosen(all.size());
+        for (const std::string& name : variants_) {
+            const auto found = std::find_if(all.begin(), all.end(),
+                                            [&](const Variation::Value& one) { return one.words == name; });
+            if (found == all.end())
+                throw UserError(fmt::format("--variant {}: {} has no such variant; there are {}", name,
+                                            study.file.string(), names_of(study.variations.front())));
+            chosen[static_cast<std::size_t>(found - all.begin())] = true;
+        }
+        for (const Member& member : members_) request_.wanted.push_back(chosen[member.at.front()]);
+    }
+
+    static std::string names_of(const Variation& variation) {
+        std::vector<std::string> names;
+        for (const Variation::Value& value : variation.values) names.push_back(value.words);
+        return fmt::format("{}", fmt::join(names, ", "));
+    }
+
     // A folder of anything else is left alone.
     void check_folder() const {
         std::error_code none;
@@ -131,22 +163,29 @@ class StudyVerb final : public Verb {
     std::vector<const Member*> pending() const {
         std::vector<const Member*> members;
         for (std::size_t m = 0; m < members_.size(); ++m)
-            if (is_pending(results_[m], request_)) members.push_back(&members_[m]);
+            if (is_pending(m, results_[m], request_)) members.push_back(&members_[m]);
         return members;
     }
 
     int tell_plan(const Study& study, const StudyEstimate& estimate) const {
         const std::vector<const Member*> left = pending();
-        const std::size_t settings = members_.size() / study.seed_count();
+        std::size_t settings = 0;
+        for (const Member& member : members_) settings = std::max(settings, member.setting + 1);
+        // Variants may have seeds of their own, and then there is no product.
+        std::string reckoned = fmt::format("{} settings with their seeds", settings);
+        if (!study.has_variants())
+            reckoned = fmt::format("{} settings x {} seeds", settings, study.seed_count({}));
         std::string text =
             fmt::format("study        {}: {}\nscene        {}\nfolder       {}\n", study.file.string(),
                         study.title, study.scene.string(), folder_.path.string());
         for (const Variation& variation : study.variations)
-            text +=
-                fmt::format("vary         {}: {} values, {} to {}\n", variation.key, variation.values.size(),
-                            variation.values.front().words, variation.values.back().words);
-        text += fmt::format("members      {} = {} settings x {} seeds, {} of them to be run\n",
-                            members_.size(), settings, study.seed_count(), left.size());
+            text += variation.key == variant_axis
+                        ? fmt::format("variants     {}\n", names_of(variation))
+                        : fmt::format("vary         {}: {} values, {} to {}\n", variation.key,
+                                      variation.values.size(), variation.values.front().words,
+                                      variation.values.back().words);
+        text += fmt::format("members      {} = {}, {} of them to be run\n", members_.size(), reckoned,
+                            left.size());
         if (const std::string packings = sharing_.text(); !packings.empty())
             text += fmt::format("packings     {}\n", packings);
         double bytes = 0, work = 0;
@@ -255,6 +294,7 @@ class StudyVerb final : public Verb {
     std::filesystem::path file_;
     std::optional<std::filesystem::path> out_;
     StudyRunRequest request_;
+    std::vector<std::string> variants_;       // of --variant; empty: all
     std::optional<double> shortest_packing_;  // s, that the cache keeps
     PackingSharing sharing_;
     bool yes_ = false, dry_ = false, print_commands_ = false;

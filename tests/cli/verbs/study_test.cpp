@@ -147,6 +147,33 @@ TEST_F(StudyVerb, GoesOnWithWhatIsMissing) {
     EXPECT_NE(fs::last_write_time(all[2] / "run.json"), times[2]);
 }
 
+TEST_F(StudyVerb, RunsOneVariantAlone) {
+    const std::string study = write(
+        replaced(replaced(four_members, "[[vary]]\nkey = \"drive.g_level\"\nvalues = [2, 3]\n",
+                          "[[variant]]\nname = \"as it is\"\nset = []\n[[variant]]\nname = \"hard\"\nset = "
+                          "[\"drive.g_level=3\"]\nseeds = [7]\n"),
+                 "seeds = 2", "seeds = [1]"));
+    const Ended ended = run_program(words(study, {"--no-posters", "--variant", "hard"}), {});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const auto rows = table();
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0][0], "variant");
+    EXPECT_THAT(rows[1], testing::Contains("missing"));
+    EXPECT_EQ(rows[2][0], "hard");
+    EXPECT_EQ(rows[2][1], "7");
+    EXPECT_EQ(rows[2][2], "complete");
+    const Ended dry = run_program(words(study, {"--dry-run"}), {});
+    EXPECT_THAT(dry.out, HasSubstr("variants     as it is, hard\n"));
+    EXPECT_THAT(dry.out, HasSubstr("2 = 2 settings with their seeds, 1 of them to be run\n"));
+    ASSERT_EQ(run_program(words(study, {"--no-posters"}), {}).status, 0);
+    EXPECT_EQ(table()[1][2], "complete");
+    EXPECT_EQ(table()[2], rows[2]);
+    const Ended unknown = run_program(words(study, {"--variant", "soft"}), {});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("has no such variant; there are as it is, hard"));
+    EXPECT_EQ(run_program(words(write(four_members), {"--variant", "hard"}), {}).status, 2);
+}
+
 TEST_F(StudyVerb, StopsInGoodOrder) {
     const std::string study = write(with_long_runs());
     Program program(words(study, {"--jobs", "2", "--no-posters"}), {});

@@ -76,10 +76,14 @@ std::vector<MemberFile> files_of(const Scene& scene) {
 }  // namespace
 
 std::size_t count_members(const Study& study, bool many_are_meant) {
-    double count = static_cast<double>(study.seed_count());
+    double count = 1;
     const Variation* longest = nullptr;
+    if (!study.has_variants()) count = static_cast<double>(std::max<std::size_t>(1, study.seeds.size()));
     for (const Variation& variation : study.variations) {
-        count *= static_cast<double>(variation.values.size());
+        double values = 0;  // for variants, the members of all of them
+        for (std::size_t i = 0; i < variation.values.size(); ++i)
+            values += variation.key == variant_axis ? static_cast<double>(study.seed_count({i})) : 1;
+        count *= values;
         if (longest == nullptr || variation.values.size() > longest->values.size()) longest = &variation;
     }
     const std::size_t limit = many_are_meant ? most_members : most_members_unasked;
@@ -92,7 +96,9 @@ std::size_t count_members(const Study& study, bool many_are_meant) {
 }
 
 std::vector<Member> make_members(const Study& study, const AcceptSetting& accept) {
-    const std::size_t settings = count_members(study, true) / study.seed_count();
+    count_members(study, true);  // which throws when there are too many
+    std::size_t settings = 1;
+    for (const Variation& variation : study.variations) settings *= variation.values.size();
     std::vector<Member> members;
     std::map<std::uint64_t, std::size_t> known;  // which member has this hash
     for (std::size_t setting = 0; setting < settings; ++setting) {
@@ -101,8 +107,8 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
         member.at = place_in_grid(study, setting);
         member.sets = study.sets;
         for (std::size_t i = 0; i < member.at.size(); ++i) {
-            const Variation::Value& value = study.variations[i].values[member.at[i]];
-            member.sets.push_back({study.variations[i].key + "=" + value.toml, value.place});
+            const Assignments more = study.variations[i].assignments(member.at[i]);
+            member.sets.insert(member.sets.end(), more.begin(), more.end());
         }
         const FilmedScene scene =
             read_filmed_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
@@ -113,11 +119,12 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             member.sets.push_back("start.file=" +
                                   quoted(std::filesystem::absolute(scene.start.file).string()));
         member.files = files_of(scene);
-        for (std::size_t s = 0; s < study.seed_count(); ++s) {
+        const Seeds& seeds = study.seeds_of(member.at);
+        for (std::size_t s = 0; s < study.seed_count(member.at); ++s) {
             Member seeded = member;
             seeded.seed_index = s;
-            if (!study.seeds.empty()) {
-                seeded.seed = study.seeds[s];
+            if (!seeds.empty()) {
+                seeded.seed = seeds[s];
                 seeded.sets.push_back(fmt::format("run.seed={}", *seeded.seed));
             }
             const std::uint64_t hash = hash_of(scene, plan, seeded.seed);

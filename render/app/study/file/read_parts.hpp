@@ -10,9 +10,13 @@
 
 namespace grainreel {
 
+// The seeds at that path, so many or a list; none where it is absent.
+Seeds read_seeds(Document& document, const std::string& path);
+// All [[variant]] become the first variation. To be read before the others.
+void read_variants(Document& document, Study& study);
 // One element of a list of tables, "vary[0]"; it is added to the study.
 void read_variation(Document& document, const std::string& table, Study& study);
-// scene: of any member; the species, and so the columns, are those of all.
+// scene: of the variant that runs longest; the species, and so the columns, are those of all members.
 void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study);
 void read_chart(Document& document, const std::string& table, Study& study);
 // One for each measure, where the file asks for none.

@@ -1,6 +1,6 @@
 #include "render/app/study/file/read_study.hpp"
 
-#include <set>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,32 +14,20 @@
 namespace grainreel {
 namespace {
 
-constexpr std::int64_t most_seeds = 100'000;
-
-void read_seeds(Document& document, Study& study) {
-    if (!document.has("seeds")) return;
-    if (document.is_array("seeds")) {
-        for (const std::int64_t seed : document.integer_list("seeds"))
-            study.seeds.push_back(static_cast<std::uint64_t>(seed));
-        if (study.seeds.empty()) document.fail("seeds", "is an empty list; write for example seeds = 3");
-    } else {
-        const std::int64_t count = *document.integer("seeds");
-        if (count < 1 || count > most_seeds)
-            document.fail("seeds",
-                          fmt::format("must be a whole number from 1 to {}, or a list of seeds", most_seeds));
-        for (std::int64_t seed = 1; seed <= count; ++seed)
-            study.seeds.push_back(static_cast<std::uint64_t>(seed));
+// The scene of the first value of each key, and of the variant that runs longest.
+FilmedScene longest_scene(const Study& study) {
+    std::optional<FilmedScene> longest;
+    const std::size_t variants = study.has_variants() ? study.variations.front().values.size() : 1;
+    for (std::size_t variant = 0; variant < variants; ++variant) {
+        Assignments sets = study.sets;
+        for (const Variation& variation : study.variations) {
+            const Assignments more = variation.assignments(variation.key == variant_axis ? variant : 0);
+            sets.insert(sets.end(), more.begin(), more.end());
+        }
+        FilmedScene scene = read_filmed_scene_text(study.scene_text, study.scene, sets, measurable_in);
+        if (!longest || scene.run.duration > longest->run.duration) longest = std::move(scene);
     }
-    const std::set<std::uint64_t> different(study.seeds.begin(), study.seeds.end());
-    if (different.size() < study.seeds.size()) document.fail("seeds", "has a seed twice; remove one");
-}
-
-// The scene of the first value of each key.
-FilmedScene first_scene(const Study& study) {
-    Assignments sets = study.sets;
-    for (const Variation& variation : study.variations)
-        sets.push_back({variation.key + "=" + variation.values.front().toml, variation.values.front().place});
-    return read_filmed_scene_text(study.scene_text, study.scene, sets, measurable_in);
+    return *longest;
 }
 
 }  // namespace
@@ -56,13 +44,14 @@ Study read_study(const std::filesystem::path& file) {
     const std::vector<std::string> sets = document.name_list("set");
     for (std::size_t i = 0; i < sets.size(); ++i)
         study.sets.push_back({sets[i], document.place(fmt::format("set[{}]", i))});
-    read_seeds(document, study);
+    study.seeds = read_seeds(document, "seeds");
+    read_variants(document, study);
     for (std::size_t i = 0; i < document.size("vary"); ++i)
         read_variation(document, fmt::format("vary[{}]", i), study);
     if (study.variations.empty() && study.seeds.empty())
         throw UserError(fmt::format(
             "{}:1:1: varies nothing; write [[vary]] with a key and its values, or seeds = 3", file.string()));
-    const FilmedScene scene = first_scene(study);
+    const FilmedScene scene = longest_scene(study);
     for (std::size_t i = 0; i < document.size("measure"); ++i)
         read_measure(document, scene, fmt::format("measure[{}]", i), study);
     for (std::size_t i = 0; i < document.size("chart"); ++i)

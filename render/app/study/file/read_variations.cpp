@@ -41,6 +41,13 @@ void check_varied_key(const Document& document, const std::string& table, const 
         document.fail(table + ".key",
                       "changes no result: a run gives the same bits on any number of threads; "
                       "vary another key");
+    if (study.has_variants())
+        for (const Variation::Value& variant : study.variations.front().values)
+            for (const Assignment& set : variant.sets)
+                if (set.key() == variation.key)
+                    document.fail(table + ".key",
+                                  fmt::format("varies {}, which the variant \"{}\" sets; leave it out of one",
+                                              excerpt(variation.key), excerpt(variant.words)));
     for (const Variation& other : study.variations)
         if (other.key == variation.key)
             document.fail(table + ".key",

@@ -25,6 +25,21 @@ Keys top_level() {
     };
 }
 
+Keys of_variant() {
+    return {
+        entry("variant[].name", KeyKind::text, required(),
+              "What tables, charts and the page call it; `--variant` runs it alone."),
+        entry(
+            "variant[].set", KeyKind::name_list, required(),
+            "Its values for keys of the scene, which come after those of the study: "
+            "`[\"container.depth=27 mm\", \"species.grains.count=9400\"]`. An empty list is the scene as it "
+            "is."),
+        of_dimension(entry("variant[].seeds", KeyKind::seeds, note("those of the study"),
+                           "Its own seeds, so many or a list."),
+                     Dimension::number, {0, largest_seed, false, false}),
+    };
+}
+
 Keys of_vary() {
     return {
         entry("vary[].key", KeyKind::text, required(),
@@ -64,8 +79,9 @@ Keys of_measure() {
 Keys of_chart() {
     return {
         entry("chart[].y", KeyKind::text, required(), "The name of a measure."),
-        entry("chart[].x", KeyKind::text, note("the first numeric key"), "A key that is varied."),
-        entry("chart[].name", KeyKind::text, note("that of `y`"), "Of its files."),
+        entry("chart[].x", KeyKind::text, note("the first numeric key"),
+              "A key that is varied, or \"variant\"."),
+        entry("chart[].name", KeyKind::text, note("that of `y`"), "Name of its files."),
         entry("chart[].title", KeyKind::text, note("none"), "Above the chart."),
         choice("chart[].logarithmic", {"x", "y", "both", "none"}, literal("\"none\""), "Which axes are."),
         entry("chart[].reference", KeyKind::text, note("none"),
@@ -82,7 +98,7 @@ Keys of_chart() {
 const std::vector<Key>& study_keys() {
     static const Keys all = [] {
         Keys keys;
-        for (const Keys& part : {top_level(), of_vary(), of_measure(), of_chart()})
+        for (const Keys& part : {top_level(), of_variant(), of_vary(), of_measure(), of_chart()})
             keys.insert(keys.end(), part.begin(), part.end());
         return keys;
     }();

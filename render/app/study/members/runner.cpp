@@ -80,7 +80,7 @@ class Runner {
             return members_[a].seed_index < members_[b].seed_index;
         });
         for (const std::size_t member : order) {
-            if (!request_.collect_only && is_pending(results_[member], request_)) {
+            if (!request_.collect_only && is_pending(member, results_[member], request_)) {
                 jobs_.push_back({member, false});
                 cost_left_ += cost(member);
             } else if (wants_poster(member)) {
@@ -203,7 +203,8 @@ class Runner {
 
 }  // namespace
 
-bool is_pending(const MemberResult& result, const StudyRunRequest& request) {
+bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request) {
+    if (!request.wanted.empty() && !request.wanted[member]) return false;
     switch (result.state) {
         case State::complete:
             return request.films && !result.has_film;

@@ -23,11 +23,12 @@ struct StudyRunRequest {
     bool retry = false;         // run failed members again
     bool posters = true;        // of the first seed of each setting
     bool collect_only = false;  // run none; posters alone
+    std::vector<bool> wanted;   // of each member: whether it may be run; empty: all may
     std::vector<double> cost;   // of each member, in any unit: what the time left is reckoned by
 };
 
-// Whether a member is still to be run.
-bool is_pending(const MemberResult& result, const StudyRunRequest& request);
+// Whether the member of that number is still to be run.
+bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request);
 
 // Runs what is pending of `members`, the first seed of all settings first, and fills in `results`, which hold
 // what is on disk already. `gained` is called after each member. Returns when all is done, or once the

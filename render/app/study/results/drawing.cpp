@@ -52,11 +52,12 @@ std::string on_one_line(std::string text) {
     return text;
 }
 
-// Words in place of numbers along x.
-std::string word_ticks(const Variation& axis) {
+// Words in place of numbers along x. `across` letters have room there.
+std::string word_ticks(const Variation& axis, std::size_t across) {
+    const std::size_t letters = std::max<std::size_t>(8, across / axis.values.size());
     std::string ticks;
     for (std::size_t i = 0; i < axis.values.size(); ++i)
-        ticks += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(axis.values[i].words), i);
+        ticks += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_lines(axis.values[i].words, letters), i);
     return fmt::format("set xtics ({})\nset xrange [-0.5:{}.5]\n", ticks, axis.values.size() - 1);
 }
 
@@ -108,7 +109,7 @@ std::string axes_and_key(const Study& study, const StudyChart& chart, const std:
                         1.1 * static_cast<double>(lines_of_key(
                                   series, has_reference ? chart.reference_label : "", look.lines.key)));
     text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
-    if (!axis.numeric) text += word_ticks(axis);
+    if (!axis.numeric) text += word_ticks(axis, look.lines.across);
     if (chart.log_x) text += "set logscale x\n";
     if (chart.log_y) text += "set logscale y\n";
     return text;

@@ -20,7 +20,7 @@ std::string heading(const Variation& variation) {
 std::vector<std::string> header(const Study& study) {
     std::vector<std::string> cells;
     for (const Variation& variation : study.variations) cells.push_back(heading(variation));
-    if (!study.seeds.empty()) cells.push_back("run.seed");
+    if (study.has_seeds()) cells.push_back("run.seed");
     cells.push_back("state");
     for (const StudyMeasure& measure : study.measures) cells.push_back(measure.name);
     cells.insert(cells.end(), {"warnings", "error", "folder"});
@@ -51,7 +51,8 @@ std::string study_table(const Study& study, const std::vector<Member>& members,
             const Variation::Value& value = variation.values[members[m].at[i]];
             cells.push_back(variation.numeric ? csv_number(value.number) : value.words);
         }
-        if (members[m].seed) cells.push_back(std::to_string(*members[m].seed));
+        if (study.has_seeds())
+            cells.push_back(members[m].seed ? std::to_string(*members[m].seed) : std::string());
         cells.push_back(to_string(result.state));
         for (std::size_t i = 0; i < study.measures.size(); ++i)
             cells.push_back(i < result.values.size() ? csv_number(result.values[i]) : "");
