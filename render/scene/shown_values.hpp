@@ -13,30 +13,30 @@
 
 namespace grainreel {
 
-inline const Words<FilmLook::Style> style_words{
+inline const ChoiceWords<FilmLook::Style> style_words{
     {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
-inline const Words<CameraFrame> camera_frame_words{
+inline const ChoiceWords<CameraFrame> camera_frame_words{
     {"container", CameraFrame::container}, {"bed", CameraFrame::bed}, {"reach", CameraFrame::reach}};
-inline const Words<WordPlace> word_place_words{{"automatic", WordPlace::automatic},
-                                               {"gutters", WordPlace::gutters},
-                                               {"plates", WordPlace::plates},
-                                               {"none", WordPlace::none}};
-inline const Words<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},   {"webm", FilmFormat::webm},
-                                                 {"av1", FilmFormat::av1},   {"gif", FilmFormat::gif},
-                                                 {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},
-                                                 {"y4m", FilmFormat::y4m}};
+inline const ChoiceWords<WordPlace> word_place_words{{"automatic", WordPlace::automatic},
+                                                     {"gutters", WordPlace::gutters},
+                                                     {"plates", WordPlace::plates},
+                                                     {"none", WordPlace::none}};
+inline const ChoiceWords<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},   {"webm", FilmFormat::webm},
+                                                       {"av1", FilmFormat::av1},   {"gif", FilmFormat::gif},
+                                                       {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},
+                                                       {"y4m", FilmFormat::y4m}};
 
-inline const Words<GrainValue> grain_value_words{{"species", GrainValue::species},
-                                                 {"speed", GrainValue::speed},
-                                                 {"vertical-velocity", GrainValue::vertical_velocity},
-                                                 {"start-height", GrainValue::start_height},
-                                                 {"displacement", GrainValue::displacement},
-                                                 {"rise", GrainValue::rise},
-                                                 {"spin", GrainValue::spin},
-                                                 {"kinetic-energy", GrainValue::kinetic_energy},
-                                                 {"coordination", GrainValue::coordination},
-                                                 {"contact-force", GrainValue::contact_force}};
-inline const Words<ColourMap> colour_map_words{
+inline const ChoiceWords<GrainValue> grain_value_words{{"species", GrainValue::species},
+                                                       {"speed", GrainValue::speed},
+                                                       {"vertical-velocity", GrainValue::vertical_velocity},
+                                                       {"start-height", GrainValue::start_height},
+                                                       {"displacement", GrainValue::displacement},
+                                                       {"rise", GrainValue::rise},
+                                                       {"spin", GrainValue::spin},
+                                                       {"kinetic-energy", GrainValue::kinetic_energy},
+                                                       {"coordination", GrainValue::coordination},
+                                                       {"contact-force", GrainValue::contact_force}};
+inline const ChoiceWords<ColourMap> colour_map_words{
     {"viridis", ColourMap::viridis}, {"cividis", ColourMap::cividis}, {"vik", ColourMap::vik}};
 
 inline Dimension dimension_of(GrainValue value) {
@@ -80,9 +80,9 @@ double usual_flow_speed(const Scene& scene, bool period);
 // The range of the values' axis of a profile that has no range of its own.
 std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot);
 
-inline const Words<FilmWalls::Colour> wall_colour_words{{"plain", FilmWalls::Colour::plain},
-                                                        {"pressure", FilmWalls::Colour::pressure},
-                                                        {"wear", FilmWalls::Colour::wear}};
+inline const ChoiceWords<FilmWalls::Colour> wall_colour_words{{"plain", FilmWalls::Colour::plain},
+                                                              {"pressure", FilmWalls::Colour::pressure},
+                                                              {"wear", FilmWalls::Colour::wear}};
 
 inline Dimension dimension_of(FilmWalls::Colour colour) {
     return colour == FilmWalls::Colour::wear ? Dimension::stiffness : Dimension::pressure;  // J/m2 is N/m

@@ -17,7 +17,8 @@ namespace {
 
 using namespace keys;
 
-const Words<LeverArms> arms_words{{"contact-plane", LeverArms::contact_plane}, {"radius", LeverArms::radius}};
+const ChoiceWords<LeverArms> arms_words{{"contact-plane", LeverArms::contact_plane},
+                                        {"radius", LeverArms::radius}};
 
 // What the tables say of one kind of contact, before defaults.
 struct PairText {

@@ -21,12 +21,12 @@ using namespace keys;
 using C = Container;
 using Shape = Container::Shape;
 
-const Words<Shape> shape_words{{"wedge", Shape::wedge},
-                               {"box", Shape::box},
-                               {"cylinder", Shape::cylinder},
-                               {"mesh", Shape::mesh},
-                               {"none", Shape::none}};
-const Words<bool> top_words{{"lid", true}, {"open", false}};
+const ChoiceWords<Shape> shape_words{{"wedge", Shape::wedge},
+                                     {"box", Shape::box},
+                                     {"cylinder", Shape::cylinder},
+                                     {"mesh", Shape::mesh},
+                                     {"none", Shape::none}};
+const ChoiceWords<bool> top_words{{"lid", true}, {"open", false}};
 
 // Neither is there where the container's shape comes from a file.
 const char* without_container(const C& container) {

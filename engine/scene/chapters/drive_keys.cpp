@@ -18,7 +18,8 @@ namespace {
 
 using namespace keys;
 
-const Words<Drive::Moves> moves_words{{"container", Drive::Moves::container}, {"floor", Drive::Moves::floor}};
+const ChoiceWords<Drive::Moves> moves_words{{"container", Drive::Moves::container},
+                                            {"floor", Drive::Moves::floor}};
 
 // Another way to say the amplitude, which is what is kept and written.
 BoundKey<Drive> g_level_key() {
@@ -85,7 +86,7 @@ namespace {
 using namespace keys;
 using Kind = DriveStage::Kind;
 
-const Words<Kind> kind_words{{"vibrate", Kind::vibrate}, {"taps", Kind::taps}, {"rest", Kind::rest}};
+const ChoiceWords<Kind> kind_words{{"vibrate", Kind::vibrate}, {"taps", Kind::taps}, {"rest", Kind::rest}};
 
 const char* at_rest(const DriveStage& stage) {
     return stage.kind == Kind::rest ? "at rest nothing oscillates" : nullptr;

@@ -18,7 +18,7 @@ namespace {
 using namespace keys;
 using Method = Start::Method;
 
-const Words<Method> method_words{
+const ChoiceWords<Method> method_words{
     {"layers", Method::layers}, {"rain", Method::rain}, {"file", Method::file}, {"grains", Method::grains}};
 
 constexpr std::size_t longest_path = 4096;  // as Linux has it

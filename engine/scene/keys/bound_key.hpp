@@ -167,7 +167,7 @@ BoundKey<T> vector(const char* name, V T::*member, Dimension dimension, Fallback
 }
 
 template <class T, class V>
-BoundKey<T> choice(const char* name, V T::*member, const Words<V>& words, Fallback fallback,
+BoundKey<T> choice(const char* name, V T::*member, const ChoiceWords<V>& words, Fallback fallback,
                    const char* about) {
     if (fallback.literal.empty() && fallback.note.empty())
         fallback.literal = quoted(word_of(T{}.*member, words));

@@ -16,12 +16,12 @@ using namespace keys;
 constexpr std::size_t most_plots = 3;  // beside the grains
 constexpr double usual_trail_periods = 10;
 
-const Words<bool> velocity_spans{{"period", true}, {"now", false}};
+const ChoiceWords<bool> velocity_spans{{"period", true}, {"now", false}};
 
-const Words<ProfileOf> profile_words{{"solid-fraction", ProfileOf::solid_fraction},
-                                     {"share", ProfileOf::share},
-                                     {"horizontal-velocity", ProfileOf::horizontal_velocity},
-                                     {"vertical-velocity", ProfileOf::vertical_velocity}};
+const ChoiceWords<ProfileOf> profile_words{{"solid-fraction", ProfileOf::solid_fraction},
+                                           {"share", ProfileOf::share},
+                                           {"horizontal-velocity", ProfileOf::horizontal_velocity},
+                                           {"vertical-velocity", ProfileOf::vertical_velocity}};
 
 const char* usual_label(ProfileOf profile) {
     switch (profile) {
@@ -79,8 +79,8 @@ void read_range(Document& document, const Scene&, const std::string& path, FilmP
 
 const KeyTable<FilmPlot>& plot_table() {
     using P = FilmPlot;
-    static const Words<bool> directions{{"height", false}, {"width", true}};
-    static const Words<bool> smoothings{{"none", false}, {"period", true}};
+    static const ChoiceWords<bool> directions{{"height", false}, {"width", true}};
+    static const ChoiceWords<bool> smoothings{{"none", false}, {"period", true}};
     static const KeyTable<P> table{
         bound_by<P>(
             of_choices(

@@ -13,7 +13,7 @@ namespace {
 using namespace keys;
 using Kind = FilmSegment::Kind;
 
-const Words<Kind> kind_words{{"motion", Kind::motion}, {"locked", Kind::locked}};
+const ChoiceWords<Kind> kind_words{{"motion", Kind::motion}, {"locked", Kind::locked}};
 
 const char* of_locked(const char* reason, const FilmSegment& segment) {
     return segment.kind == Kind::motion ? reason : nullptr;

@@ -126,7 +126,7 @@ const KeyTable<C>& colour_table() {
             read_unit,
             [](const C& colour, const Scene&) { return colour.unit.empty() ? "" : quoted(colour.unit); })
             .useless_for(of_pure_numbers),
-        choice("as", &C::as_field, Words<bool>{{"grains", false}, {"field", true}}, initial(),
+        choice("as", &C::as_field, ChoiceWords<bool>{{"grains", false}, {"field", true}}, initial(),
                "field: the grains' mean over the depth, by coarse-graining, as a layer before pale grains.")
             .useless_for(by_species),
         integer("layers", &C::layers, 2, 12, initial(), "Bands of start-height.").useless_for(without_bands),

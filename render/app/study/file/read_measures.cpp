@@ -13,14 +13,14 @@
 namespace grainreel {
 namespace {
 
-const Words<Reduction::Kind> reduction_words{{"end", Reduction::Kind::end},
-                                             {"mean", Reduction::Kind::mean},
-                                             {"slope", Reduction::Kind::slope},
-                                             {"crossing", Reduction::Kind::crossing},
-                                             {"first-passage", Reduction::Kind::first_passage},
-                                             {"max", Reduction::Kind::max},
-                                             {"min", Reduction::Kind::min},
-                                             {"deviation", Reduction::Kind::deviation}};
+const ChoiceWords<Reduction::Kind> reduction_words{{"end", Reduction::Kind::end},
+                                                   {"mean", Reduction::Kind::mean},
+                                                   {"slope", Reduction::Kind::slope},
+                                                   {"crossing", Reduction::Kind::crossing},
+                                                   {"first-passage", Reduction::Kind::first_passage},
+                                                   {"max", Reduction::Kind::max},
+                                                   {"min", Reduction::Kind::min},
+                                                   {"deviation", Reduction::Kind::deviation}};
 
 void read_window(Document& document, const FilmedScene& scene, const std::string& table,
                  Reduction& reduction) {
