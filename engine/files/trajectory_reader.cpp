@@ -1,3 +1,4 @@
+// Reads trajectory.nc, our own or one of the same convention.
 #include <netcdf.h>
 
 #include <algorithm>

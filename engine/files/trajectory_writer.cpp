@@ -1,3 +1,4 @@
+// Writes trajectory.nc frame by frame. What is written stays whole when a write fails.
 #include <netcdf.h>
 
 #include <algorithm>

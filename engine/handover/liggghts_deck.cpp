@@ -1,3 +1,4 @@
+// Writes the input script of LIGGGHTS for a scene that is carried.
 #include "engine/handover/decks.hpp"
 
 #include <algorithm>

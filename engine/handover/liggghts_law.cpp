@@ -1,3 +1,4 @@
+// Writes a scene's contact law as LIGGGHTS states it: models and their properties by pairs of types.
 #include "engine/handover/decks.hpp"
 
 #include <algorithm>

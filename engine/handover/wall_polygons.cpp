@@ -1,3 +1,4 @@
+// Makes triangles of the shapes that walls have: polygons cut to a box, tubes, plates with a round hole.
 #include "engine/handover/triangle_walls.hpp"
 
 #include <algorithm>

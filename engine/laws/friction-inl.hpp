@@ -1,4 +1,5 @@
-// Coulomb's cap.
+// Friction: Coulomb's cap on the tangential force, how the force of the last step is carried along, and
+// contacts without it.
 #if defined(GRAINREEL_LAWS_FRICTION_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_FRICTION_INL
 #undef GRAINREEL_LAWS_FRICTION_INL

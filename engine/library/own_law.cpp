@@ -1,3 +1,4 @@
+// Calls a contact law of the library's user for each contact, in the place of the program's own kernels.
 #include "engine/library/internal.hpp"
 
 #include <array>

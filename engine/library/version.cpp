@@ -1,3 +1,4 @@
+// The version of the library.
 #include "engine/library/internal.hpp"
 
 namespace grainreel::v1 {

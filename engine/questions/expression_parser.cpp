@@ -1,3 +1,4 @@
+// Reads an expression and makes its tree. Mistakes are told with their place.
 #include "engine/questions/expression.hpp"
 
 #include <algorithm>

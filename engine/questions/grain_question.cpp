@@ -1,3 +1,4 @@
+// Answers questions to one grain: its columns, its contacts and its balance of forces.
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"

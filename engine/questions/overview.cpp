@@ -1,3 +1,4 @@
+// Answers the questions without conditions: what there is at one moment, and what changed between two.
 
 #include <fmt/format.h>
 #include <algorithm>

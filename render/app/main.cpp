@@ -1,3 +1,4 @@
+// The program: finds the verb, runs it, and makes the exit code of mistakes and failures.
 #include <cstdio>
 #include <exception>
 #include <functional>

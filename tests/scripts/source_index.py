@@ -33,13 +33,20 @@ def first_sentence(file):
     for line in file.read_text().split("\n"):
         if not line.startswith("//"):
             break
-        text = line[2:].strip()
-        if not text:
+        text = line.lstrip("/").replace("@file", "").strip()
+        if text:
+            lines.append(text)
+        elif lines:
             break
-        lines.append(text)
     text = " ".join(lines)
-    end = re.search(r"(?<!e\.g)(?<!i\.e)(?<!al)(?<!Eq)(?<!eq)[.:;](?= |$)", text)
-    return (text[: end.start()] + "." if end else text).replace("|", "\\|").replace("<", "&lt;")
+    for end in re.finditer(r"[.](?= |$)", text):
+        before = text[: end.start()]
+        # A stop inside parentheses belongs to a journal's name, and "e.g." ends no sentence.
+        if before.count("(") == before.count(")") and not before.endswith(("e.g", "i.e", " al", "Eq")):
+            text = before + "."
+            break
+    text = text.rstrip(",;") + ("" if text.endswith(".") or not text else ".")
+    return text.replace("|", "\\|").replace("<", "&lt;")
 
 
 def concepts(room, others):

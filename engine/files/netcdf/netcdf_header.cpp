@@ -1,3 +1,5 @@
+// Reads the header of a NetCDF file by itself and compares it with the file's size, before the library
+// opens it.
 #include "engine/files/netcdf/netcdf_file.hpp"
 
 #include <netcdf.h>

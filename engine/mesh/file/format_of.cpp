@@ -1,3 +1,5 @@
+// Which format the bytes of a mesh file have: STL as text or as bytes, OBJ or PLY. The content decides, not
+// the name.
 #include <fmt/format.h>
 
 #include <algorithm>

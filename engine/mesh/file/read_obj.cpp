@@ -1,3 +1,4 @@
+// Reads the vertices and faces of an OBJ file. Faces of more than three corners become fans of triangles.
 #include <fmt/format.h>
 
 #include <cmath>

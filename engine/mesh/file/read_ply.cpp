@@ -1,3 +1,4 @@
+// Reads the vertices and faces of a PLY file, as text or as bytes of either order.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Writes the scene file that an imported run is read by: its grains, walls and times, as far as its files
+// say them.
 #include "engine/run/import/import_run.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The keys of container.outlet and container.tray, and what they must keep to.
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The key of grains that are glued to walls (container.wall_grains), and what it must keep to.
 #include "engine/scene/chapters/container_keys.hpp"
 
 #include <fmt/format.h>

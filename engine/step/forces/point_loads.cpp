@@ -1,3 +1,4 @@
+// Adds the forces at single contacts to the sums of the walls and meshes that feel them.
 #include "engine/step/forces/loads.hpp"
 
 #include "engine/step/lists/contact_rules.hpp"

@@ -1,3 +1,4 @@
+// The geometry of contacts between grains and glued grains, for a register of contacts at once.
 #include "engine/step/geometry/contact_geometry.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,5 @@
+// Sieves the candidates of one grain by distance, a register at once. Hot: each rebuild of the lists passes
+// here.
 #include "engine/step/grid/neighbours.hpp"
 
 #include <bit>

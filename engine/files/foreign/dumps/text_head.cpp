@@ -1,3 +1,4 @@
+// Reads the head of one frame of a text dump of LAMMPS or LIGGGHTS, item by item.
 #include "engine/files/foreign/dumps/text_index.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Decodes and unpacks the bytes of a VTK XML array: base64, zlib and LZ4. No count in the file is believed.
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Reads legacy VTK files, text or bytes, of the versions 1 to 5.
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Makes walls of the cells of a VTK file: polygons and strips become triangles, one wall for each body.
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Measures what the savings of the step loop save: the cost of a step on a lattice of grains, with and
+// without each.
 #include "engine/lab/chart/accuracy/accuracy.hpp"
 
 #include <fmt/format.h>
