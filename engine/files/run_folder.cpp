@@ -56,7 +56,7 @@ bool is_ours_in_checkpoints(const fs::directory_entry& entry) {
     return !is_real_folder(entry) && is_checkpoint_of_ring(entry.path().filename());
 }
 
-// Of the entries that no run has written, the first by name; the folder itself when it cannot be read.
+// The first entry, by name, that no run has written, or the folder itself when it cannot be read.
 std::optional<fs::path> first_foreign(const fs::path& folder, const IsOurs& ours) {
     std::error_code error;
     std::optional<fs::path> first;

@@ -40,7 +40,7 @@ struct PairPlan {
                                      // overlap of the smallest (Hertz)
     double unloading_stiffness = 0;  // N/m: K2 = K1 / e^2; equals K1 for laws with a dashpot
     double hardening = 0;  // 1/m: S of K2 = K1 + S F_max, in place of a constant K2 (which then holds at v*)
-    std::vector<RestitutionPoint> restitution_table;  // likewise: K2 = K1 / e(v)^2
+    std::vector<RestitutionPoint> restitution_table;  // in place of one e: K2 = K1 / e(v)^2
     double modulus = 0;                               // Pa, E* of Hertz
     double tangential_stiffness = 0;                  // N/m: K0 or kt; Mindlin: at the allowed overlap
     double tangential_ratio = 0;                      // Mindlin: tangential over normal stiffness

@@ -70,7 +70,7 @@ class MotionPath {
     // pivot: m, at rest; a mesh's position. Throws UserError with file and line: no numbers, times that do
     // not rise or begin after 0, fewer than 4 rows, a quaternion that is no rotation, and jumps: a step of
     // more than a twentieth of the path's size that is more than 20 times as fast as those before and after
-    // it, a row that alone lies apart likewise, and a turn of more than 2 rad from row to row, which might go
+    // it, a single row that lies so far apart, and a turn of more than 2 rad from row to row, which might go
     // either way round.
     static std::shared_ptr<const MotionPath> read(const std::filesystem::path& file,
                                                   const Vec3& pivot = Vec3(0, 0, 0));

@@ -88,7 +88,7 @@ bool faces_stay(const std::vector<Face>& before, const std::vector<Face>& now, c
     });
 }
 
-// Likewise of its meshes, by what is in their files and where they stand.
+// Whether the meshes that grains touched are still there: files with the same content, in the same place.
 bool meshes_stay(const std::vector<MeshWall>& before, const std::vector<MeshWall>& now,
                  const Grains& grains) {
     return std::all_of(before.begin(), before.end(), [&](const MeshWall& mesh) {

@@ -52,7 +52,7 @@ std::vector<std::int32_t> faces_here(const std::vector<Face>& there, const std::
     return number;
 }
 
-// Likewise of meshes, by their names and what they are; they must stand where they stood.
+// The number that each mesh of the origin has here, by its name, content and place; -1 for none.
 std::vector<std::int32_t> meshes_here(const std::vector<MeshWall>& there, const std::vector<MeshWall>& here) {
     std::vector<std::int32_t> number;
     for (const MeshWall& mesh : there) {

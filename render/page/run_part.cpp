@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/run/resume/kept_files.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/page/bed/all_moments.hpp"
 #include "render/page/embed.hpp"
@@ -37,11 +38,6 @@ std::vector<std::uint8_t> packed_table(const fs::path& file) {
     } catch (const RunError&) {
         return {};
     }
-}
-
-bool is_there(const fs::path& file) {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
 }
 
 // Those of the run, and of one that kept contacts at all moments some more.

@@ -40,7 +40,7 @@ TEST(SegregationText, SpeaksOfTheLargestAndTheSmallestSpecies) {
               "probability that b lies above c from 0.00 to 0.75 (1/2 is mixed); "
               "unlike neighbours over chance from 0.10 to 0.70 (1 is mixed); "
               "Lacey mixing index from 0.20 to 0.90 (1 is mixed)");
-    // Of species of one size the first counts as big, as in measures.csv.
+    // Where species have one size, the first counts as big, as in measures.csv.
     EXPECT_THAT(segregation_text(of_sizes({1, 1}), indices(0, 0, 0, 0), indices(0, 0, 0, 0), "the last row"),
                 testing::HasSubstr("height of a minus b"));
 }

@@ -185,7 +185,7 @@ TEST(CameraPath, CurvesAreSmoothAtTheirPoints) {
         EXPECT_NEAR((curve.at(knot) - curve.at(knot - h)) / h, (curve.at(knot + h) - curve.at(knot)) / h,
                     1e-4);
     EXPECT_GT((curve.at(1 + h) - curve.at(1 - h)) / h, 0.5);  // passes through without a stop
-    // Of the slopes 2 and 1/2 the harmonic mean, weighted 5 and 4 (Fritsch and Butland 1984).
+    // The harmonic mean of the slopes 2 and 1/2, weighted 5 and 4 (Fritsch and Butland 1984).
     EXPECT_NEAR((curve.at(1 + h) - curve.at(1 - h)) / (2 * h), 9 / (5 / 2.0 + 4 / 0.5), 1e-5);
 }
 
@@ -252,7 +252,7 @@ TEST(CameraPath, NothingPopsOnAnOrbit) {
     }
 }
 
-// Of the lid, at an elevation of about 6 degrees, and of the floor, at -9.
+// The lid's at an elevation of about 6 degrees, and the floor's at -9.
 TEST(CameraPath, NothingPopsOnTheWayUp) {
     for (const auto shape : {Container::Shape::box, Container::Shape::cylinder}) {
         FilmedScene scene = wedge(480, 270);

@@ -19,7 +19,7 @@ FilmedScene with_field() {
     return scene;
 }
 
-// Of the layer where a place of its plane is seen; alpha 0 where it has no cell.
+// The layer's pixel where a place of its plane is seen; its alpha is 0 where the layer has no cell.
 Shapes::Vertex seen_at(const FilmedScene& scene, const Frame& frame, const Vec3& place) {
     Shapes shapes;
     const View view = view_of(scene);

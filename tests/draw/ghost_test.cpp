@@ -112,7 +112,7 @@ TEST(Exposure, IsTheMeanInLinearLight) {
     }
 }
 
-// Of the picture, in the middle of a grain at (0, y, 0.08).
+// The picture's pixel in the middle of a grain at (0, y, 0.08).
 std::pair<int, int> whole(const View& view, double y) {
     const Pixel middle = view.project({0.0, y, 0.08});
     return {view.port.x + static_cast<int>(middle.x()), view.port.y + static_cast<int>(middle.y())};

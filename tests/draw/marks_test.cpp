@@ -140,7 +140,7 @@ TEST(Plots, KnowWhatColumnsCannotBeNegative) {
     EXPECT_EQ(plot_frame(scene, plot).expected, total_mass(scene));
 }
 
-// Of a measure that cannot be negative, whatever comes first.
+// A measure that cannot be negative begins at 0, whatever comes first.
 TEST(Plots, AxesOfWhatCannotBeNegativeBeginAtZero) {
     const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);

@@ -234,7 +234,7 @@ TEST(MeshDrawing, AVesselHidesNoGrain) {
     EXPECT_GT(walls, 10000);  // the far ones are solid
 }
 
-// Of a cube nine edges are seen and three are not.
+// Nine edges of a cube are seen and three are not.
 TEST(MeshDrawing, LinesRunAlongTheEdgesInSight) {
     const Vec3 low(-0.03, -0.03, -0.03), high(0.03, 0.03, 0.03);
     Scenery scenery;

@@ -98,7 +98,7 @@ TEST(ProfilePlots, SolidFractionsAreVolumeOverVolume) {
     EXPECT_FALSE(has_hue(picture, pixel_at(scene, plot, 1.3 * solid, 0.03), hue(blue)));
 }
 
-// Of an axis from -0.1 to 0.25: there is a tick at 0, and none at 0.15, as far from the other end.
+// An axis from -0.1 to 0.25 has a tick at 0, and none at 0.15, as far from the other end.
 TEST(ProfilePlots, TicksStandAtTheirValues) {
     const FilmedScene scene = boxed();
     FilmPlot plot = plot_of(ProfileOf::vertical_velocity, false);

@@ -140,7 +140,7 @@ TEST(WordsShown, TextsFollow) {
     EXPECT_EQ(playback_text(scene.film, frame, "slow"), "");
 }
 
-// Of grains that are still to come nobody knows how many will have flowed out of how many.
+// While grains are still to come, nobody knows how many will have flowed out of how many.
 TEST(WordsShown, OutflowOfFedGrainsNamesNoTotal) {
     FilmedScene scene = with_all_words(640, 360);
     scene.species[0].fed = 300;

@@ -18,7 +18,7 @@ Film film_of(int columns, int rows, int width, int height) {
     return film;
 }
 
-// Of a film whose frame k is the grey k / 2 (so 512 frames can be told apart by pairs).
+// The sheet of a film whose frame k is the grey k / 2 (so 512 frames can be told apart by pairs).
 Picture sheet_of(const Film& film, int frames) {
     ContactSheet sheet(film);
     Picture last;

@@ -34,7 +34,7 @@ YuvFrame copy_of(const AVFrame& frame, AVRational time_base) {
     return out;
 }
 
-// Of the two orders of bytes that these films have: B, G, R and alpha or nothing.
+// These films have two orders of bytes: B, G, R and alpha, or B, G, R and nothing.
 Picture rgb_copy_of(const AVFrame& frame) {
     if (frame.format != AV_PIX_FMT_BGR0 && frame.format != AV_PIX_FMT_BGRA)
         throw std::runtime_error("neither yuv420p nor bgr0 nor bgra");

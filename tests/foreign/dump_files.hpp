@@ -68,7 +68,7 @@ inline std::unique_ptr<RawFile> open_text(const std::filesystem::path& file) {
     return lammps_text_format().open(file);
 }
 
-// Of opening the text and reading all its frames.
+// The message of opening the text and reading all its frames.
 inline std::string text_complaint(const DumpFolder& folder, std::string_view text) {
     const std::filesystem::path file = folder.write("a.dump", text);
     return complaint_about(file, [&] {

@@ -44,7 +44,7 @@ class GsdBytes {
 
     std::string schema = "hoomd";
     std::uint32_t layer = 2;
-    // Of the last chunk, to be made wrong.
+    // The last chunk's numbers, to be made wrong.
     std::uint64_t& last_rows() { return entries_.back().rows; }
     std::uint64_t& last_place() { return entries_.back().place; }
     std::uint64_t& last_frame() { return entries_.back().frame; }

@@ -56,7 +56,7 @@ inline std::string complaint(const std::function<void()>& act) {
     }
     return "no complaint";
 }
-// Of opening and reading a file.
+// The message of opening and reading a file.
 inline std::string complaint_of(const RawFormat& format, const std::filesystem::path& file) {
     return complaint([&] { frame_in(format, file); });
 }

@@ -61,7 +61,7 @@ std::string what_is_wrong_with(const fs::path& run, const fs::path& here) {
                                    "--set", std::string("start.file=") + file},
                                   here);
         if (!check.problem.empty()) return check.problem;
-        // Of a table nobody knows where its walls were.
+        // Nobody knows where the walls of a table were.
         const bool walls_moved = check.err.find("and the checkpoint of a run") != std::string::npos;
         if (check.status != 0 && !walls_moved)
             return fmt::format("{} is half a file: {}", file, first_line(check.err));

@@ -67,7 +67,7 @@ std::string absurd(Dice& dice) {
     return dice.of(kAbsurd);
 }
 
-// Of the right kind, so that more than the reader's first look comes to see it.
+// A value of the right kind, so that more than the reader's first look comes to see it.
 std::string plausible(const Key& key, Dice& dice) {
     switch (key.kind) {
         case KeyKind::flag:

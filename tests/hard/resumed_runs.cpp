@@ -34,7 +34,7 @@ Words movie(const fs::path& here, const std::string& out) {
             out};
 }
 
-// Of a run with all at once that a run goes on with, and long enough for several checkpoints.
+// A run with everything that a checkpoint carries, long enough for several checkpoints.
 Words busy_movie(const fs::path& here, const std::string& out) {
     test::write_text(here / "busy.toml", test::busy_scene_text);
     return {"movie",    "busy.toml", "--duration", "1 s", "--set", "output.trajectory_interval=20 ms",

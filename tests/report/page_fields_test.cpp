@@ -60,7 +60,7 @@ const FieldQuantity& quantity(const PageFields& page, const std::string& name) {
     return *found;
 }
 
-// Of a quantity, record and cell of the plane; NaN where there is none.
+// The value of a quantity, record and cell of the plane; NaN where there is none.
 double on_page(const PageFields& page, const std::string& name, std::size_t record, std::size_t cell) {
     const std::size_t cells = page.y.count * page.z.count, kinds = page.quantities.size();
     std::vector<std::uint8_t> bytes(cells * (1 + kinds * page.records.size()));
@@ -105,7 +105,7 @@ TEST(PageFields, SpeedAndPressureFollowFromTheFields) {
     EXPECT_TRUE(std::isnan(on_page(page, "density", 0, 2)));
 }
 
-// Of two cells behind each other the first has three times as much room.
+// The first of two cells behind each other has three times as much room.
 TEST(PageFields, InSpaceTheyAreMeansOverTheFreeVolume) {
     MadeFields made(true);
     const PageFields page = made.page([](const std::string& name, int, std::size_t cell) {

@@ -52,7 +52,7 @@ TEST_F(PageFilmTest, ASmallFilmThatBrowsersPlayIsTakenAsItIs) {
     EXPECT_EQ(film.note, "");
 }
 
-// Of another format, with 800 lines: a copy of 720, frame by frame.
+// A film of another format, with 800 lines, gets a copy of 720, frame by frame.
 TEST_F(PageFilmTest, AnotherFormatIsCopied) {
     make_film(FilmFormat::ffv1, 96, 800);
     const PageFilm film = page_film(scene, here.path());

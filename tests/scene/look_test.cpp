@@ -34,7 +34,8 @@ void expect_complaint(const std::vector<std::string>& set, const std::string& wo
 TEST(Look, UsualRangesComeFromTheDrive) {
     const FilmedScene scene = read_text(wedge_text);
     const double omega = 2 * std::numbers::pi * 20, plate = 3 * 10.0 / omega;  // a w = Gamma g / w
-    // Of n layers, a blow comes back with e to the power of 2 n - 1 of its speed (the film's v, colours.md).
+    // From n layers, a blow comes back with e to the power of 2 n - 1 of its speed (the film's v,
+    // colours.md).
     double restitution = 0;
     for (const PairContact& pair : scene.contact.grain) restitution = std::max(restitution, pair.restitution);
     for (const PairContact& pair : scene.contact.wall) restitution = std::max(restitution, pair.restitution);

@@ -66,7 +66,7 @@ TEST(Warnings, OfASoftBedIsNotSetOffByOneIntruder) {
 TEST(Warnings, OfContactsThatLastLongGoByMostOfThem) {
     const Plan plan = make_plan(read_text(nut_text));
     const auto turned = HasSubstr("so that rebounds are off");
-    // Of a single grain alone: a wall that is soft for it.
+    // A single grain alone has a wall that is soft for it.
     const std::string nut_at_wall =
         "[[contact.pair]]\nbetween = [\"nut\", \"wall\"]\nstiffness = 30\n[container]";
     EXPECT_THAT(warnings(with(nut_text, "[container]", nut_at_wall)), Not(turned));

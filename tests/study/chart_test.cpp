@@ -108,7 +108,7 @@ TEST(PrintedCurve, HasARowAPointAndAnEmptyLineForAGap) {
     EXPECT_EQ(curve_table(0, {0, 0.5}, {}, ""), "");
 }
 
-// Of 100 times as many points those stay that are seen: both ends, a lone peak, a lone pit, a lone gap.
+// Those of 100 times as many points stay that are seen: both ends, a lone peak, a lone pit, a lone gap.
 TEST(PrintedCurve, KeepsWhatIsSeenOfManyPoints) {
     const std::size_t count = 100 * kMostCurvePoints;
     std::vector<double> x(count), y(count, 0.25);

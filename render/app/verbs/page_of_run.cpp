@@ -3,6 +3,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/run/resume/kept_files.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -15,11 +16,6 @@ namespace fs = std::filesystem;
 // Its frames come with the contacts that the run kept.
 Assignments with_contacts() {
     return {{"film.force_chains=true", "report"}};
-}
-
-bool is_there(const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
 }
 
 // What is damaged counts as kept: whoever reads it says what is wrong.

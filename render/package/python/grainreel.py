@@ -228,7 +228,7 @@ class Running:
         return printed
 
     def result(self, progress=None):
-        """Likewise, and gives the run."""
+        """Waits for the end as wait() does, and gives the run."""
         return Run(self.wait(progress).strip())
 
     def _why(self, status):

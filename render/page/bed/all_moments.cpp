@@ -10,6 +10,7 @@
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/snapshot.hpp"
+#include "engine/run/resume/kept_files.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -19,11 +20,6 @@ namespace grainreel {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool is_there(const fs::path& file) {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
-}
 
 std::unique_ptr<FrameArchive> open_moments(const fs::path& file) {
     return open_frames(file, {.format = "trajectory"});

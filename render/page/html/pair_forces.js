@@ -1,8 +1,8 @@
 // Who pushes whom at key moments, unpacked.
 //
 // The bytes are, for each key moment of P pairs: low, middle and high bytes of the first grain's place in the list of
-// grains, as its difference from the pair before (P each); likewise of the second grain's place, not as a difference, or
-// 2^24 - 1 - face for a wall; P bytes of normal force: b from 1 on stands for lowest (highest / lowest)^((b - 1) / 253).
+// grains, as its difference from the pair before (P each); low, middle and high bytes of the second grain's place itself,
+// or of 2^24 - 1 - face for a wall; P bytes of normal force: b from 1 on stands for lowest (highest / lowest)^((b - 1) / 253).
 const firstOfWalls = 0xffffff - 1000;
 
 class PairForces {

@@ -46,7 +46,7 @@ class Exposure {
   private:
     const Rectangle port_;
     std::uint32_t count_ = 0;
-    // Of each pixel: red, green and blue in linear light times alpha, with 16 bits each, then alpha with 8
+    // A pixel is red, green and blue in linear light times alpha, with 16 bits each, then alpha with 8
     // bits.
     std::vector<std::uint32_t> sum_;
 };

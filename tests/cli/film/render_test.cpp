@@ -86,7 +86,7 @@ TEST_F(RenderProgram, KeptContactsDrawForceChainsAndTheirColours) {
     EXPECT_THAT(refused.err, HasSubstr("has no contacts.nc; the run was not told to keep contacts"));
 }
 
-// Of a finished run it is known how high the grains get: the picture is that of a scene that says so.
+// How high the grains of a finished run get is known: the picture is that of a scene that says so.
 TEST_F(RenderProgram, FramesWhatTheGrainsReached) {
     short_run();
     const double reach = *known_reach(*open_frames(here / "run/trajectory.nc"));

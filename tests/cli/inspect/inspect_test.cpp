@@ -245,7 +245,7 @@ TEST(Questions, ASliceHasTheCirclesOfALayer) {
     EXPECT_THROW(slice_answer(bed.snapshot, "y = 2 s", 100), UserError);
 }
 
-// Of a cubic lattice of spacing d: partners at d (6), d sqrt 2 (12), d sqrt 3 (8), 2 d (6) ..., none between.
+// A cubic lattice of spacing d has partners at d (6), d sqrt 2 (12), d sqrt 3 (8), 2 d (6) ..., none between.
 TEST(Questions, ThePairDistributionOfALatticeHasItsShells) {
     Bed bed;
     Frame& frame = bed.snapshot.frame;

@@ -142,7 +142,7 @@ TEST_F(ReportProgram, ForcesOfKeyMomentsAreKept) {
     for (std::size_t k = 0; k < keys.size(); ++k)
         EXPECT_EQ(bed["forces"]["pairs"][k].get<std::size_t>(), contacts.touches(k).size());
     EXPECT_TRUE(bed["contacts"]);
-    // Of the last one some are missing.
+    // Some rows of the last one are missing.
     fs::resize_file(here / "run/key_contacts.nc", fs::file_size(here / "run/key_contacts.nc") - 4);
     const Ended cut = program({"report", "run"});
     EXPECT_THAT(cut.err,

@@ -60,7 +60,7 @@ TEST_F(ContinuedMovie, CheckSaysWhatHappensToABedFromAFile) {
         return at == std::string::npos ? check.out
                                        : check.out.substr(at + 1, check.out.find('\n', at + 1) - at);
     };
-    // Of the packed bed, and of one that is shaken.
+    // Checkpoints of the packed bed, and of one that is shaken.
     const char *rests = "checkpoints/000000000000.grs", *moves = "checkpoint.grs";
     EXPECT_THAT(line(rests, "walton-braun"),
                 HasSubstr("stiffness as in the file's run; contacts keep their histories\n"));

@@ -180,7 +180,7 @@ TEST(Damage, NoContactIsReadThatWasNotWritten) {
     EXPECT_GT(refused, 100);
 }
 
-// Of each count in a header, the largest number that its four bytes hold: no memory is asked for that.
+// Each count in a header becomes the largest number that its four bytes hold. No memory is asked for that.
 TEST(Damage, ACountIsHeldAgainstTheFile) {
     const TemporaryFolder here;
     const std::string whole = written_trajectory(here);

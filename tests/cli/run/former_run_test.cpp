@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace test;
 
-// Of what grows either the end or the beginning is copied; the rest gets a second name.
+// The end or the beginning of what grows is copied; the rest gets a second name.
 TEST(FormerRun, IsPutBackAsItWas) {
     const TemporaryFolder here;
     const fs::path run = here / "run";

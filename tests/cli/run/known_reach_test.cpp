@@ -6,7 +6,7 @@
 namespace grainreel {
 namespace {
 
-// Of 200 grains one in a hundred is two: the two highest do not count, the third does.
+// One in a hundred of 200 grains is two: the two highest do not count, the third does.
 TEST(KnownReach, LeavesOutOneGrainInAHundred) {
     Frame frame;
     for (int k = 0; k < 200; ++k) {

@@ -244,7 +244,7 @@ TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
     EXPECT_TRUE(now.displacement.empty());
 }
 
-// Of a grain that came since, and of one that has gone: those that were there all the time have theirs.
+// A grain that came since and one that has gone have no way. Those that were there all the time have theirs.
 TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
     const auto with = [](Frame frame, std::int32_t id, const Vec3& at) {

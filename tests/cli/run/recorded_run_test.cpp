@@ -102,7 +102,7 @@ TEST_F(Recorded, AnEditedSceneIsRefused) {
     expect_refused(AllOf(trajectory, HasSubstr("has 40 grains of 'small'")));
 }
 
-// Of the same scene but for the seed: only what the grains did tells them apart.
+// The scene is the same but for the seed: only what the grains did tells the runs apart.
 TEST_F(Recorded, AnotherRunsMeasuresAndContactsAreRefused) {
     run("run");
     run("other", {"run.seed=2"});

@@ -139,7 +139,7 @@ TEST_F(ResumedFolder, AFullDiskWithoutARecordIsAFailure) {
     expect_same_folder("run", before);
 }
 
-// Of the same scene in one go: what the plan chose, and why.
+// What the plan chose for the same scene in one go, and why.
 TEST_F(ResumedFolder, ItsSceneKeepsItsComments) {
     movie("run", {"--no-film"});
     const std::string before = text_of(here / "run/scene.toml");

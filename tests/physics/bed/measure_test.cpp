@@ -120,7 +120,7 @@ TEST(ShareAbove, IsTheShareOfPairs) {
     EXPECT_EQ(above(these, those), pairs / (40 * 20));
 }
 
-// Of those that are handed out without regard to height U has the mean n m / 2 and the variance
+// Where sizes are handed out without regard to height, U has the mean n m / 2 and the variance
 // n m (n + m + 1) / 12 (Mann and Whitney 1947).
 TEST(ShareAbove, IsHalfInARandomMixture) {
     Random random(2, Stream::centres);

@@ -200,7 +200,7 @@ TEST(Observers, TakeUpWhatTheyHadGathered) {
     EXPECT_EQ(next.look(bed.moment(5), no_contacts).values(),
               first.look(bed.moment(5), no_contacts).values());
     EXPECT_EQ(saved(next), bytes);
-    // Of a run that measured nothing of it.
+    // The state of a run that measured nothing of it.
     Bytes nothing("");
     fresh.load(bed.moment(5), nothing);
     fresh.start(bed.moment(5), no_contacts);

@@ -69,7 +69,7 @@ TEST_F(StartFile, TheStiffnessOfTheSceneWins) {
     EXPECT_NEAR(run.measure("centre_z_m"), before.height, 0.02 * kBedDiameter);
 }
 
-// Of a table alone only the overlaps are known. Those of springs carry the weight at the stiffness that made
+// A table alone tells only the overlaps. Those of springs carry the weight at the stiffness that made
 // them; latched ones are larger than their forces, and the plan's own conditions give more.
 TEST_F(StartFile, OverlapsTellTheStiffness) {
     for (const std::string& name : kLaws) {

@@ -209,7 +209,7 @@ TEST(WallForcesOfRuns, PressureIsTheMeanOfItsRecord) {
     const double written = of_right_wall(again);
     EXPECT_EQ(of_right_wall(Simulation::at_checkpoint(scene, plan, here / "end.grs", 1)), written);
 
-    // Of a record whose beginning was not seen nothing is known.
+    // Nothing is known of a row whose beginning was not seen.
     Scene without = scene;
     without.output.instruments.clear();
     Simulation blind(without, plan, 1);
@@ -285,7 +285,7 @@ TEST(WallForcesAtRest, AFloorCarriesAllGrains) {
     EXPECT_NEAR(m.at("floor_carries"), 1, of_rounding(1e-9, 1e-5));
 }
 
-// Of the front of a wedge with slants up to 4 and a floor of half-width 1: between the heights 1 and 3 it is
+// The front of a wedge with slants up to 4 and a floor of half-width 1: between the heights 1 and 3 it is
 // a trapezoid. All slices together are the whole face.
 TEST(WallAreas, AreThoseOfTheContainersFaces) {
     Container c;

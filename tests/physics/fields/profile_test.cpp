@@ -78,7 +78,7 @@ TEST_P(Profiles, SharesAreOneAmongTheirOwnAndHalfAtTheBorder) {
     }
 }
 
-// Of layers with weights exp(-(z - z_k)^2 / 2 w^2), what the Gaussian leaves of its other direction.
+// What the Gaussian leaves of its other direction, for layers with weights exp(-(z - z_k)^2 / 2 w^2).
 TEST_P(Profiles, VelocityIsMomentumOverMass) {
     const std::vector<double> velocity = velocity_profile(fields_, by_, GetParam(), 2);
     int looked_at = 0;

@@ -105,8 +105,8 @@ TEST(Combinations, RunOrAreRefusedWithAReason) {
             }
         }
     }
-    // Of 7 laws, 5 go with 2 frictions that rub and 2 with one, rolling or not, and each with none; in 5
-    // containers with 5 integrators in 2 precisions; but for the 4 x 4 that repelling Hertz leaves out.
+    // Five of the 7 laws go with 2 frictions that rub and 2 with one, rolling or not, and each with none; in
+    // 5 containers with 5 integrators in 2 precisions; but for the 4 x 4 that repelling Hertz leaves out.
     EXPECT_EQ(ran, ((5 * 2 + 2 * 1) * 2 + 7) * 5 * 5 * 2 - (2 + 1) * 4 * 4 * 2);
     EXPECT_EQ(ran + refused, 7 * 4 * 2 * 5 * 5 * 2 - 4 * 2 * 4 * 4 * 2);
 }

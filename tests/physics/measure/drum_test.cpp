@@ -106,7 +106,7 @@ struct MeshInSpace {
         bed.walls->faces.resize(1);
         bed.start();
     }
-    // Of all steps since the start.
+    // The mean of all steps since the start.
     double after(std::int64_t steps, const std::array<int, 3>& force, const std::array<int, 3>& moment,
                  const char* column) {
         for (std::size_t a = 0; a < 3; ++a) {

@@ -19,7 +19,7 @@ struct InelasticBlock {
         for (int i = 0; i < 60; ++i) (above_plate(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
         lands = low;
     }
-    // Of its weight, that the plate carries.
+    // The share of its weight that the plate carries.
     double carried(double turns) const {
         const double t = turns - std::floor(turns - leaves);  // since the last take-off
         return t < lands ? 0 : std::max(0.0, 1 - gamma * std::sin(2 * std::numbers::pi * t));

@@ -34,7 +34,7 @@ TEST(Surface, FollowsTheTopmostGrains) {
     const BedOutline surface = surface_of(bed_of(40, 6, h), frame_of(40, 6));
     ASSERT_EQ(surface.height.size(), 20u);
     EXPECT_NEAR(surface.bin, 2, 1e-12);
-    // Of the two stacks in a bin the higher one counts, half a diameter to the right of the bin's middle.
+    // The higher one of the two stacks in a bin counts, half a diameter to the right of the bin's middle.
     for (std::size_t j = 0; j < 20; ++j)
         EXPECT_NEAR(surface.height[j], h(surface.place(j) + 0.5), 1e-12) << j;
 }

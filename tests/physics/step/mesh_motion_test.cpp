@@ -41,7 +41,7 @@ TEST_P(TurningPlate, LeadsARollingBallRoundATwoSeventhsOfItsRate) {
     const Vec3 at(0.02, 0.01, kRadius - sink), velocity(0.05, 0.02, 0);
     w.grains.add(0, 0, at, kRadius, kDensity);
     w.grains.motion[0].velocity = velocity;
-    // Of the ball's lowest point: v + w x (-d z) is the plate's velocity.
+    // Velocity of the ball's lowest point: v + w x (-d z) is the plate's velocity.
     const Vec3 slip = rate * Vec3(0, 0, 1).cross(at - through) - velocity;
     w.grains.motion[0].spin = Vec3(-slip.y(), slip.x(), 0) / at.z() * -1;
     w.start();
@@ -161,7 +161,7 @@ TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
                 largest = std::max(largest, c.tangential.norm() / c.normal_force);
             });
         }
-        // Of 1.3 mm of arc none is felt as slip.
+        // None of the 1.3 mm of arc is felt as slip.
         EXPECT_LT(largest, of_rounding(1e-4, 1e-2)) << triangles;
     }
 }

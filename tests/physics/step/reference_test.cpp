@@ -28,7 +28,7 @@ double mass_of(int species) {
     return sphere_mass(kSizes[species]);
 }
 
-// Of two species, or of one and the wall; numbers that differ from kind to kind.
+// Contacts of two species, or of one and the wall, with numbers that differ from kind to kind.
 PairPlan pair_of(const Laws& laws, int kind) {
     PairPlan p = walton_braun_pair(0.6 + 0.1 * kind, 0.2 + 0.15 * kind);
     for (double* stiffness : {&p.loading_stiffness, &p.unloading_stiffness, &p.tangential_stiffness})
@@ -150,9 +150,9 @@ const Vec3 kDown(0, 0, -9.81), kNone(0, 0, 0);
 const Bed kBeds[] = {{"settling", kDown, {0, 0, -0.6}, Container::Shape::wedge, {}, 2500},
                      {"shaken", kDown, {0, 0, -0.3}, Container::Shape::box, {1e-3, 125, {0, 0.6, 0.8}}, 2500},
                      {"flying", kNone, kNone, Container::Shape::cylinder, {}, 2500}};
-// Of lengths, against the largest radius; of velocities, against 1 m/s; of spins, against 1 m/s over the
-// smallest radius. Rounding, 1e-16, grows with each collision by about the free path over the radius;
-// measured are 1e-11, 1e-10 and 1e-10 at most.
+// Differences of lengths, against the largest radius; of velocities, against 1 m/s; of spins, against 1 m/s
+// over the smallest radius. Rounding, 1e-16, grows with each collision by about the free path over the
+// radius; measured are 1e-11, 1e-10 and 1e-10 at most.
 constexpr double kTolerance = 1e-8;
 
 class ReferenceStepAgrees : public testing::TestWithParam<Laws> {};

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/utf8.hpp"
+#include "engine/base/text.hpp"
 #include "render/app/study/file/read_parts.hpp"
 
 namespace grainreel {

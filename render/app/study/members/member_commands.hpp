@@ -17,7 +17,7 @@ struct StudyFolder {
     // still to be run.
     std::filesystem::path scene(const Study& study) const;
 
-    // Likewise of a mesh or a path: two files of one name may lie beside each other.
+    // Where the members' copy of a mesh or a path is. Two files of one name may lie beside each other.
     std::filesystem::path copy_of(const MemberFile& file) const {
         return path / "meshes" / file.hash / std::filesystem::path(file.from).filename();
     }

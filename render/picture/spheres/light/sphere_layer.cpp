@@ -199,7 +199,7 @@ void BandPainter::light(const PaintJob& job, std::uint32_t grain, const LitPoint
     }
 }
 
-// Of the many neighbours of a large grain, finds those that take light from these few points.
+// Finds those of a large grain's many neighbours that take light from these few points.
 NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, const NeighbourSpan& all,
                                    const LitPoints& points) {
     const auto slope = [&](float px, float py) {
