@@ -46,7 +46,8 @@ def first_sentence(file):
             text = before + "."
             break
     text = text.rstrip(",;") + ("" if text.endswith(".") or not text else ".")
-    return text.replace("|", "\\|").replace("<", "&lt;")
+    # Pages call the program by the script at the tree's top.
+    return text.replace("`grainreel ", "`./movie ").replace("|", "\\|").replace("<", "&lt;")
 
 
 def concepts(room, others):
