@@ -39,8 +39,8 @@ struct FilmWalls {
     std::vector<std::string> solid;  // names of meshes that are solid from all sides
     std::vector<std::string> glass;  // names of meshes that are glass from outside
     bool coloured() const { return colour != Colour::plain; }
-    // Whether equal ratios have equal distances on the colour bar. Where the range begins at 0, equal
-    // differences have.
+    // Whether equal ratios of values have equal distances on the colour bar. Where the range begins at 0,
+    // equal differences have equal distances instead.
     bool logarithmic() const { return range[0] > 0; }
     bool operator==(const FilmWalls&) const = default;
 };
@@ -50,7 +50,7 @@ struct FilmLook {
     enum class Style { studio, flat, dark };
     Style style = Style::studio;
     bool occlusion = true;  // darkness between grains
-    bool shadows = true;    // of grains on grains
+    bool shadows = true;    // grains throw shadows on grains
     bool ground = true;     // a ground that the container throws its shadow on
     bool rotation = false;  // two-tone grains show how they turn; needs orientations
     FilmCut cut;
@@ -106,13 +106,14 @@ enum class ProfileOf {
 
 // A plot beside the grains: a column of measures.csv against time, or a profile.
 struct FilmPlot {
-    std::string column;                          // its name in the file: "height_difference", "centre_z_m"
-    std::string label;                           // in words, without the unit
-    std::optional<std::array<double, 2>> range;  // SI; of a column: grows with the data when empty
+    std::string column;  // its name in the file: "height_difference", "centre_z_m"
+    std::string label;   // in words, without the unit
+    std::optional<std::array<double, 2>>
+        range;  // SI; when it is empty, the range of a column grows with the data
     Dimension dimension = Dimension::number;
     ProfileOf profile = ProfileOf::nothing;  // in place of a column
-    bool across = false;                     // of a profile: over the width, else over the height
-    bool period = false;  // of velocities or a column: means over the last period of the drive
+    bool across = false;                     // a profile runs over the width, else over the height
+    bool period = false;  // velocities and columns are means over the last period of the drive
     bool is_profile() const { return profile != ProfileOf::nothing; }
     bool of_velocity() const {
         return profile == ProfileOf::horizontal_velocity || profile == ProfileOf::vertical_velocity;
@@ -168,7 +169,7 @@ struct FilmShows {
     std::vector<std::size_t> hidden;        // species that are not drawn
     std::vector<std::size_t> ghosts;        // species that are seen through
     std::vector<std::int32_t> highlighted;  // ids of grains with a ring
-    GrainCondition highlight_if;            // grains of which it holds have a ring, too
+    GrainCondition highlight_if;            // grains that meet it have a ring, too
     std::string text;                       // words beside the grains, as they were written
     std::vector<LiveWords> live_words;      // the parts of that text
     std::vector<FilmPlot> plots;
@@ -186,19 +187,19 @@ struct WordKinds {
     bool title = true;
     bool legend = true;  // species, colours and marks
     bool time = true;
-    bool cycle = true;  // of the drive, and its phase
+    bool cycle = true;  // number of the drive's cycle, and its phase
     bool dial = true;
     bool drive = true;     // f, Gamma and amplitude
-    bool playback = true;  // what is said of time
+    bool playback = true;  // how fast the film plays
     bool scale = true;     // bar of a length
     bool arrows = true;    // gravity and vibration
-    bool counts = true;    // of grains that have flowed out or lie in the tray
-    bool captions = true;  // and the headings of panels
+    bool counts = true;    // numbers of grains that have flowed out or lie in the tray
+    bool captions = true;  // captions, and the headings of panels
     bool operator==(const WordKinds&) const = default;
 };
 
-// What the film needs of a frame beyond the state of the grains: Frame::displacement, Frame::measures,
-// Frame::touches.
+// These say what the film needs of a frame beyond the state of the grains: Frame::displacement,
+// Frame::measures, Frame::touches.
 inline bool shows_value(const FilmShows& look, GrainValue value) {
     return look.colour.by == value || look.highlight_if.of == value;
 }
@@ -235,7 +236,8 @@ struct FilmSegment {
     double playback = 1;  // motion: simulated seconds for each second of film (0.1 = ten times slower)
     int every = 1;        // locked: one frame every 1, 2 or 4 periods
     double phase = 0;     // locked: turns, the phase of these frames
-    // Each picture may show what happened up to its moment, by at most one of these two.
+    // Each picture may show what happened up to its moment, by either of the next two members but not by
+    // both.
     int average = 0;      // number of periods over which mean places of grains are drawn; 0: none
     double exposure = 0;  // s for which the shutter is open; 0: one moment
     int exposures = 16;   // moments in that time; locked: at most one a period
@@ -270,8 +272,8 @@ struct CameraKey {
     bool operator==(const CameraKey&) const = default;
 };
 
-// What the automatic framing has in the picture: all of the container, the bed at rest, or what the grains
-// reach in the course of the film. The part of the container above that is cut off.
+// What the automatic framing shows: all of the container, the bed at rest, or what the grains reach in the
+// course of the film. The part of the container above that is cut off.
 enum class CameraFrame { container, bed, reach };
 
 struct Camera {
@@ -289,7 +291,7 @@ struct Camera {
     std::optional<double> orbit_time;  // s of film that the orbit takes; the whole film when empty
     std::vector<CameraKey> keys;       // by rising time
     bool moves() const { return orbit != 0 || !keys.empty(); }
-    // Whether the user frames the picture, which then may not have the whole container.
+    // Whether the user frames the picture, which then may not show the whole container.
     bool framed_by_user() const;
     bool operator==(const Camera&) const = default;
 };
@@ -312,13 +314,13 @@ struct Film {
     Camera camera;
     Colour background{1, 1, 1};
     FilmLook look;
-    int quality = 20;  // crf of x264; other codecs take what looks alike
+    int quality = 20;  // crf of x264; other codecs take a value that looks alike
     std::string preset = "veryfast";
     WordPlace words = WordPlace::automatic;
     WordKinds word_kinds;
     bool axes = false;        // x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
-    double exaggerate = 1;    // the container's motion, with its grains, is drawn so many times as large
+    double exaggerate = 1;    // the motion of the container and its grains is drawn so many times as large
     FilmShows shows;
     FilmFormat format = FilmFormat::mp4;
     bool transparent = false;              // alpha in place of a background
@@ -328,12 +330,12 @@ struct Film {
     bool operator==(const Film&) const = default;
 };
 
-// Reads "#rrggbb", a name of Okabe and Ito's palette (2008, jfly.uni-koeln.de/color), whose colours can be
-// told apart by the colour-blind too, or black, white or grey.
+// Reads "#rrggbb", black, white, grey, or a name of Okabe and Ito's palette (2008, jfly.uni-koeln.de/color),
+// whose colours the colour-blind can tell apart too.
 std::optional<Colour> parse_colour(std::string_view text);
 
-// The first of the palette's eight colours, from orange on, that is taken least often. While some are free it
-// is one of them.
+// The first of the palette's eight colours, from orange on, that is taken least often. It is a free colour
+// while there is one.
 Colour default_colour(const std::vector<Colour>& taken);
 
 // "#rrggbb".

@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-// Where the palette has no colour left, a default colour repeats that of another species.
+// Warns of default colours that repeat the colour of another species, because the palette has no colour left.
 void warn_of_colours(const FilmedScene& scene, Warnings& warnings) {
     const std::vector<Species>& species = scene.species;
     const std::vector<Colour>& colours = scene.colours;

@@ -11,7 +11,8 @@
 namespace grainreel {
 namespace {
 
-// The wishes of a film: what it shows is measured, and orientations are kept where it shows how grains turn.
+// The wishes of a film. The engine measures what the film shows, and keeps orientations where the film shows
+// how grains turn.
 Wishes wishes_of(const FilmedScene& scene) {
     Wishes wishes;
     const auto take_instrument = [&](const std::string& name) {

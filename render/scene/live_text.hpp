@@ -30,7 +30,8 @@ std::string column_names(const std::vector<MeasureColumn>& columns);
 // Throws UserError that says what is wrong with the text.
 std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns);
 
-// value(column): the value of a column in the row to show; none when there is no row yet.
+// Writes the text with its values. value(column): the value of a column in the row to show; none when there
+// is no row yet.
 template <class ValueOf>
 std::string live_text(const std::vector<LiveWords>& all, const ValueOf& value);
 std::string live_value(const std::optional<double>& value, const LiveWords& as);

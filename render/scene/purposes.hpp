@@ -17,7 +17,7 @@ struct Purpose {
     int width, height;  // pixels
     double rate;        // frames a second
     FilmFormat format;
-    int quality;  // as film.quality
+    int quality;  // the value of film.quality
     const char* preset;
     std::optional<std::int64_t> max_size;  // bytes
     std::array<int, 2> sheet;              // zeros: none

@@ -249,7 +249,7 @@ double wall_friction(const Scene& scene) {
 std::array<double, 2> usual_range(FilmWalls::Colour colour, const Scene& scene) {
     const double pressure = weight_pressure(scene);
     if (colour == FilmWalls::Colour::pressure) return {1e-2 * pressure, 10 * pressure};
-    constexpr double slip = 0.3;  // of that speed: grains go along with a wall most of the time
+    constexpr double slip = 0.3;  // share of that speed: grains go along with a wall most of the time
     const double wear = slip * wall_friction(scene) * pressure * rubbing_speed(scene) * scene.run.duration;
     return {1e-3 * wear, wear};
 }

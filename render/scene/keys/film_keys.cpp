@@ -21,7 +21,7 @@ namespace {
 using namespace keys;
 
 constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
-constexpr std::int64_t most_tiles = 12;  // of a contact sheet, each way
+constexpr std::int64_t most_tiles = 12;  // columns or rows of a contact sheet
 constexpr int capped_quality = 18;  // a film under a cap is as good as the cap lets it be, up to this crf
 
 // Whether a film in this format can be kept below a size.
@@ -29,8 +29,8 @@ bool can_be_capped(FilmFormat format) {
     return format == FilmFormat::mp4 || format == FilmFormat::webm || format == FilmFormat::gif;
 }
 
-constexpr double gif_ticks = 100;         // a second: a GIF counts whole hundredths
-constexpr double shortest_gif_ticks = 2;  // browsers slow down what asks for less
+constexpr double gif_ticks = 100;         // ticks a second: a GIF counts whole hundredths
+constexpr double shortest_gif_ticks = 2;  // browsers slow down films that ask for less
 
 // The nearest of the rates that a GIF can have, 100/n frames a second.
 double gif_rate(double wanted) {
@@ -154,7 +154,7 @@ void read_purpose(Document& document, const Scene&, const std::string& path, Fil
     film.sheet = purpose->sheet;
 }
 
-// Is read after the format, which may have no use for the purpose's cap.
+// The cap is read after the format, because some formats have no use for the purpose's cap.
 void read_max_size(Document& document, const Scene&, const std::string& path, Film& film) {
     if (!can_be_capped(film.format)) film.max_size.reset();
     const auto text = document.text(path);
@@ -227,7 +227,7 @@ BoundKey<Film> background_key() {
             [](const Film& film) { return film.background == default_background(film.look.style); });
 }
 
-// Keys of the picture and how it follows time.
+// Keys of the picture and of how it follows time.
 const KeyTable<Film>& picture_table() {
     static const KeyTable<Film> table{
         size_key(),

@@ -69,7 +69,7 @@ void write_captions(SceneText& out, const FilmedScene& scene);
 // The key `show` of [film]: which words and signs stand beside the grains.
 keys::BoundKey<Film> word_kinds_key();
 
-// Reads a colour by name or number. example: of a colour, for the message.
+// Reads a colour by name or number. example: a colour that the message gives as an example.
 Colour read_colour(Document& document, const std::string& path, const char* example);
 
 // All of [film].

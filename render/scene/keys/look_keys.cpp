@@ -92,7 +92,7 @@ void write_cut(SceneText& out, const FilmedScene& scene) {
 
 namespace {
 
-// Throws UserError for a name that no mesh has.
+// The names in the list at `path`. Throws UserError for a name that no mesh has.
 std::vector<std::string> mesh_names(Document& document, const Scene& scene, const std::string& path) {
     std::vector<std::string> names = document.name_list(path);
     std::string known;
@@ -120,7 +120,7 @@ BoundKey<FilmWalls> names_key(const char* name, std::vector<std::string> FilmWal
         });
 }
 
-// Is read after the colour, and only where walls are not plain.
+// The range is read after the colour, and only where walls are not plain.
 void read_range(Document& document, const Scene& scene, const std::string& path, FilmWalls& walls) {
     const std::string key = "film.walls.colour";
     if (scene.meshes.empty()) document.fail(key, "colours meshes, and the scene has none; leave it out");

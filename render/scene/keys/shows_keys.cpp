@@ -82,8 +82,8 @@ void read_range(Document& document, const Scene& scene, const std::string& path,
     check_range(document, path, colour);
 }
 
-// Only a range of the user's is written. Otherwise the quantity decides, also when a finished run is drawn
-// again in other colours.
+// Only a range that the user gave is written. Otherwise the quantity decides the range, also when a finished
+// run is drawn again in other colours.
 std::string range_text(const C& colour, const Scene&) {
     return colour.fixed ? toml_list({as_toml(colour.range[0]), as_toml(colour.range[1])}) : "";
 }
