@@ -31,7 +31,7 @@ int checksum_of(const Row& row, bool meshes) {
 
 constexpr std::int32_t most_faces = 1000;  // of a container, with the walls and meshes of its scene
 
-// What is wrong with a row that no run can have written, whatever its checksum; empty for a good row.
+// Whether a run can have written such a row, whatever its checksum says.
 bool possible(const Row& row) {
     return row.frame >= 0 && row.first >= 0 && row.second >= -most_faces && std::isfinite(row.normal) &&
            row.normal >= 0 && row.triangle >= -1;

@@ -20,7 +20,7 @@ struct MeasuresFile {
     std::string fault;
 };
 MeasuresFile read_measures_file(const std::filesystem::path& path);
-// Only the table of it.
+// Reads only the table of a file.
 std::shared_ptr<const MeasureTable> read_measures(const std::filesystem::path& path);
 
 class MeasuresWriter {

@@ -89,7 +89,7 @@ struct TrajectoryReader::Impl {
             info.facts.densities.push_back(density);
     }
 
-    // The dimension says how many there are; the names are for people.
+    // The dimension `body` gives the number of bodies; their names are only for people.
     void read_bodies() {
         const std::size_t bodies = file.length("body");
         if (bodies > most_bodies)

@@ -88,8 +88,8 @@ enum class RunFrame { lab, container };
 struct CarriedScene {
     PeerEngine engine = PeerEngine::lammps;
     int ranks = 1;
-    Scene scene;  // with the laws of the other engine and the plan's choices; our own run to compare with is
-                  // of this scene
+    Scene scene;  // has the laws of the other engine and the plan's choices; our own run to compare with uses
+                  // it
     Plan plan;    // of that scene
 
     std::vector<CarriedType> types;

@@ -46,7 +46,7 @@ CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touc
         pair.stiffness = 4.0 / 3.0 * plan.modulus;
         pair.tangential = 2 * plan.tangential_ratio * plan.modulus;  // 8 G*: ratio = 4 G* / E*
         pair.damping = plan.hertz_damping;
-        pair.tangential_damping = std::sqrt(plan.tangential_ratio);  // divided by the normal one
+        pair.tangential_damping = std::sqrt(plan.tangential_ratio);  // a ratio to the normal damping
     } else if (law == CarriedLaw::spring_dashpot) {
         pair.damping = plan.damping_rate(mean.effective_mass);
         pair.tangential_damping = plan.tangential_damping_rate(mean.effective_mass);

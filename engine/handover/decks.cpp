@@ -71,7 +71,7 @@ std::vector<std::string> gravity_lines(const CarriedScene& carried) {
 
 namespace {
 
-// How many of these steps, from the first one on, the series gives when the engine computes it.
+// Number of these steps, counted from the first one, that the series gives when the engine computes it.
 std::int64_t right_ones(const DumpPace& pace, const std::int64_t* steps) {
     for (std::int64_t k = 0; k < pace.count; ++k)
         if (pace.at(k) != steps[k] || pace.next(steps[k]) != steps[k + 1]) return k;

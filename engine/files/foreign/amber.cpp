@@ -79,7 +79,7 @@ class AmberFile : public RawFile {
     const std::vector<RawMoment>& moments() const override { return moments_; }
     std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
-    // The same for a caller that already holds the lock.
+    // Reads a frame for a caller that already holds the lock.
     RawFrame frame_at(std::size_t index) const;
 
   private:

@@ -130,7 +130,7 @@ void ForeignArchive::survey() {
     }
     for (const auto& [word, name] : options_.species) types_.add(word);
     if (!meaning_) {
-        // There is not one grain, so the columns get the meaning of an empty table.
+        // No frame has a grain, so the columns get the meaning of an empty table.
         RawFrame empty;
         empty.grains.columns = {{"id", {}}, {"x", {}}, {"y", {}}, {"z", {}}, {"radius", {}}};
         meaning_.emplace(grains_->facts(), empty, ReadingOptions(), path_.string());

@@ -88,7 +88,7 @@ class FrameArchive {
     // are damaged.
     virtual std::shared_ptr<const FieldsReader> fields() const { return nullptr; }
 
-    // The three below need at least one moment. This is the index of the one nearest to a time (s).
+    // Index of the moment nearest to a time (s). This function and the two below need at least one moment.
     std::size_t nearest(double time) const;
     // The first frame that is not damaged, with its grains.
     Frame first_whole() const;

@@ -158,7 +158,7 @@ void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, co
 
 namespace {
 
-// The rows whose step is also in the trajectory, from the last on: number of the row and of the frame.
+// A row whose step is also in the trajectory: number of the row and of the frame.
 struct Pair {
     std::size_t row, frame;
 };

@@ -21,7 +21,7 @@ class BinaryReader {
   public:
     BinaryReader(ByteSource& source, bool swapped) : source_(source), swapped_(swapped) {}
 
-    // These return false where the content ends before.
+    // These functions return false where the content ends before the number does.
     bool read(std::int32_t& to) { return read_bytes(&to, sizeof to); }
     bool read(std::int64_t& to) { return read_bytes(&to, sizeof to); }
     bool read(double& to) { return read_bytes(&to, sizeof to); }

@@ -203,7 +203,8 @@ bool is_series(std::string_view bytes) {
              bytes.find("\"name\"") != std::string_view::npos));
 }
 
-// In the order in which the times first appear. Throws UserError with the line.
+// Reads a list. Its moments are in the order in which their times first appear. Throws UserError with the
+// line.
 CollectionList collection_list(const fs::path& file) {
     const std::string bytes = all_bytes(file);
     const std::string type = vtk_file_type(bytes);

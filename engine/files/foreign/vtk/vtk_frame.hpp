@@ -140,7 +140,7 @@ std::vector<RawWall> walls_of(const VtkPiece& piece);
 
 // The number of the mesh that each triangle belongs to, by the column "meshid". LIGGGHTS numbers the
 // triangles of each mesh from 0, so a new mesh begins at each 0. Other programs may give all triangles of a
-// mesh one number. All are 0 where it is neither.
+// mesh one number. If the column fits neither way, all numbers are 0.
 std::vector<std::size_t> mesh_parts(const std::vector<double>& meshid);
 
 // Adds the second wall to the first and returns true, if both have the same columns.

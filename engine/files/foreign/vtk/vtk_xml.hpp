@@ -1,6 +1,5 @@
-// Reads VTK's XML files of points and cells: PolyData (.vtp), UnstructuredGrid (.vtu) and the lists of their
-// pieces
-// (.pvtp, .pvtu).
+// Reads VTK's XML files of points and cells: PolyData (.vtp), UnstructuredGrid (.vtu), and lists of pieces of
+// such files (.pvtp, .pvtu).
 #pragma once
 
 #include <filesystem>

@@ -52,7 +52,7 @@ class StoredStream {
 std::string stored_array(std::string_view text, bool base64, const VtkCoding& coding,
                          std::optional<std::uint64_t> wanted, const VtkPlace& place);
 
-// The same checks by the lengths only, so that a cut file is noticed when it is opened.
+// Makes the same checks by the lengths only, so that a cut file is noticed when it is opened.
 void check_stored_array(std::string_view text, bool base64, const VtkCoding& coding,
                         std::optional<std::uint64_t> wanted, const VtkPlace& place);
 

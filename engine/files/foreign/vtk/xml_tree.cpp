@@ -193,7 +193,7 @@ std::string vtk_file_type(std::string_view head) {
     if (tag == std::string_view::npos) return {};
     const std::string_view words = head.substr(tag, head.find('>', tag) - tag);
     std::size_t at = words.find("type");
-    // This must not find the attribute header_type.
+    // The attribute header_type also ends in "type"; it is passed over.
     while (at != std::string_view::npos && words[at - 1] > ' ') at = words.find("type", at + 1);
     const std::size_t open = at == std::string_view::npos ? at : words.find_first_of("\"'", at);
     if (open == std::string_view::npos) return "unknown";

@@ -67,10 +67,9 @@ struct VtkEntry {
 std::string pvd_text(const std::vector<VtkEntry>& entries);
 
 // The contacts of a frame as lines from the first grain's centre to the second's, or to the point of contact
-// on a wall. Across a periodic edge a line ends at the image of the second grain. Arrays of the lines are
-// normal_force (N, 0 or more), tangential_force and force (N, both on the second body), id1, id2 (a wall has
-// -1
-// - its number) and to_wall.
+// on a wall. Across a periodic edge a line ends at the image of the second grain. The lines have these
+// arrays: normal_force (N, 0 or more), tangential_force and force (N, both on the second body), id1, id2 (for
+// a wall, minus 1 minus its number) and to_wall.
 VtkPolyData contact_lines(const Frame& frame, const std::vector<SavedContact>& contacts, const World& world);
 
 // The same where points and tangential forces are not known: lines between grains only, with normal_force,
