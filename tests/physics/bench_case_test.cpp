@@ -20,7 +20,7 @@ TEST(WedgeCase, IsTheBedOfWedgeMixing) {
     EXPECT_EQ(resolved_scene(film, make_plan(film)), resolved_scene(timed, make_plan(timed)));
 }
 
-// The first run of a process reads units and keys, which stay; later ones find them.
+// The first run of a process reads units and keys, which stay in memory; later runs find them there.
 TEST(WedgeCase, CountsTheMemoryOfItsBedAlone) {
     const auto& all = bench_cases();
     const auto& wedge =
@@ -34,7 +34,8 @@ TEST(WedgeCase, CountsTheMemoryOfItsBedAlone) {
     EXPECT_NEAR(first / second, 1, 0.1) << first << ' ' << second;
 }
 
-// A grain of a bed at rest has four to five contacts, two of each pair; what falls has less than one.
+// A grain of a bed at rest has four to five contacts, each shared by two grains. A falling grain has less
+// than one.
 TEST(RestCase, IsABedAtRest) {
     const auto& all = bench_cases();
     const auto& rest =

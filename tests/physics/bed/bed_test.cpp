@@ -1,4 +1,4 @@
-// Whole beds: packing, neighbours, work and energy, the same bits on any number of threads.
+// Tests of whole beds: packing, neighbours, work and energy, and the same bits on any number of threads.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -47,7 +47,8 @@ g_level = 3
 duration = "1 s"
 )";
 
-// Most tests need a crowd in motion, not one at rest: settling is cut short unless a test asks for more.
+// Most tests need a crowd in motion and not one at rest, so settling is cut short unless a test asks for
+// more.
 Scene scene_of(std::vector<std::string> sets = {}) {
     sets.insert(sets.begin(), "start.settle_limit=\"0.05 s\"");
     return read_scene_text(kWedge, "test.toml", with_tested_precision(sets));
@@ -62,7 +63,7 @@ Simulation packed(const Scene& scene, const Plan& plan, int threads) {
     return simulation;
 }
 
-// Goes on from a checkpoint of the same scene.
+// Continues from a checkpoint of the same scene.
 Simulation gone_on(Scene scene, const Plan& plan, const std::filesystem::path& file, int threads) {
     scene.start.method = Start::Method::file;
     scene.start.file = file.string();
@@ -89,7 +90,7 @@ TEST(Layers, PutBigGrainsBelowSmallOnesInsideTheContainer) {
     EXPECT_LE(highest_big, lowest_small);
 }
 
-// A box cut by planes: the room is what formulas say, and layers fill it from below.
+// The room in a box that planes cut is what formulas give, and layers fill it from below.
 TEST(FreeSpace, IsWhatPlanesLeaveOfTheContainer) {
     Scene scene = scene_of();
     scene.container.shape = Container::Shape::box;
@@ -101,7 +102,8 @@ TEST(FreeSpace, IsWhatPlanesLeaveOfTheContainer) {
     scene.walls = {plane};
     EXPECT_NEAR(FreeSpace(scene).volume(), base * (box.height - 0.02), 1e-3 * box.volume());
     EXPECT_NEAR(FreeSpace(scene).height_of_share(0.5), 0.5 * (0.02 + box.height), 1e-3 * box.height);
-    // Through the middle of the floor at 45 degrees: half the base's width times itself, halved, is gone.
+    // The plane goes through the middle of the floor at 45 degrees and cuts off half the base's width times
+    // itself, halved.
     plane.point = Vec3(0, 0, 0);
     plane.normal = Vec3(0, 1, 1).normalized();
     scene.walls = {plane};
@@ -158,7 +160,7 @@ TEST(Settling, BringsTheBedToRestOnTheFloor) {
     const PackingResult result = simulation.pack();
     EXPECT_TRUE(result.settled);
     EXPECT_EQ(simulation.step(), 0);
-    // Weight rests on the walls: the vertical force between grains and walls is the bed's weight.
+    // The walls carry the weight: the vertical force between grains and walls is the bed's weight.
     double weight = 0, carried = 0;
     const Frame frame = simulation.frame();
     for (std::size_t i = 0; i < frame.size(); ++i) weight += sphere_mass(frame.radius[i]) * 9.81;
@@ -180,7 +182,7 @@ Bodies reported_contacts(const Simulation& simulation) {
     return bodies;
 }
 
-// Bodies that overlap and that spring and dashpot push apart.
+// The bodies that overlap and that spring and dashpot push apart.
 Bodies pushed_bodies(const Scene& scene, const Plan& plan, const Frame& f) {
     const double period = period_of_depth(scene.container);
     const std::vector<Face> faces = container_faces(scene.container, scene.drive);
@@ -328,7 +330,7 @@ TEST(Checkpoint, RefusesAnotherPlanAndADamagedFile) {
     EXPECT_NE(message(scene).find("is damaged"), std::string::npos);
 }
 
-// Perfectly elastic, frictionless grains lose nothing: what the walls put in is what they have.
+// Perfectly elastic grains without friction lose nothing, so their energy is what the walls put in.
 TEST(Energy, WallWorkIsWhatElasticGrainsGain) {
     const Scene scene = scene_of({"contact.restitution=1", "contact.friction=0", "run.steps_per_contact=12",
                                   "start.settle_damping=20"});
@@ -340,7 +342,8 @@ TEST(Energy, WallWorkIsWhatElasticGrainsGain) {
     EXPECT_LT(std::abs(simulation.measure("lost_J")), 0.01 * std::abs(work));
 }
 
-// In a still container kinetic + gravity + recoverable elastic energy never rises beyond the step error.
+// In a container at rest the sum of kinetic, gravity and recoverable elastic energy never rises beyond the
+// error of the step.
 TEST(Energy, NeverRisesInAStillContainer) {
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);

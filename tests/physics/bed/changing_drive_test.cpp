@@ -1,5 +1,5 @@
-// A bed under a drive that changes: the same bits on any number of threads and through a checkpoint, and
-// measures that count its periods.
+// Tests of a bed under a drive that changes: it gives the same bits on any number of threads and through a
+// checkpoint, and measures count its periods.
 #include <gtest/gtest.h>
 
 #include "engine/run/simulation/simulation.hpp"
@@ -12,7 +12,7 @@
 namespace grainreel {
 namespace {
 
-// From 20 Hz over 3 periods to 45 Hz, and from 0.3 s on taps.
+// The drive goes from 20 Hz to 45 Hz over 3 periods, and makes taps from 0.3 s on.
 const std::string changing_text = std::string(test::small_scene_text) + R"([[drive.stage]]
 from = "50 ms"
 frequency = "45 Hz"
@@ -42,7 +42,7 @@ TEST(ChangingDrive, SameBitsOnAnyThreadsAndThroughACheckpointInAChange) {
     whole.pack();
     whole.advance(middle);
     whole.save_checkpoint(folder / "middle.grs");
-    const std::int64_t end = plan.steps;  // past the first taps
+    const std::int64_t end = plan.steps;  // after the first taps
     whole.advance(end);
     EXPECT_NEAR(whole.measure("cycles"), plan.clock.cycles(end), 0);
     const Scene next = scene_of(

@@ -1,4 +1,4 @@
-// The energy balance, term by term: each against its closed form, and all together over vibrated beds.
+// Tests of the energy balance: each term against its closed form, and all together over vibrated beds.
 #include "engine/measure/energy.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 namespace grainreel {
 namespace {
 
-// A ball that hits the floor obliquely, followed till it has left.
+// A ball that hits the floor obliquely and is followed until it has left.
 EnergyTerms impact(const PairPlan& pair, NormalForce normal, TangentialLaw tangential, double down,
                    double sideways) {
     const double time = std::numbers::pi * std::sqrt(sphere_mass() / kStiffness);
@@ -40,7 +40,7 @@ TEST(EnergyTerms, LatchingTakesTheAreaOfTheLoop) {
     }
 }
 
-// With S so that e = sqrt(1 / (1 + 3 v s/m)), Walton & Braun 1986; with a table, its e.
+// S is chosen so that e = sqrt(1 / (1 + 3 v s/m)), Walton & Braun 1986. With a table, e comes from the table.
 TEST(EnergyTerms, LatchingFollowsARestitutionThatDependsOnSpeed) {
     const double v = 0.1, kinetic = 0.5 * sphere_mass() * v * v;
     PairPlan pair = walton_braun_pair(0.9, 0);
@@ -61,8 +61,8 @@ TEST(EnergyTerms, DashpotTakesWhatRestitutionSays) {
     EXPECT_EQ(t.latching + t.friction, 0);
 }
 
-// Sliding throughout: the slip falls from v_t by 3.5 mu J / m as the impulse J grows to m (1 + e) v_n, so
-// friction takes mu J v_t - 1.75 mu^2 J^2 / m.
+// The contact slides throughout. The slip falls from v_t by 3.5 mu J / m as the impulse J grows to m (1 + e)
+// v_n, so friction takes mu J v_t - 1.75 mu^2 J^2 / m.
 TEST(EnergyTerms, FrictionTakesForceTimesSlip) {
     const double e = 0.9, mu = 0.2, down = 0.05, sideways = 0.2;
     const double impulse = sphere_mass() * (1 + e) * down;
@@ -72,8 +72,8 @@ TEST(EnergyTerms, FrictionTakesForceTimesSlip) {
     EXPECT_NEAR(t.friction, expected, 5e-3 * expected);
 }
 
-// A ball that slides over a floor until it rolls, under its weight, with strong dashpots: the one along the
-// contact alone passes mu N at first.
+// A ball with strong dashpots slides over a floor under its weight until it rolls. At first the dashpot along
+// the contact alone exceeds mu N.
 struct Slide {
     NormalForce normal;
     TangentialLaw tangential;
@@ -102,8 +102,8 @@ World sliding_ball(const Slide& laws, double e, double mu, double speed) {
     return w;
 }
 
-// What a tangential spring would give back at most: (mu N)^2 / 2 k. It is what the account has of it,
-// whatever the dashpot beside it has left there; so the energy falls all the way, to 5/7 of what it was.
+// A tangential spring can give back at most (mu N)^2 / 2 k. The account counts no more than that, whatever
+// force the dashpot beside it takes; so the energy falls all the way, to 5/7 of what it was.
 TEST(EnergyTerms, ASlidingSpringHoldsNoMoreThanItsCapGivesBack) {
     const double mu = 0.3, speed = 0.2;
     for (const Slide laws : {Slide{NormalForce::spring_dashpot, TangentialLaw::linear_spring},
@@ -161,8 +161,8 @@ ramp = 0
 duration = "1 s"
 )";
 
-// A bed of the scene with steps of `share` times the standard one, let fall for `fall` seconds with a drag of
-// 20 1/s. `vibrated` or not, the walls start to move at step 0.
+// A bed of the scene with steps of `share` times the standard one. It falls for `fall` seconds with a drag of
+// 20 1/s. vibrated: whether the walls start to move at step 0.
 World bed(std::vector<std::string> sets, double share, double fall, bool vibrated) {
     const double step = make_plan(read_scene_text(kBed, "bed.toml", with_tested_precision(sets))).clock.step;
     sets.push_back(fmt::format("run.step={:.17g}", share * step));
@@ -184,7 +184,7 @@ World bed(std::vector<std::string> sets, double share, double fall, bool vibrate
 
 struct Balanced {
     EnergyTerms terms;
-    double residual = 0;  // largest at any step, over the wall work at the end
+    double residual = 0;  // largest at any step, divided by the wall work at the end
 };
 Balanced vibrate(const std::vector<std::string>& sets, double share) {
     World w = bed(sets, share, 0.1, true);
@@ -207,7 +207,7 @@ struct Laws {
 };
 class VibratedBed : public testing::TestWithParam<Laws> {};
 
-// The bound shrinks with the square of the step.
+// The residual falls with the square of the step.
 TEST_P(VibratedBed, BalancesToSecondOrder) {
     for (const double share : {1.0, 0.5}) {
         const Balanced b = vibrate(GetParam().sets, share);
@@ -234,8 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Laws{"hertz_mindlin", {"contact.law=\"hertz\""}, 1e-3}),
     [](const auto& one) { return one.param.name; });
 
-// What the step loop counts as the walls' work is force times velocity, friction included, by the trapezoidal
-// rule.
+// The work of the walls in the step loop is force times velocity, friction included, summed by the
+// trapezoidal rule.
 TEST(EnergyBalance, WallWorkIsForceTimesTheWallsVelocity) {
     World w = bed({"run.contact_corrections=false", "drive.direction=[0.6, 0, 0.8]"}, 1, 0.1, true);
     EnergyBalance balance(w.around, w.grains, *w.loop, 0, w.plan.clock.step);
@@ -261,10 +261,11 @@ TEST(EnergyBalance, WallWorkIsForceTimesTheWallsVelocity) {
     EXPECT_NEAR(balance.terms().wall_work, work, 1e-10 * work);
 }
 
-// What dashpots leave: the velocity at the time of the force is not yet known. What the contact's own force
-// adds to it is solved for; what others add goes on as over the last step, which for v ~ cos(wt) is too much
-// by their share of w^2 dt^2 / 2, and so much more the dashpot takes than its law says. A ball on a floor has
-// no other contact; between a floor and a ceiling half of w^2 is the other's.
+// The error that dashpots leave, because the velocity at the time of the force is not yet known. What the
+// contact's own force adds to the velocity is solved for. What other forces add is assumed to go on as over
+// the last step. For v ~ cos(wt) this is too much by their share of w^2 dt^2 / 2, and the dashpot takes so
+// much more than its law says. A ball on a floor has no other contact; between a floor and a ceiling the
+// other contact has half of w^2.
 TEST(EnergyBalance, DashpotsErrByWhatOtherContactsDo) {
     const double natural = std::sqrt(kStiffness / sphere_mass()), beta = 0.01, sink = 1e-5;
     for (const int walls : {1, 2}) {
@@ -291,7 +292,7 @@ TEST(EnergyBalance, DashpotsErrByWhatOtherContactsDo) {
     }
 }
 
-// Largest rise of the energy that can be had back, over what a bed in a still container loses in 0.1 s.
+// The largest rise of the recoverable energy, divided by what a bed in a still container loses in 0.1 s.
 double rise_at_rest(const std::vector<std::string>& sets, double share) {
     World w = bed(sets, share, 0, false);
     const double start = w.energy();
@@ -307,7 +308,7 @@ double rise_at_rest(const std::vector<std::string>& sets, double share) {
     return rise / (start - lowest);
 }
 
-// The energy never rises beyond an error of the step that shrinks with its square, and that of rounding.
+// The energy rises only by the step's error, which falls with the square of the step, and by rounding.
 TEST(EnergyAtRest, RisesByTheStepsErrorOnly) {
     const double rounding = tested_precision() == Precision::mixed ? 5e-5 : 0;
     for (const char* set : {"run.contact_corrections=true", "run.contact_corrections=false",
@@ -321,8 +322,9 @@ TEST(EnergyAtRest, RisesByTheStepsErrorOnly) {
     EXPECT_LT(rise_at_rest({"contact.law=\"spring-dashpot\"", "contact.tangential_damping=0"}, 1), 3e-4);
 }
 
-// With a tangential dashpot the spring keeps what the cap leaves it, T - c v, as in LAMMPS' hooke/history.
-// The account has of that what the cap lets it give back; what is left is how N changes meanwhile.
+// With a tangential dashpot the spring keeps what Coulomb's limit leaves it, T - c v, as in LAMMPS'
+// hooke/history. The account has what the spring can give back within the limit. The remaining error comes
+// from the change of N meanwhile.
 TEST(EnergyAtRest, RisesHardlyWithATangentialDashpot) {
     for (const char* law : {"contact.law=\"spring-dashpot\"", "contact.law=\"hertz\""})
         for (const double share : {1.0, 0.5}) EXPECT_LT(rise_at_rest({law}, share), 1e-4) << law;

@@ -1,5 +1,5 @@
-// The energy balance as an instrument of a run: its terms are what is lost, at any number of threads and when
-// a run is taken up again.
+// Tests of the energy balance as an instrument of a run: its terms add up to what is lost, at any number of
+// threads and when a run is resumed.
 #include "engine/measure/energy_observers.hpp"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ TEST(EnergyShares, AddUpToWhatIsLost) {
     EXPECT_GT(m.at("latching_J"), 0);
     EXPECT_GT(m.at("friction_J"), 0);
     EXPECT_EQ(m.at("damping_J"), 0);  // no dashpots here
-    // wall_work_J has the last force for a whole step, the balance for half of it. At this moment the bed
-    // pushes with no more than some times its weight.
+    // wall_work_J counts the last force for a whole step, and the balance counts it for half a step. At this
+    // moment the bed pushes with at most a few times its weight.
     double weight = 0;
     for (const Species& species : scene.species)
         weight += static_cast<double>(species.count) * species.density * std::numbers::pi / 6 *

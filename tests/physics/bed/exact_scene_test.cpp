@@ -1,4 +1,4 @@
-// Scenes with grains and planes placed by hand, run as a user runs them.
+// Tests of scenes with grains and planes placed by hand, run as a user runs them.
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
@@ -22,8 +22,9 @@ Scene scene_of(const std::string& text, const std::vector<std::string>& sets = {
     return read_scene_text(text, "test.toml", with_tested_precision(sets));
 }
 
-// Two balls and a plane that rises at w: the first ball hits the second, which stands still, then the plane
-// hits both. Without friction: 0.1 and 0.9 of the speed along y, and (1 + e) w upwards for each.
+// There are two balls and a plane that rises at w. The first ball hits the second, which stands still; then
+// the plane hits both. Without friction they get 0.1 and 0.9 of the speed along y, and (1 + e) w upwards
+// each.
 TEST(ExactScene, TwoCollisionsAsOnPaper) {
     const Frame end = end_of(scene_of(exact_text, {"contact.friction=0", "run.steps_per_contact=400"}));
     ASSERT_EQ(end.size(), 2u);
@@ -72,7 +73,7 @@ TEST(ExactScene, GrainsInEachOtherOrBehindAPlaneAreMistakes) {
               "test.toml:19:1: the grain lies beyond the wall 1; move one of the two");
 }
 
-// A plane that follows the drive beside one that stands still.
+// One plane follows the drive and stands beside one that does not move.
 TEST(ExactScene, PlanesFollowTheDriveWhereAsked) {
     const std::string text = with(exact_text, "velocity = [0, 0, \"10 cm/s\"]", "moves = true") +
                              "[drive]\nfrequency = 50\namplitude = 0.002\nramp = 0\n";

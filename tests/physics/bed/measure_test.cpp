@@ -1,4 +1,4 @@
-// Segregation indices on states whose index is known.
+// Tests of segregation indices on states whose index is known.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Lattice {
     std::vector<std::uint8_t> marked;
 };
 
-// 16 x 16 x 32 sites; a site is marked when `mark(x, y, z)`.
+// A lattice of 16 x 16 x 32 sites. A site is marked where mark(x, y, z) is true.
 template <class Mark>
 Lattice lattice(const Mark& mark) {
     Lattice l;
@@ -60,8 +60,8 @@ TEST(Lacey, IsUndefinedForOneSpecies) {
     EXPECT_TRUE(std::isnan(lacey_of(l)));
 }
 
-// A bed of 32 layers of which the lowest, or the lowest three, are of the rare kind: one grain a sample of 32
-// on average, or three.
+// In a bed of 32 layers the lowest one, or the lowest three, are of the rare kind. A sample of 32 grains
+// holds one of them on average, or three.
 TEST(Lacey, IsUndefinedWhereSamplesHoldFewOfAKind) {
     const Lattice one = lattice([](int, int, int z) { return z < 1; });
     EXPECT_TRUE(std::isnan(lacey_of(one)));
@@ -75,7 +75,7 @@ TEST(Intensity, IsOneWhenHalvesAreApart) {
     EXPECT_NEAR(intensity_of(lattice([](int, int, int z) { return z < 16; })), 1, 1e-12);
 }
 
-// 256 samples of n = 32 scatter by sqrt(2 / 255) of the 1 / n of chance.
+// In 256 samples of n = 32 the value scatters by sqrt(2 / 255) of the 1 / n of chance.
 TEST(Intensity, IsOneOverTheSampleInARandomMixture) {
     Random random(5, Stream::centres);
     const Lattice l = lattice([&](int, int, int) { return random.uniform() < 0.3; });
@@ -86,8 +86,8 @@ TEST(Intensity, IsZeroForAnOrderedMixture) {
     EXPECT_NEAR(intensity_of(lattice([](int x, int y, int z) { return (x + y + z) % 2; })), 0, 1e-12);
 }
 
-// One layer of 32 is rare, and Lacey's index has nothing to say. Samples are four layers high: one in eight
-// has a share of 1/4.
+// One layer of 32 is rare, so Lacey's index is undefined. Samples are four layers high: one in eight has a
+// share of 1/4.
 TEST(Intensity, SeesALayerOfFewGrains) {
     const Lattice l = lattice([](int, int, int z) { return z < 1; });
     const double p = 1.0 / 32, variance = 1.0 / 8 * (1.0 / 4) * (1.0 / 4) - p * p;
@@ -120,8 +120,8 @@ TEST(ShareAbove, IsTheShareOfPairs) {
     EXPECT_EQ(above(these, those), pairs / (40 * 20));
 }
 
-// Where sizes are handed out without regard to height, U has the mean n m / 2 and the variance
-// n m (n + m + 1) / 12 (Mann and Whitney 1947).
+// If sizes are given out without regard to height, U has the mean n m / 2 and the variance n m (n + m + 1) /
+// 12 (Mann and Whitney 1947).
 TEST(ShareAbove, IsHalfInARandomMixture) {
     Random random(2, Stream::centres);
     std::vector<double> these, those;
@@ -130,7 +130,7 @@ TEST(ShareAbove, IsHalfInARandomMixture) {
     EXPECT_NEAR(share_above(these, those), 0.5, 4 * std::sqrt((n + m + 1) / (12 * n * m)));
 }
 
-// Radius 1/2 on the lattice of measure 1: six neighbours each within the bed.
+// Grains of radius 1/2 on the lattice of spacing 1 have six neighbours each inside the bed.
 double unlike_of(const Lattice& l) {
     LargeArray<Place> place;
     std::vector<std::int32_t> species;
@@ -143,7 +143,7 @@ double unlike_of(const Lattice& l) {
 
 constexpr double kSites = 16 * 16 * 32, kBonds = 2 * 15 * 16 * 32 + 16 * 16 * 31;
 
-// Share of unlike pairs among all, whoever is a neighbour of whom.
+// The share of unlike pairs among all pairs, if neighbours are chosen at random.
 double chance(double marked) {
     return marked * (kSites - marked) / (kSites * (kSites - 1) / 2);
 }
@@ -169,8 +169,8 @@ TEST(UnlikeNeighbours, OfASingleGrainAreAllItHas) {
     EXPECT_NEAR(unlike_of(corner), 3 / kBonds / chance(1), 1e-12);
 }
 
-// Labels by chance, one half each: every pair is unlike with probability 1/2, and no two pairs know of each
-// other (Moran 1948, J. R. Stat. Soc. B 10, 243), so that the index scatters by 1 / sqrt(pairs).
+// Labels are drawn by chance, one half each. Every pair is unlike with probability 1/2, and pairs are
+// independent (Moran 1948, J. R. Stat. Soc. B 10, 243), so the index scatters by 1 / sqrt(pairs).
 TEST(UnlikeNeighbours, AreAsByChanceInARandomMixture) {
     Random random(5, Stream::centres);
     const Lattice l = lattice([&](int, int, int) { return random.uniform() < 0.5; });
@@ -182,7 +182,8 @@ TEST(UnlikeNeighbours, AreUndefinedForOneSpeciesAndForGrainsFarApart) {
     EXPECT_TRUE(std::isnan(unlike_neighbours({{{0, 0, 0}, 0.5}, {{2, 0, 0}, 0.5}}, {0, 1}, 0.9, 0)));
 }
 
-// Sizes from 1 to 20, three species, with and without a period: the same as by all pairs of grains.
+// Sizes go from 1 to 20, with three species, with and without a period. The result is the same as by a search
+// over all pairs of grains.
 TEST(UnlikeNeighbours, AreThoseOfASearchOverAllPairs) {
     for (const double period : {0.0, 0.1}) {
         Random random(9, Stream::centres);

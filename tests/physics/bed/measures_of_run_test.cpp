@@ -1,4 +1,4 @@
-// Every number of a row of measures.csv against what frame and contacts say.
+// Tests of every number in a row of measures.csv against what frame and contacts say.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -44,7 +44,7 @@ double sum_of_energies(const Measures& m) {
     return m.at("kinetic_J") + m.at("rotational_J") + m.at("gravitational_J") + m.at("elastic_J");
 }
 
-// A box that is shaken up and down, and what its walls have done.
+// A box that is shaken up and down, and the work of its walls.
 struct Watched {
     explicit Watched(const std::string& friction)
         : scene(read_scene_text(kBox, "box.toml", with_tested_precision({"contact.friction=" + friction}))),
@@ -55,7 +55,7 @@ struct Watched {
         power = wall_power();
     }
 
-    // W, of the walls on the grains now: force on the grain times the wall's velocity.
+    // Power (W) that the walls give the grains now: force on each grain times the wall's velocity.
     double wall_power() const {
         const std::vector<Face> faces = container_faces(scene.container, scene.drive);
         const Vec3 velocity = simulation.frame().container().velocity;
@@ -80,7 +80,8 @@ struct Watched {
     double power = 0, work = 0;  // W, J
 };
 
-// J, of the linear springs between bodies that overlap; also the largest overlap over the smaller radius.
+// Energy (J) of the linear springs between bodies that overlap, and the largest overlap divided by the
+// smaller radius.
 std::pair<double, double> springs(const Watched& w, const Frame& f) {
     const std::size_t kinds = w.scene.species.size();
     double energy = 0, largest = 0;
@@ -169,7 +170,7 @@ TEST(MeasuresOfARun, AreThoseOfFrameAndContacts) {
         expect_grains(w, f, m);
         expect_order(f, m);
         const auto [elastic, largest_overlap] = springs(w, f);
-        // Friction's springs come on top.
+        // With friction the tangential springs add to the energy.
         if (friction == std::string("0"))
             EXPECT_NEAR(m.at("elastic_J"), elastic, 1e-6 * elastic);
         else

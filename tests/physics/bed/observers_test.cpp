@@ -1,4 +1,4 @@
-// Who looks, and how often; and every column on three grains whose numbers are plain.
+// Tests of observers: when they look, and what each column says of three grains with simple numbers.
 #include "engine/measure/observers.hpp"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ ContactView touch(std::int32_t second, double overlap, double force, double ener
     return c;
 }
 
-// A pair, a wall, and a pair that touches without force.
+// Shows three contacts: a pair, a wall, and a pair that touches without force.
 void three_contacts(const std::function<void(const ContactView&)>& see) {
     see(touch(1, 0.01, 5, 0.5));
     see(touch(-1, 0.03, 5, 0.25));
@@ -105,7 +105,7 @@ Observers those_of(const std::vector<std::string>& instruments) {
     return {{entry_of<Plain>(), entry_of<First>(), entry_of<Second>()}, scene, Plan()};
 }
 
-// Adds up the heights (m) of the floor at every third step, and says at how many moments.
+// Sums the heights (m) of the floor at every third step, and counts the moments.
 struct Gathering final : Observer {
     static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"sum_m", "sum", Dimension::length}, {"moments", "moments"}}, "m, 1", "of a test"}};
@@ -196,11 +196,11 @@ TEST(Observers, TakeUpWhatTheyHadGathered) {
     Bytes in(bytes);
     next.load(bed.moment(5), in);
     EXPECT_FALSE(in.failed());
-    next.start(bed.moment(5), no_contacts);  // nobody is left to start
+    next.start(bed.moment(5), no_contacts);  // no observer is left to start
     EXPECT_EQ(next.look(bed.moment(5), no_contacts).values(),
               first.look(bed.moment(5), no_contacts).values());
     EXPECT_EQ(saved(next), bytes);
-    // The state of a run that measured nothing of it.
+    // This is the state of a run that measured nothing with these observers.
     Bytes nothing("");
     fresh.load(bed.moment(5), nothing);
     fresh.start(bed.moment(5), no_contacts);
@@ -222,11 +222,11 @@ TEST(Observers, BelieveNothingThatWasSaved) {
     for (std::size_t size = 1; size < bytes.size(); ++size) EXPECT_FALSE(is_taken(bytes.substr(0, size)));
     EXPECT_FALSE(is_taken(bytes + bytes)) << "twice";
     std::string huge = bytes, negative = bytes;
-    huge[7] = '\x7f';  // the length of the name
+    huge[7] = '\x7f';  // in the length of the name
     EXPECT_FALSE(is_taken(huge));
-    negative.back() = '\xbf';  // the sign of the number of moments
+    negative.back() = '\xbf';  // in the sign of the number of moments
     EXPECT_FALSE(is_taken(negative));
-    // What another program's observers had gathered is passed over.
+    // What observers of another program gathered is passed over.
     std::string other = bytes;
     other[8] = 'x';
     EXPECT_TRUE(is_taken(other));
@@ -243,7 +243,7 @@ TEST(Observers, GiveEveryColumnOfThreeGrains) {
     const double high = 10 * (2 * small * 2 + big * 5);
     const double nan = std::nan("");
     const double u = 2.5 / 3, grown = u * u * u * (10 - 15 * u + 6 * u * u);
-    // Bed height: of three centres, the index 0.95 * 2 is the second, 1.5 above the floor.
+    // The bed height of three centres: the index 0.95 * 2 gives the second one, 1.5 above the floor.
     const std::vector<std::pair<std::string, double>> expected{
         {"step", 2500},
         {"time_s", 0.025},
@@ -271,11 +271,11 @@ TEST(Observers, GiveEveryColumnOfThreeGrains) {
         {"big_in_top_quarter", 1},
         {"big_in_bottom_quarter", 0},
         {"big_at_walls", 0},
-        // All three are neighbours of each other: two pairs of three are unlike; by chance pairs weigh
-        // (r + r)^2, the like one 4 and each unlike one 9.
+        // All three are neighbours of each other, and two of three pairs are unlike. By chance, pairs weigh
+        // (r + r)^2: the like one 4 and each unlike one 9.
         {"unlike_neighbours", (2.0 / 3) / (18.0 / 22)},
         {"lacey", nan},
-        // Two samples: one small grain, and one of each.
+        // There are two samples: one has one small grain, the other has one of each.
         {"intensity", (1.0 / 9 + 1.0 / 36) / 2 / (2.0 / 9)},
         {"contact_number", (2 + 1) / 3.0},
         {"fabric_anisotropy", 1},

@@ -1,4 +1,4 @@
-// Jammed packings: random close packing without friction, looser with.
+// Tests of jammed packings: random close packing without friction, and looser packing with friction.
 #include "engine/lab/chart/validation/packing.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-// A sphere cut by planes: whole, half, quarter, and the cap pi h^2 (r - h/3).
+// A sphere that planes cut is whole, half, a quarter, or the cap pi h^2 (r - h/3).
 TEST(Packing, VolumesOfCutSpheresAreExact) {
     const double r = 0.7, whole = 4.0 / 3 * pi * r * r * r, far = 10, h = 0.3;
     const Vec3 low(-far, -far, -far), centre(0, 1, 2);
@@ -25,9 +25,9 @@ TEST(Packing, VolumesOfCutSpheresAreExact) {
     EXPECT_EQ(up_to(1 - r, far), 0);
 }
 
-// O'Hern, Silbert, Liu & Nagel (2003, Phys. Rev. E 68, 011306), infinite systems: 0.639 +- 0.001 and
+// O'Hern, Silbert, Liu & Nagel (2003, Phys. Rev. E 68, 011306) found for infinite systems 0.639 +- 0.001 and
 // 5.97 +- 0.03, isostatic, and z - z_c = (7.9 +- 0.5) sqrt(phi - phi_c). The tolerances are three times the
-// scatter of seeds in a packing as small as this.
+// scatter of seeds in a packing as small as this one.
 TEST(Packing, SmoothSpheresJamAtRandomClosePacking) {
     JammedPacking packing;
     packing.grains = 1500;
@@ -40,9 +40,9 @@ TEST(Packing, SmoothSpheresJamAtRandomClosePacking) {
     EXPECT_NEAR(point.rise, 7.9, 1.5);
 }
 
-// Silbert (2010, Soft Matter 6, 2918): with friction from close to loose random packing, 0.555 (Onoda &
-// Liniger 1990, Phys. Rev. Lett. 64, 2727), and from about six contacts to four. Means of packings: the
-// contacts of one as small as these scatter by 0.15 (8 of them: 3.98 to 4.44).
+// Silbert (2010, Soft Matter 6, 2918): with friction a packing goes from close to loose random packing, 0.555
+// (Onoda & Liniger 1990, Phys. Rev. Lett. 64, 2727), and from about six contacts to four. These are means of
+// packings, because the contacts of a single one of this size scatter by 0.15 (8 of them: 3.98 to 4.44).
 TEST(Packing, RoughSpheresJamLooser) {
     constexpr int packings = 4;
     double solid_fraction = 0, contacts = 0;

@@ -1,4 +1,5 @@
-// After how many periods a bed repeats itself: made series, and a ball on a shaken plate.
+// Tests of the number of periods after which a bed repeats itself, on made series and on a ball on a shaken
+// plate.
 #include "engine/measure/bed/bed_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 constexpr double kDiameter = 1;
 constexpr int kPhases = PeriodMultiple::kPhases;
 
-// height(t): t in periods.
+// height(t) takes t in periods.
 template <class Height>
 int multiple_of(int periods, const Height& height, std::int64_t first = 0) {
     PeriodMultiple multiple(kDiameter);
@@ -41,8 +42,8 @@ TEST(PeriodMultiple, IsThePeriodOfASeries) {
     EXPECT_EQ(multiple_of(40, [](double t) { return wave(t, 1) + wave(t, 5); }), 1) << "too long to be seen";
 }
 
-// Against the period before, a wave of amplitude A and two periods differs by one of amplitude 2 A, and by
-// nothing from two periods before. Its root mean square over whole waves is sqrt(2) A.
+// A wave of amplitude A and two periods differs from the period before by a wave of amplitude 2 A, and by
+// nothing from two periods before. The root mean square over whole waves is sqrt(2) A.
 TEST(PeriodMultiple, DifferenceIsTheRootMeanSquare) {
     PeriodMultiple multiple(kDiameter);
     for (std::int64_t n = 0; n < 12 * kPhases; ++n)
@@ -50,7 +51,8 @@ TEST(PeriodMultiple, DifferenceIsTheRootMeanSquare) {
     EXPECT_NEAR(multiple.difference(), std::numbers::sqrt2 * 0.3, 1e-12);
 }
 
-// A tenth of a grain: sin of period 2 changes by twice its amplitude, root mean square sqrt(2) times it.
+// The limit is a tenth of a grain. A sine of period 2 changes by twice its amplitude, whose root mean square
+// is sqrt(2) times the amplitude.
 TEST(PeriodMultiple, DoesNotSeeWhatIsSmallAgainstAGrain) {
     const auto series = [](double amplitude) {
         return [amplitude](double t) { return wave(t, 1) + amplitude * wave(t, 2); };
@@ -81,7 +83,7 @@ TEST(PeriodMultiple, IsKnownAfterAsManyPeriodsAsItSays) {
     EXPECT_EQ(multiple_of(40 + wanted + more, stops), 1);
 }
 
-// A period of two, in which every second pair differs a little, or a few periods slip, is one of two.
+// A bed of two periods stays one of two if every second pair differs a little, or if a few periods slip.
 TEST(PeriodMultiple, StaysThroughASlipAndASmallModulation) {
     EXPECT_EQ(multiple_of(60, [](double t) { return wave(t, 2) + 0.2 * wave(t, 4); }), 2);
     EXPECT_EQ(multiple_of(60, [](double t) { return wave(t, 2) + wave(t, 4); }), 4);

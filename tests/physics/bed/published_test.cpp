@@ -1,4 +1,4 @@
-// Oblique impacts against what experiments found.
+// Tests of oblique impacts against experiments.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,10 @@ ImpactLaw incremental_slip(double e, double mu, double ratio) {
     return {NormalForce::walton_braun, TangentialLaw::incremental_slip, e, mu, ratio, tested_precision()};
 }
 
-// Kharaz, Gorham & Salman (2001, Powder Technol. 120, 281): 5 mm alumina on thick glass, e = 0.98, mu = 0.092
-// at all angles. Where the ball slides throughout, above 3.5 mu (1 + e) in tan (their figures 5 and 6 follow
-// it from about 30 degrees on): tangential restitution 1 - mu (1 + e) / tan, spin 2.5 mu (1 + e) cos / r.
+// Kharaz, Gorham & Salman (2001, Powder Technol. 120, 281): 5 mm alumina on thick glass has e = 0.98 and mu =
+// 0.092 at all angles. The ball slides throughout if tan is above 3.5 mu (1 + e); figures 5 and 6 follow this
+// from about 30 degrees on. Then the tangential restitution is 1 - mu (1 + e) / tan and the spin is 2.5 mu (1
+// + e) cos / r.
 TEST(Published, AluminaOnGlassSlidesAsKharazFound) {
     const double e = 0.98, mu = 0.092;
     for (const double degrees : {40.0, 50.0, 60.0, 70.0, 80.0}) {
@@ -30,8 +31,8 @@ TEST(Published, AluminaOnGlassSlidesAsKharazFound) {
     }
 }
 
-// Their points, read off their figures to about 0.01; below 28 degrees, where it sticks for a while, laws
-// differ (chart validation shows by how much).
+// These are their points, read off their figures to about 0.01. Below 28 degrees the ball sticks for a while
+// and laws differ (the chart `validation` shows by how much).
 TEST(Published, AluminaOnGlassGoesThroughKharazPoints) {
     for (const kharaz::Point& p : kharaz::tangential_restitution) {
         if (p.degrees < 28) continue;
@@ -41,9 +42,10 @@ TEST(Published, AluminaOnGlassGoesThroughKharazPoints) {
     }
 }
 
-// Foerster, Louge, Chang & Allia (1994, Phys. Fluids 6, 1108), binary impacts: glass e = 0.97, mu = 0.092,
-// beta0 = 0.44; cellulose acetate 0.87, 0.25, 0.43. Their plot: with Psi the slip over the normal speed
-// before, Psi2 = Psi1 - 3.5 (1 + e) mu where it slides, -beta0 Psi1 where it sticks.
+// Foerster, Louge, Chang & Allia (1994, Phys. Fluids 6, 1108) measured impacts of two grains: glass e = 0.97,
+// mu = 0.092, beta0 = 0.44; cellulose acetate 0.87, 0.25, 0.43. In their plot Psi is the slip divided by the
+// normal speed before the impact. Psi2 = Psi1 - 3.5 (1 + e) mu where the contact slides, and -beta0 Psi1
+// where it sticks.
 TEST(Published, GlassAndAcetateReboundAsFoersterFound) {
     struct Material {
         double e, mu, beta0, uncertainty;

@@ -1,4 +1,4 @@
-// Closed forms of rolling, sliding and resting on a floor.
+// Tests of closed forms of rolling, sliding and resting on a floor.
 #include <gtest/gtest.h>
 
 #include "tests/physics/world.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-// A ball in equilibrium on the loading branch of the floor.
+// A ball in equilibrium on the loading branch of the floor's spring.
 World ball_on_floor(double mu, const Vec3& gravity, TangentialLaw law = TangentialLaw::incremental_slip) {
     World w = make_world(walton_braun_pair(0.9, mu), 2e-6, NormalForce::walton_braun, law);
     w.around.faces = {floor_face()};
@@ -81,7 +81,7 @@ TEST(OnTheFloor, SpringDashpotBallRestsAtItsWeightOverStiffness) {
     EXPECT_NEAR(kRadius - w.position(0).z(), sink, 1e-4 * sink);
 }
 
-// Released at touch, a Walton-Braun ball swings for ever between 2(1 - e^2) mg/K1 and 2 mg/K1.
+// A Walton-Braun ball that is released when it touches swings for ever between 2(1 - e^2) mg/K1 and 2 mg/K1.
 TEST(OnTheFloor, WaltonBraunBallSwingsOnItsLatchedBranch) {
     const double e = 0.7;
     World w = make_world(walton_braun_pair(e, 0), 1e-7, NormalForce::walton_braun, TangentialLaw::none);

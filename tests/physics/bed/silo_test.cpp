@@ -1,4 +1,4 @@
-// A silo's walls carry part of the weight.
+// Tests that a silo's walls carry part of the weight.
 #include "engine/lab/chart/validation/silo.hpp"
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ TEST(Silo, TheFitFindsTheRatioOfItsOwnLaw) {
     EXPECT_NEAR(fit_janssen(loads).residual, 0, 1e-5);
 }
 
-// Janssen (1895, Z. Ver. Dtsch. Ing. 39, 1045): the floor carries (1 - exp(-4 mu K h)) / (4 mu K) of a column
-// one bore high. One K fits both heights, and it is the ratio of the pressures times the share of
-// the wall's friction that is mobilised, both summed from the contacts.
+// Janssen (1895, Z. Ver. Dtsch. Ing. 39, 1045): the floor carries (1 - exp(-4 mu K h)) / (4 mu K) of the
+// weight of a column that is one bore high. One K fits both heights. It is the ratio of the pressures times
+// the share of the walls' friction that is mobilised, both summed from the contacts.
 TEST(Silo, TheFloorCarriesWhatJanssenSays) {
     std::vector<SiloLoad> loads;
     double from_forces = 0;
@@ -41,7 +41,7 @@ TEST(Silo, TheFloorCarriesWhatJanssenSays) {
 }
 
 // Grains that slide down the wall everywhere use nearly all of its friction: 0.863 in the mean of 60 columns,
-// and one of them is off by 0.03. The bound is three standard errors below.
+// with a deviation of 0.03 for one of them. The bound is three standard errors lower.
 TEST(Silo, TheWallsFrictionIsMobilised) {
     constexpr int columns = 4;
     double mobilised = 0;

@@ -1,5 +1,5 @@
-// A ball on a plate that moves as a sine, against the closed forms of a point that bounces at once (Mehta &
-// Luck 1990, Phys. Rev. Lett. 65, 393; Pieranski 1983, J. Phys. France 44, 573).
+// Tests of a ball on a plate that moves as a sine, against the closed forms of a point that bounces at once
+// (Mehta & Luck 1990, Phys. Rev. Lett. 65, 393; Pieranski 1983, J. Phys. France 44, 573).
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 constexpr double kGravity = 9.81, kFrequency = 20;
 
-// Steps that divide the period, at most `longest` seconds.
+// A world with a step that divides the period and is at most `longest` seconds.
 World plate(double g_level, double phase, double ramp, double longest, NormalForce law, PairPlan pair) {
     Drive drive;
     drive.present = true;
@@ -33,7 +33,7 @@ World plate(double g_level, double phase, double ramp, double longest, NormalFor
     return w;
 }
 
-// A ball at rest on the plate stays as long as the plate never falls faster than it would.
+// A ball at rest on the plate stays there as long as the plate never falls faster than the ball would.
 TEST(SinePlate, BallLeavesAtOneG) {
     for (const double g_level : {0.98, 1.02}) {
         PairPlan pair = walton_braun_pair(1, 0);
@@ -50,8 +50,8 @@ TEST(SinePlate, BallLeavesAtOneG) {
     }
 }
 
-// In periods, from touch to touch. The ball leaves the plate at `phase` (turns) with a velocity that brings
-// it back after n periods, if the plate is then as high.
+// Flight times in periods, from touch to touch. The ball leaves the plate at `phase` (turns) with a velocity
+// that brings it back after n periods, if the plate is then as high.
 std::vector<double> flights(double g_level, double e, int n, double phase, int count) {
     const double contact = pi * std::sqrt(sphere_mass() / kStiffness);
     World w =
@@ -75,7 +75,7 @@ std::vector<double> flights(double g_level, double e, int n, double phase, int c
     return result;
 }
 
-// Gamma cos(phase) = n pi (1 - e) / (1 + e), the phase being that of the touch.
+// Gamma cos(phase) = n pi (1 - e) / (1 + e), where phase is that of the touch.
 double threshold(int n, double e) {
     return n * pi * (1 - e) / (1 + e);
 }
@@ -97,7 +97,7 @@ TEST(SinePlate, KeepsAnOrbitOfNPeriodsAboveItsThresholdOnly) {
     }
 }
 
-// Gamma^2 = [n pi (1 - e) / (1 + e)]^2 + [2 (1 + e^2) / (1 + e)^2]^2: beyond, long and short flights
+// Beyond Gamma^2 = [n pi (1 - e) / (1 + e)]^2 + [2 (1 + e^2) / (1 + e)^2]^2, long and short flights
 // alternate.
 TEST(SinePlate, PeriodDoublesWhereTheClosedFormSays) {
     for (const double e : {0.5, 0.8}) {

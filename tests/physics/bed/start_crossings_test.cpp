@@ -1,4 +1,4 @@
-// Starts from a file together with what else a scene may have.
+// Tests of starts from a file in scenes with other features.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,8 @@ diameter = "18 mm"
 height = "50 mm"
 )";
 
-// With what else a scene may have; the same bits on any number of threads, and from a checkpoint on the way.
+// Whatever else the scene has, the bits are the same on any number of threads and from a checkpoint on the
+// way.
 TEST_F(StartCrossings, IsAlikeInEveryContainer) {
     const std::string rolls = "contact.rolling_friction=0.1", round = "container.periodic_depth=true";
     const std::string glued = "container.wall_grains={species=\"beads\", faces=[\"floor\"]}";
@@ -70,7 +71,7 @@ TEST_F(StartCrossings, IsAlikeInEveryContainer) {
     }
 }
 
-// Only the walls have another law: contacts between grains go on, those at walls begin anew.
+// Only the walls get another law: contacts between grains go on, and contacts with walls begin anew.
 TEST_F(StartCrossings, HistoriesAreKeptKindByKind) {
     const std::string big = "[[species]]\nname = \"big\"\ncount = 5\ndiameter = \"7 mm\"\ndensity = 2500\n";
     const Rest before = settle(scene_of(big + kBox, {}));

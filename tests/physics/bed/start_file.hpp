@@ -56,7 +56,7 @@ class StartFile : public testing::Test {
         return {run.measure("contact_number"), run.measure("centre_z_m"),
                 (run.measure("kinetic_J") + run.measure("rotational_J")) / unit};
     }
-    // A bed that has settled and then lain still, in both files.
+    // A bed that has settled and then lain still. It is written into both files.
     Rest settle(const Scene& scene, double still = 0.02) const {
         const Plan plan = make_plan(scene);
         Simulation run(scene, plan, 1);
@@ -66,7 +66,8 @@ class StartFile : public testing::Test {
         run.save_checkpoint(here / "checkpoint.grs");
         return rest_of(run, scene);
     }
-    // Runs on for `seconds`; contacts within `share` of before at every look, and nothing moves.
+    // Runs for `seconds` and checks at every look that the contacts stay within `share` of those before and
+    // that nothing moves.
     static void expect_rest(const Scene& scene, const Rest& before, double share, const std::string& what,
                             double seconds = 0.02) {
         const Plan plan = make_plan(scene);

@@ -1,5 +1,5 @@
-// Runs that start anew from a file: a bed at rest stays at rest, whatever the law, and one that moves is
-// never damped.
+// Tests of runs that start anew from a file: a bed at rest stays at rest whatever the law, and a bed that
+// moves is never damped.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,8 +69,9 @@ TEST_F(StartFile, TheStiffnessOfTheSceneWins) {
     EXPECT_NEAR(run.measure("centre_z_m"), before.height, 0.02 * kBedDiameter);
 }
 
-// A table alone tells only the overlaps. Those of springs carry the weight at the stiffness that made
-// them; latched ones are larger than their forces, and the plan's own conditions give more.
+// A table alone has only the overlaps. Overlaps of springs carry the weight at the stiffness that made them.
+// Overlaps of latched contacts are larger than their forces need, so the plan's own conditions give a higher
+// stiffness.
 TEST_F(StartFile, OverlapsTellTheStiffness) {
     for (const std::string& name : kLaws) {
         const std::vector<std::string> sets = {law(name), "contact.friction=0"};
@@ -92,7 +93,7 @@ TEST_F(StartFile, OverlapsTellTheStiffness) {
     }
 }
 
-// In free fall: the velocities of the file are those of the run, in both files and whatever the law.
+// The bed falls freely. The velocities of the file are those of the run, in both files and whatever the law.
 TEST_F(StartFile, ABedThatMovesKeepsItsMomentum) {
     const std::string drive = "[drive]\nfrequency = \"20 Hz\"\ng_level = 3\n[film]\nsegment = [{}]\n";
     const Scene scene = scene_of(kBox + drive, {"run.duration=0.3"});
@@ -130,7 +131,7 @@ TEST_F(StartFile, OtherSurroundingsAreSaid) {
     EXPECT_TRUE(make_plan(next_of(kBox, "final.csv", {"container.top=open"})).start.relaxes);
 }
 
-// Alone, a table does not say where the walls were. A bed that has lost one flows, and starts as it is.
+// A table alone does not say where the walls were. A bed that has lost a wall flows, and starts as it is.
 TEST_F(StartFile, ABedWithoutItsWallsIsTakenBack) {
     settle(scene_of(kBox, {}));
     fs::remove(here / "checkpoint.grs");
@@ -148,7 +149,7 @@ TEST_F(StartFile, ABedWithoutItsWallsIsTakenBack) {
     }
 }
 
-// A bed whose histories are kept goes on as one that never stopped, up to rounding.
+// A bed whose histories are kept continues as one that never stopped, up to rounding.
 TEST_F(StartFile, KeptHistoriesGoOnAsBefore) {
     for (const std::string& name : kLaws) {
         const Scene scene = scene_of(kBox, {law(name), "contact.rolling_friction=0.1"});

@@ -1,4 +1,5 @@
-// Forces on walls: against the momentum of the grains, against statics, and the same whatever the threads.
+// Tests of forces on walls: against the momentum of the grains, against statics, and with any number of
+// threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +49,7 @@ double mass(const Scene& scene) {
 
 class WallForces : public testing::TestWithParam<const char*> {};
 
-// The grains' weight and the walls are all that changes their momentum.
+// Only the grains' weight and the walls change their momentum.
 TEST_P(WallForces, ImpulseIsWeightTimesTimeLessTheChangeOfMomentum) {
     const Scene scene = scene_of(test::small_scene_text, {std::string("run.integrator=") + GetParam()});
     const Plan plan = make_plan(scene);
@@ -79,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, WallForces,
                              return name;
                          });
 
-// One grain that has come to rest. Dashpots bring it there.
+// A scene with one grain that comes to rest by dashpots.
 constexpr const char* kOneGrain = R"([[species]]
 name = "ball"
 diameter = "4 mm"
@@ -146,14 +147,14 @@ TEST(WallForcesAtRest, AWedgeCarriesAGrainOnBothSides) {
     EXPECT_LT((force_on(m, "right_slant") - push * Vec3(0, std::cos(angle), -std::sin(angle))).norm(),
               accuracy);
     EXPECT_NEAR(m.at("left_slant_carries"), 0.5, of_rounding(1e-9, 1e-5));
-    // Moments about the middle of the floor: the grain is touched at 2 mm along the slants' normals.
+    // Moments are taken about the middle of the floor. The slants touch the grain 2 mm along their normals.
     for (const auto& [slant, side] : {std::pair{"left_slant", -1}, {"right_slant", 1}}) {
         const Vec3 touched(0.001, side * 0.002 * std::cos(angle), 0.002216);
         EXPECT_LT((moment_on(m, slant) - touched.cross(force_on(m, slant))).norm(), 1e-3 * 0.002 * push)
             << slant;
     }
     EXPECT_EQ(m.at("floor_carries"), 0);
-    // Four slices of 8 mm; the push is in the lowest, over its part of the slant.
+    // There are four slices of 8 mm. The push is in the lowest one, over its part of the slant.
     const Simulation run(scene, make_plan(scene), 1);
     const FieldSet& set = *run.field_sets().at(0);
     ASSERT_EQ(set.axes.at(0).at.size(), 4u);
@@ -170,7 +171,7 @@ TEST(WallForcesAtRest, AWedgeCarriesAGrainOnBothSides) {
     EXPECT_TRUE(std::isnan(pressure[3])) << "above the slant";
 }
 
-// Nine records of 0.1 s. In the fifth one the grain is taken away.
+// There are nine records of 0.1 s. In the fifth one the grain is taken away.
 TEST(WallForcesOfRuns, PressureIsTheMeanOfItsRecord) {
     const test::TemporaryFolder here;
     std::string text = kOneGrain;
@@ -255,7 +256,7 @@ TEST(WallForcesOfRuns, AreTheSameBitsAtAnyNumberOfThreadsAndWhenTakenUp) {
     }
 }
 
-// They change nothing of the run, and are not there where nobody asks for them.
+// Wall forces change nothing of the run, and are there only if somebody asks for them.
 TEST(WallForcesOfRuns, ChangeNothing) {
     const Scene with = scene_of(test::small_scene_text);
     Scene without = with;
@@ -277,7 +278,7 @@ TEST(WallForcesOfScenes, AreAskedForByName) {
     EXPECT_THROW(read("[output]\ninstruments = [\"wals\"]\n"), UserError);
 }
 
-// Two grains of one weight on the floor: it carries both.
+// Two grains of the same weight lie on the floor, which carries both.
 TEST(WallForcesAtRest, AFloorCarriesAllGrains) {
     std::string text = kOneGrain;
     text.replace(text.find("[run]"), 5, "[[grain]]\nposition = [0, \"6 mm\", \"2 mm\"]\n[run]");
@@ -285,8 +286,8 @@ TEST(WallForcesAtRest, AFloorCarriesAllGrains) {
     EXPECT_NEAR(m.at("floor_carries"), 1, of_rounding(1e-9, 1e-5));
 }
 
-// The front of a wedge with slants up to 4 and a floor of half-width 1: between the heights 1 and 3 it is
-// a trapezoid. All slices together are the whole face.
+// The front of a wedge has slants up to 4 and a floor of half-width 1. Between the heights 1 and 3 it is a
+// trapezoid. All slices together are the whole face.
 TEST(WallAreas, AreThoseOfTheContainersFaces) {
     Container c;
     c.half_width = 3, c.depth = 5, c.height = 10;
@@ -303,8 +304,8 @@ TEST(WallAreas, AreThoseOfTheContainersFaces) {
     EXPECT_NEAR(area_between(c, "wall", 9, 12), 2 * std::numbers::pi * 3, 1e-12);
 }
 
-// A face whose point is at the height 5 is pressed half a unit above that, where a periodic depth of 8 begins
-// anew: the near image of the place is at x = 1.
+// A face whose point is at the height 5 is pressed half a unit above that point, where a periodic depth of 8
+// begins anew. The near image of the place is at x = 1.
 TEST(WallTally, TakesPlacesInTheRoomAndTheNearestImage) {
     Face face = floor_face();
     face.point = {0, 0, 5};
