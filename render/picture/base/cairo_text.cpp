@@ -28,7 +28,7 @@ struct DestroyConfig {
 };
 using Config = std::unique_ptr<FcConfig, DestroyConfig>;
 
-// The two font files that all words are written with, from the folders where distributions have them. Null
+// The two font files that all words are written with, from the folders where distributions keep them. Null
 // when they are not there.
 Config own_fonts() {
     for (const std::string folder :
@@ -45,9 +45,9 @@ Config own_fonts() {
     return nullptr;
 }
 
-// Each thread has one context, since font maps are not shared between threads and to make one costs more than
-// to write a word. own: it has the two font files alone, so that words do not depend on what else is
-// installed; otherwise it has all fonts of the system.
+// Each thread has one context, since threads cannot share font maps, and making one costs more than writing a
+// word. own: the context has only the two font files, so that words do not depend on what else is installed;
+// otherwise it has all fonts of the system.
 PangoContext* make_context(bool own) {
     const std::unique_ptr<PangoFontMap, Unref> map(
         pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
@@ -92,7 +92,7 @@ Layout layout_in(PangoContext* context, const std::string& text, const TextStyle
     return layout;
 }
 
-constexpr double least_shrink = 0.7;  // of letters, before a word breaks
+constexpr double least_shrink = 0.7;  // letters shrink to this share of their size before a word breaks
 
 // The size of letters at which the longest word fits the lines, if that is not much smaller than the style's.
 double size_for_words(const std::string& text, const TextStyle& style, double wrap) {
@@ -212,11 +212,11 @@ namespace {
 // How strong the halo of one pixel is at each pixel around it, 0 to 1.
 struct Stamp {
     int reach = 0;
-    std::vector<float> strength;  // rows of 2 reach + 1
+    std::vector<float> strength;  // rows of 2 reach + 1 numbers
 };
 
 Stamp make_stamp(double reach) {
-    constexpr double kFade = 1.2;  // pixels, over which it ends
+    constexpr double kFade = 1.2;  // pixels over which the halo ends
     Stamp stamp;
     stamp.reach = static_cast<int>(std::ceil(reach + 0.5 * kFade));
     for (int y = -stamp.reach; y <= stamp.reach; ++y)
@@ -231,8 +231,8 @@ Stamp make_stamp(double reach) {
 // a pixel and never opaque.
 constexpr float kGain = 2.2f;
 
-// The halo's alpha in the part, 0 to 255. Only pixels that are not clear add to it; most of a surface is
-// clear.
+// The halo's alpha in the part, 0 to 255. Only pixels that are not clear add to it, since most of a surface
+// is clear.
 std::vector<float> halo_in(cairo_surface_t* from, const Rectangle& part, const Stamp& stamp) {
     std::vector<float> halo(static_cast<std::size_t>(part.width) * part.height, 0);
     const int r = stamp.reach, wide = cairo_image_surface_get_width(from),

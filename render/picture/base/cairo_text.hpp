@@ -1,5 +1,5 @@
-// Texts on surfaces of Cairo: their sizes, by Pango, and what they stand on where they lie over a picture: a
-// halo or a plate. There is no hinting, so that letters neither jump nor depend on the screen. Only files of
+// Texts on surfaces of Cairo: their sizes by Pango, and the halos and plates that they stand on over a
+// picture. There is no hinting, so that letters neither jump nor depend on the screen. Only files of
 // render/picture may include this header, since Cairo's are not known elsewhere.
 #pragma once
 
@@ -22,7 +22,7 @@ struct TextSize {
 struct TextStyle {
     double size = 12;  // pixels, of the letters' body
     bool bold = false;
-    bool centred = false;  // lines in the middle of the wrap
+    bool centred = false;  // lines stand in the middle of the wrap width
 };
 
 // wrap: the width in pixels at which lines break between words; with 0 there is one line. There are at most
@@ -56,25 +56,25 @@ void draw_line(cairo_t* on, double x0, double y0, double x1, double y1);
 CairoSurface blank_surface(const Rectangle& part, const Colour& colour, double alpha = 1);
 void fill_surface(cairo_t* on, const Colour& colour, double alpha = 1);
 
-// Copies a surface to the place `to` in the picture, which is as large.
+// Copies a surface to the place `to` in the picture, which has the size of the surface.
 void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);
 // Copies a part of a surface whose corner lies at (x, y) in the picture.
 void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture);
 
-// Words without a background must be read on whatever they are laid over, so they stand on a halo.
+// Words without a background must be legible on whatever lies under them, so they stand on a halo.
 struct Halo {
     Colour colour;
     double reach = 0;  // pixels beyond the words
 };
-// Its colour is the background that the words are made for.
+// The halo's colour is the background that the words are made for.
 Halo halo_of(const TypeScale& type, const Palette& palette);
 
-// As copy_part(), with a halo under the words. Around each pixel it is as strong as the pixel, and it ends at
-// its reach. The halo of words beside the part reaches into the part too.
+// Does what copy_part() does, with a halo under the words. Around each pixel the halo is as strong as the
+// pixel, and it ends at its reach. The halo of words beside the part reaches into the part too.
 void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const Halo& halo,
                        Picture& picture);
 
-// A box around words; pixels, from the gutter's corner.
+// A box around words, in pixels from the gutter's corner.
 struct WordBox {
     double x, y, width, height;
 };

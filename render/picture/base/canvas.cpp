@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-// Everything here is drawn upside down, so that the first row that OpenGL gives is the picture's first row.
+// Everything here is drawn upside down, so that the first row of OpenGL is the first row of the picture.
 const char* const vertex_source = R"(#version 330 core
 layout(location = 0) in vec2 position;  // pixels from the top left
 layout(location = 1) in vec2 edge;
@@ -52,7 +52,7 @@ Pixel left_of(const Pixel& from, const Pixel& to) {
     return {-along.y() / length, along.x() / length};
 }
 
-constexpr double inside = 1e6;  // pixels: stands for "far from any edge"
+constexpr double inside = 1e6;  // pixels; stands for "far from any edge"
 
 }  // namespace
 
@@ -75,7 +75,7 @@ void Shapes::line(const std::vector<Pixel>& points, bool closed, double width, c
     const std::size_t count = points.size();
     if (count < 2) return;
     const double half = 0.5 * width, reach = half + 1;
-    constexpr double mitre_limit = 0.35;  // cosine of half the turn below which a corner is cut short
+    constexpr double mitre_limit = 0.35;  // cosine of half the turn; below it a corner is cut short
 
     std::vector<Pixel> mitre(count);
     for (std::size_t i = 0; i < count; ++i) {

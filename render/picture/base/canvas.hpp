@@ -10,7 +10,7 @@
 
 namespace grainreel {
 
-using Pixel = Eigen::Vector2d;  // from the top left
+using Pixel = Eigen::Vector2d;  // pixels from the top left
 
 struct Paint {
     Colour colour;  // sRGB
@@ -28,7 +28,7 @@ std::vector<Pixel> circle_corners(const Pixel& middle, double radius, int corner
 // A list of shapes, made anew for every frame.
 class Shapes {
   public:
-    void polygon(const std::vector<Pixel>& corners, const Paint& paint);  // a convex one
+    void polygon(const std::vector<Pixel>& corners, const Paint& paint);  // corners of a convex polygon
     // width: pixels. Corners are mitred, so a translucent line shows no knots.
     void line(const std::vector<Pixel>& points, bool closed, double width, const Paint& paint);
     void append(const Shapes& others) {

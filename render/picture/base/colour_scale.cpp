@@ -86,7 +86,7 @@ std::string clipped_words(const GrainColouring& colouring, const ClippedCount& c
                        quantity_words(colouring.by), parts);
 }
 
-// Triangles below the range are not told: hardly anything touches them.
+// Triangles below the range are not counted in the words: hardly anything touches them.
 std::string clipped_words(const FilmWalls& walls, const ClippedCount& count) {
     const WallUnit unit = unit_of(walls);
     const std::string parts =

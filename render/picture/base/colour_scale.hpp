@@ -52,7 +52,7 @@ class ColourScale {
     // Whether there can be values beyond an end. The end then also stands for them.
     bool open_below() const { return signed_ || low() > 0; }
     bool open_above() const { return true; }
-    double unit_size() const { return unit_size_; }      // SI in one of the unit shown
+    double unit_size() const { return unit_size_; }      // SI value of one unit as shown
     const std::string& title() const { return title_; }  // "speed (m/s)"
 
   private:

@@ -44,7 +44,7 @@ struct Palette {
 };
 
 inline Palette make_palette(const Colour& background) {
-    const bool light = luminance(background) > 0.18;  // where dark ink has more contrast than light ink
+    const bool light = luminance(background) > 0.18;  // then dark ink has more contrast than light ink
     Palette palette;
     palette.background = in_bytes(background);
     palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};

@@ -44,7 +44,7 @@ struct TypeScale {
 // but stay at least 10 pixels.
 TypeScale type_scale(const Film& film, double shrink = 1);
 
-// Which part of the picture is whose: gutters for words, and the rest for the container.
+// Which parts of the picture are gutters for words, and which part shows the container.
 struct PictureLayout {
     bool stacked = false;               // gutters above and below instead of left and right
     TypeScale type{};                   // of the words

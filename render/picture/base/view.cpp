@@ -1,4 +1,4 @@
-// The geometry of the camera: where the eye must stand so that everything given is in the picture.
+// The geometry of the camera: where the eye must stand so that all given points are in the picture.
 #include "render/picture/base/view.hpp"
 
 #include <algorithm>
@@ -126,7 +126,7 @@ View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Recta
         view.eye = sideways.shift() * view.right + vertical.shift() * view.up - back * view.forward;
         view.focal = focal * camera.zoom;
     }
-    const double front = view.forward.dot(-view.eye) + away.low;  // view depth of the nearest point
+    const double front = view.forward.dot(-view.eye) + away.low;  // m: view depth of the nearest point
     // This leaves room for grains that have left the container. The depth is linear, so room costs little
     // precision.
     view.nearest = std::max(0.01 * front, front - 2 * size);

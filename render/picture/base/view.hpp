@@ -52,23 +52,24 @@ Vec3 front_of(const Vec3& up);
 // Pixels for one unit of x/z at the camera's field of view, without its zoom; 1 for an orthographic camera.
 double focal_length(const Camera& camera, int picture_height);
 
-// The distance of a camera that turns about one point. Over all views and points that it takes, it finds how
-// far from that point the eye has to stand so that everything is inside the port, `margin` pixels from its
-// border. Sideways the point stays in the middle of the port, or turning would look like swaying. Upwards all
-// views have one shift.
+// The distance of a camera that turns about one point. Framing takes views and points, and finds how far from
+// that point the eye has to stand so that everything is inside the port, `margin` pixels from its border. The
+// point stays in the middle of the port sideways, or turning would look like swaying. All views have the same
+// shift upwards.
 class Framing {
   public:
     Framing(const Camera& camera, const Rectangle& port, double margin, int picture_height);
     void take(const View& directions, const Vec3& from_middle);
     double distance() const;  // m
     double shift() const;     // m, of the eye along the picture's upward direction
-    double focal() const;     // as in View, without the zoom
+    double focal() const;     // View::focal without the zoom
 
   private:
     const bool orthographic_;
     const double half_width_, half_height_, focal_;
     double farthest_aside_ = 0, back_aside_ = 0, reach_ = 0;  // m
-    double highest_ = -1e300, lowest_ = 1e300;  // m, of y; of y - k z and y + k z in perspective
+    double highest_ = -1e300,
+           lowest_ = 1e300;  // m: the extremes of y; in perspective those of y - k z and y + k z
 };
 
 // The view with the nearest eye in the camera's direction from which all `points` lie inside the port,
@@ -77,8 +78,8 @@ class Framing {
 View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Rectangle& port, double margin,
               int picture_height);
 
-// m: how far the container has come from its place at rest, for what goes with its shaking and not with its
-// turning. Of a container that turns it is the way of a point on the axis.
+// m: how far the container has come from its place at rest, for things that go with its shaking but not with
+// its turning. In a container that turns it is the displacement of a point on the axis.
 inline Vec3 way_of_container(const FilmedScene& scene, const Frame& frame) {
     const std::optional<BodyTurn>& turn = scene.container.turn;
     return turn ? Vec3(frame.container().moved(turn->through) - turn->through) : frame.container().place;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
 
-// degrees: between samples so near, the outline of what turns differs from its largest by less than 1e-5 of
-// its size.
+// degrees: between samples that are this near, the outline of what turns differs from its largest by less
+// than 1e-5 of its size.
 constexpr double sample_angle = 0.5;
 constexpr int key_samples = 720;
 
@@ -49,8 +49,8 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
     if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
 }
 
-// Where a container is cut off, leaves out as much as it can without the walls coming close to a camera that
-// looks down.
+// Frames the part that framed_part() gives. Where a container is cut off, as much of it is left out as the
+// walls allow: they must not come close to a camera that looks down.
 void CameraPath::frame_by_itself(const FilmedScene& scene) {
     FramedPart part = framed_part(scene);
     double scale = frame_part(scene, part);
@@ -77,7 +77,7 @@ double CameraPath::frame_part(const FilmedScene& scene, const FramedPart& part) 
     return still_->pixels_per_metre(target_);
 }
 
-// Where the width of the port limits the scale, the height that is left shows more of the container.
+// Where the width of the port limits the scale, the height that is left over shows more of the container.
 FramedPart CameraPath::show_more(const FilmedScene& scene, FramedPart part, double scale) {
     double most = scene.container.height;
     for (int i = 0; i < 20; ++i) {
@@ -89,8 +89,8 @@ FramedPart CameraPath::show_more(const FilmedScene& scene, FramedPart part, doub
     return part;
 }
 
-// Whether walls above the framed part lie within the picture's height but beside its width, as slanted walls
-// may, which are wider above.
+// Whether walls above the framed part lie within the picture's height but beside its width. Slanted walls may
+// do so, because they are wider above.
 bool CameraPath::leaves_aside(const FilmedScene& scene, const FramedPart& part) const {
     constexpr int heights = 64;
     for (int i = 0; i <= heights; ++i) {
@@ -103,7 +103,8 @@ bool CameraPath::leaves_aside(const FilmedScene& scene, const FramedPart& part) 
     return false;
 }
 
-// Frames just so much more that no wall lies beside the picture. With the whole container none does.
+// Frames as much more of the container as is needed to keep all walls within the picture's width. When the
+// whole container is framed, no wall lies beside the picture.
 void CameraPath::keep_sides(const FilmedScene& scene, FramedPart part) {
     FramedPart most = whole_container(scene);
     most.top = std::min(most.top, scene.container.height);
@@ -192,7 +193,7 @@ void CameraPath::look_from_position() {
     focal_ = focal_length(camera_, picture_height_);
 }
 
-// Poses of the camera in the course of the film, near enough to each other for its framing.
+// Poses of the camera in the course of the film, near enough to each other for the automatic framing.
 std::vector<CameraPath::Pose> CameraPath::samples() const {
     std::vector<Pose> poses;
     const double turn = std::min(std::abs(camera_.orbit), 360.0);

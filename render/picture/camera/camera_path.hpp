@@ -33,9 +33,9 @@ void settle_orbit(Camera& camera, double film_seconds);
 
 class CameraPath {
   public:
-    // A camera that moves keeps one distance, so that the container does not grow and shrink: the least from
-    // which all that is framed is in the port at every moment of the way. An orbit of unknown duration stands
-    // still.
+    // A camera that moves keeps one distance, so that the container does not grow and shrink. It is the least
+    // distance from which all that is framed is in the port at every moment of the way. An orbit of unknown
+    // duration stands still.
     CameraPath(const FilmedScene& scene, const PictureLayout& layout);
 
     // The view in the lab's frame; a camera that follows is moved from there. film_time: s since the first
@@ -68,13 +68,13 @@ class CameraPath {
     const Rectangle port_;
     const int picture_height_;
     const double margin_;             // pixels, between what is framed and the port's border
-    const std::vector<Vec3> meshes_;  // m, their outermost points
+    const std::vector<Vec3> meshes_;  // m, outermost points of the meshes
     Vec3 target_;
-    std::optional<View> still_;         // with the plain automatic framing
+    std::optional<View> still_;         // the view of a camera with the plain automatic framing
     double distance_ = 0, shift_ = 0;   // m, of the eye from the target, and of both upwards in the picture
     double focal_ = 1;                  // pixels, without the zoom
-    double radius_ = 0;                 // m, about the target, of all that is drawn
-    Track azimuth_, elevation_, zoom_;  // the zoom by its logarithm
+    double radius_ = 0;                 // m: radius about the target of all that is drawn
+    Track azimuth_, elevation_, zoom_;  // the zoom's track holds its logarithm
     std::vector<MonotoneCurve> place_;  // x, y, z of the target
 };
 
@@ -85,9 +85,9 @@ double framed_scale(const FilmedScene& scene, const PictureLayout& layout);
 // Pixels from the highest to the lowest point that has to be seen by that camera.
 double framed_height(const FilmedScene& scene, const PictureLayout& layout);
 
-// Draws the container's motion `factor` times as large as it is, so that it can be seen. Grains go with the
-// container: seen from the container every grain stays where it is, so that none is drawn inside a wall. This
-// is right only for a container that moves as a whole; the scene's reader refuses all others.
+// Draws the container's motion `factor` times as large as it is, so that it can be seen. Grains keep their
+// places relative to the container, so that none is drawn inside a wall. This is right only for a container
+// that moves as a whole; the scene's reader refuses all others.
 class Exaggeration {
   public:
     explicit Exaggeration(double factor) : factor_(factor) {}

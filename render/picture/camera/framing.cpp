@@ -18,7 +18,7 @@
 namespace grainreel {
 namespace {
 
-constexpr double almost_all = 0.88;  // of the container's height: a part so high is not worth a cut
+constexpr double almost_all = 0.88;  // of the container's height: a part that is higher is not worth a cut
 constexpr double steepest = 60;      // degrees, of a camera that may leave the upper part out
 
 double upward(const FilmedScene& scene) {
@@ -26,7 +26,7 @@ double upward(const FilmedScene& scene) {
 }
 
 // m: room above the rim of an open top for grains in flight. A grain that meets the rising bed leaves it at
-// up to twice the walls' speed. The room is at most half the container, or the bed would look small.
+// up to twice the walls' speed. The room is at most half the container's height, or the bed would look small.
 double room_above(const FilmedScene& scene) {
     const Container& container = scene.container;
     const double gravity = scene.gravity.norm();
@@ -44,7 +44,7 @@ bool looks_steeply(const Camera& camera) {
     });
 }
 
-// m above the floor's rest position: how high the picture should reach, with the motion as it is drawn.
+// m above the floor's rest position: how high the picture should reach, counting the motion as it is drawn.
 std::optional<double> wanted_top(const FilmedScene& scene) {
     const Camera& camera = scene.film.camera;
     const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset * upward(scene) : 0;
@@ -57,7 +57,7 @@ std::optional<double> wanted_top(const FilmedScene& scene) {
     return top;
 }
 
-// The corners of a container that turns, at places all around its axis.
+// The corners of a container that turns, at many angles around its axis.
 std::vector<Vec3> turned(const std::vector<Vec3>& corners, const BodyTurn& turn) {
     constexpr int kTurns = 24;
     std::vector<Vec3> all;

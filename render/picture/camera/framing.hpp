@@ -1,5 +1,5 @@
-// What the camera's automatic framing has in the picture: which part of the container, and which points of
-// it.
+// What the camera's automatic framing shows: which part of the container, and which points have to be in the
+// picture.
 #pragma once
 
 #include <vector>

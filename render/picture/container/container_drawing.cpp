@@ -63,7 +63,8 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
         draw_at(tray_container(scene), {below, below, below}, shapes);
     }
     draw_at(container_at(scene.container, frame.time), sketches, shapes);
-    for (std::size_t w = 0; w < scene.walls.size(); ++w) {  // inside, so over the container's far walls
+    for (std::size_t w = 0; w < scene.walls.size();
+         ++w) {  // free walls are inside, so over the container's far walls
         const BodyPose pose = frame.body(kFirstPlaneBody + w);
         draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, pose}, shapes);
     }
@@ -71,8 +72,8 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);
 }
 
-// Free walls: of each plane, the piece is drawn that lies in the container, or in the box of what is looked
-// at.
+// Free walls are planes. The piece of each plane is drawn that lies in the container, or else in the box of
+// what is looked at.
 
 namespace {
 
@@ -146,7 +147,7 @@ std::vector<Vec3> extent_corners(const Extent& extent) {
 
 void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes) {
-    // The sketch moves what it draws. So the cut is made where the wall is now, and then moved back.
+    // The sketch moves what it draws. So the piece is cut where the wall is now, and then moved back.
     std::vector<Vec3> piece = piece_of_plane(wall, scene, sketch.offset());
     if (piece.empty()) return;
     for (Vec3& corner : piece) corner -= sketch.offset();
@@ -164,10 +165,11 @@ void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const 
 
 namespace {
 
-constexpr double begins_at = 0.5;  // of the way from the floor to where grains leave
+constexpr double begins_at =
+    0.5;  // share of the way from the floor to where grains leave; the fade begins there
 constexpr double least_rows = 4;
 
-// The lowest point that the floor's plate reaches in the course of the film; pixels from the top.
+// Pixels from the top: the lowest point that the floor's plate reaches in the course of the film.
 double lowest_of_floor(const FilmedScene& scene, const View& view) {
     const Container& c = scene.container;
     const double thick = 1.4 * drawn_thickness(c);
@@ -181,7 +183,7 @@ double lowest_of_floor(const FilmedScene& scene, const View& view) {
     return lowest;
 }
 
-// m: where grains begin to fall and where they leave; and the row in which the lowest wall ends.
+// Where grains begin to fall and where they leave (m), and the row in which the lowest wall ends.
 struct Fall {
     Vec3 from, to;
     double lowest_row;

@@ -1,9 +1,9 @@
-// The container as a cut-away. Walls have a visible thickness. Those that the eye sees from inside are solid
-// and lie behind the grains; those that it sees from outside are bare glass edges over the grains.
+// The container as a cut-away. Walls have a visible thickness. Walls that the eye sees from inside are solid
+// and lie behind the grains; walls that it sees from outside are bare glass edges over the grains.
 //
 // The container is convex and the grains are inside. So what lies behind the grains is painted before them,
-// what lies in front of them is painted after them, and every edge stays smooth. Grains that reach through a
-// wall or are outside are put right by WallOrder, which takes the painted faces.
+// what lies in front of them is painted after them, and every edge stays smooth. WallOrder takes the painted
+// faces and corrects the picture where grains reach through a wall or are outside.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ struct WallSide {
 };
 
 struct ContainerShapes {
-    WallSide behind, before;  // to be painted before and after the grains
-    Shapes over;              // over everything
+    WallSide behind, before;  // painted before and after the grains
+    Shapes over;              // painted over everything
 };
 
 // The camera as it is before it follows anything, and as it is now. moves: whether it moves in the course of
@@ -47,13 +47,13 @@ struct Views {
     bool moves = false;
 };
 
-// frame: as it is to be shown, with the motion exaggerated. picture_height: pixels, which decide the widths
-// of lines.
+// frame: the frame as it is shown, with the motion exaggerated. picture_height: pixels; decides how wide
+// lines are.
 void draw_container(const FilmedScene& scene, const Views& views, const Frame& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes);
 
-// m: the height at which a grain that falls below everything else leaves the run, into a box or out of one.
-// Empty without boxes.
+// m: the height at which a grain that falls below everything else leaves the run, by entering a box or by
+// leaving one. Empty without boxes.
 std::optional<double> exit_level(const FilmedScene& scene);
 
 // Grains that leave the run below an outlet are gone from one frame to the next. So that they do not vanish

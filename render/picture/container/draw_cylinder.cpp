@@ -30,8 +30,8 @@ std::vector<Vec3> circle(double radius, double z) {
     return points;
 }
 
-// rad: the eye's angle about z, and how far to both sides of it the eye sees the tube, which is up to where
-// lines of sight touch it (cos = R / distance).
+// rad: the eye's angle about z, and the angle to both sides of it over which the eye sees the tube. The tube
+// is seen up to where lines of sight touch it (cos = R / distance).
 std::pair<double, double> visible_part(double radius, const Sketch& sketch) {
     const Vec3 to_eye = sketch.to_eye();
     const double distance = std::hypot(to_eye.x(), to_eye.y());
@@ -129,7 +129,7 @@ class Cylinder {
         walls.line(shapes_.behind, section, true, walls.pen, walls.edge());
     }
 
-    // An open top has two thin rings, with their near halves over the grains.
+    // Draws the two thin rings of an open top, with their near halves over the grains.
     void rim() {
         const Sketch& walls = sketches_.walls;
         for (const double radius : {radius_, radius_ + thickness_}) {
@@ -141,7 +141,7 @@ class Cylinder {
         }
     }
 
-    // Marks around both rims show how the cylinder turns. One of them is long.
+    // Draws marks around both rims, which show how the cylinder turns. One of them is long.
     void ticks() {
         constexpr int kTicks = 12;
         const Sketch& walls = sketches_.walls;

@@ -1,4 +1,4 @@
-// Draws wedge and box: a cross-section in (y, z) that is drawn out along x.
+// Draws wedge and box: a cross-section in (y, z) that is extended along x.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -39,8 +39,8 @@ Plate lid_plate(const Container& container) {
     return {-half, half, container.height, container.height + t};
 }
 
-// The cross-section at one end of the prism, and how much of it is to be seen: all of it, except while near
-// and far change places for a camera that moves.
+// The cross-section at one end of the prism, and how strongly it is drawn. It has its full weight, except
+// while near and far change places for a camera that moves.
 struct End {
     double x, weight;
 };
@@ -74,8 +74,7 @@ class Prism {
     }
 
   private:
-    // Draws the back pane, tinted, and the outlines of both panes. Where the depth is periodic there are
-    // none.
+    // Draws the back pane, tinted, and the outlines of both panes. A periodic depth has no panes.
     void panes(const WallProfile& left, const WallProfile& right) {
         if (container_.periodic_depth) return;
         // With a lid, which has edges of its own, the lines are open; an open top shows the bare rims of the

@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-// The sine of the angle, to each side, over which one look becomes another for a camera that moves.
+// The sine of the angle to each side of a change over which one look becomes another for a camera that moves.
 const double fade = std::sin(8 * std::numbers::pi / 180);
 
 }  // namespace
@@ -44,8 +44,8 @@ double Sketch::solid(const Vec3& point, const Vec3& normal) const {
     }
     if (!views_.moves) return view.faces(point, normal) ? 0 : 1;
     const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - point).normalized();
-    // The part is glass by the time the eye is in its plane, where it changes from behind the grains to
-    // before them.
+    // The part has become glass by the time the eye is in its plane. There it changes from behind the grains
+    // to before them.
     return smooth_rise(-normal.dot(to_eye) - fade, fade);
 }
 
@@ -59,7 +59,7 @@ void Sketch::dashed(Shapes& on, std::vector<Vec3> points, bool closed, double wi
     if (closed) points.push_back(points.front());
     const std::vector<Pixel> path = project(points);
     const double dash = 7 * pen, gap = 5 * pen;
-    double walked = 0;  // since a dash began
+    double walked = 0;  // pixels since a dash began
     std::vector<Pixel> piece{path.front()};
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
         const double length = (path[i + 1] - path[i]).norm();
@@ -100,7 +100,7 @@ WallProfile wall_profile(const Container& container, double side) {
 
 namespace {
 
-constexpr int kSteps = 96;  // of a full circle
+constexpr int kSteps = 96;  // steps of a full circle
 constexpr double kTurn = 2 * std::numbers::pi;
 
 std::vector<double> even_angles() {

@@ -20,7 +20,8 @@ Paint faded(const Paint& paint, double share);
 // A mixture of two paints, as it looks over a background.
 Paint blend(const Paint& one, const Paint& other, double share_of_other);
 
-// Whether it is a wedge or a box. Cylinders are drawn in another way, and meshes as their triangles.
+// Whether the container is a wedge or a box. Cylinders are drawn in another way, and meshes as their
+// triangles.
 inline bool is_prism(const Container& container) {
     return container.shape == Container::Shape::wedge || container.shape == Container::Shape::box;
 }
@@ -50,8 +51,8 @@ class Sketch {
     }
     bool is_turned() const { return turned_; }
     // How solid a part looks, from 0 for glass to 1. It depends on where the eye is when everything is at
-    // rest, or a part whose plane the eye crosses would blink once a period. What is painted over what
-    // depends on the present. To a camera that moves, glass becomes solid over some degrees.
+    // rest, or a part whose plane the eye crosses would blink once a period. The order of painting, however,
+    // depends on the present. For a camera that moves, glass becomes solid over some degrees.
     double solid(const Vec3& point, const Vec3& normal) const;
     // How much the end at positive x is the near one: 1, 0, or in between while near and far change places.
     double positive_end_is_near() const;
@@ -98,7 +99,7 @@ class Sketch {
     const bool turned_;
 };
 
-// The sketches of what moves, the walls with the lid and the floor, and of what stands in the lab.
+// The sketches of the two moving parts (the walls with the lid, and the floor) and of what stands in the lab.
 struct Sketches {
     Sketch walls, floor, lab;
 };
@@ -112,8 +113,8 @@ std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene,
 void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes);
 
-// Draw dashed outlines over the grains where the container's moving parts, or a plane that moves, are at
-// rest.
+// These draw dashed outlines over the grains, at the rest positions of the container's moving parts or of a
+// plane that moves.
 void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
 void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
 void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on);
@@ -139,7 +140,7 @@ WallProfile wall_profile(const Container& container, double side);
 // The container as it is at a time (s): without its outlet while that is closed.
 Container container_at(const Container& container, double time);
 
-// Points around the floor's hole, at a height; m.
+// m: points around the floor's hole, at this height.
 std::vector<Vec3> rim_of_hole(const Outlet& outlet, double height);
 
 // A floor with a round hole as convex flat pieces: a disc, or a rectangle with corners (+-half_depth,

@@ -16,7 +16,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kLeastRise = 0.25;  // of the key light above the horizon, or shadows would run away
+constexpr double kLeastRise =
+    0.25;  // sine of the key light's height above the horizon; below it shadows would be too long
 
 double floor_reach(const Container& container) {
     const double half_depth =
@@ -24,7 +25,7 @@ double floor_reach(const Container& container) {
     return std::hypot(outer_floor_half_width(container), half_depth) + drawn_thickness(container);
 }
 
-// The means of five rows of kSide numbers, which are added one after the other.
+// The means of five rows of kSide numbers. The rows are added one after the other.
 void mean_of_five(const std::array<const float*, 5>& of, float* out) {
     const auto [a, b, c, d, e] = of;
     for (int i = 0; i < ShadowMap::kSide; ++i) out[i] = (a[i] + b[i] + c[i] + d[i] + e[i]) / 5;
@@ -70,7 +71,7 @@ void ShadowMap::place(const Vec3& to_key) {
     low_ = middle.array() - 0.5 * side_;
 }
 
-// A vessel may stand anywhere, and its grains throw their shadow from its height.
+// Places the map for a vessel, which may stand anywhere and whose grains throw their shadow from its height.
 void ShadowMap::place_around_extent(const Vec3& to_key) {
     Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
     for (const Vec3& corner : extent_corners(extent_)) {
@@ -110,7 +111,7 @@ void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
                   std::numbers::pi * frame.radius[g] * frame.radius[g] * per_area);
 }
 
-// Adds what each patch of a mesh covers of the light.
+// Adds the light that each patch of a mesh takes.
 void ShadowMap::add_meshes(const Frame& frame, const Vec3& to_key) {
     const double per_area = std::pow(kSide / side_, 2) / std::max(to_key.z(), kLeastRise);
     meshes_.visit(frame, to_key, [&](const Vec3& at, double area) {
@@ -129,7 +130,8 @@ void ShadowMap::add_depth(const Eigen::Vector2d& at, double depth) {
     cell[kSide + 1] += static_cast<float>(depth * share.x() * share.y());
 }
 
-// Three box filters after each other, along both axes. Beyond the map there is no shadow.
+// Softens the shadow by three box filters one after the other, along both axes. Beyond the map there is no
+// shadow.
 void ShadowMap::soften() {
     constexpr int kTimes = 3;
     constexpr auto side = static_cast<std::size_t>(kSide);
@@ -169,8 +171,8 @@ float rim(int cell) {
     return t * t * (3 - 2 * t);
 }
 
-// The shadow is whole from a twelfth of the height inside the rim on, so that no line shows where the picture
-// ends.
+// The share of the shadow that is left near the picture's rim. It is 1 from a twelfth of the height inside
+// the rim on, so that no line shows where the picture ends.
 float margin(int pixel, int size, int height) {
     const float inside = std::min(static_cast<float>(pixel) + 0.5f, static_cast<float>(size - pixel) - 0.5f);
     return std::min(12 * inside / static_cast<float>(height), 1.0f);
@@ -197,7 +199,7 @@ void Ground::update(const Frame& frame, const View& view) {
 }
 
 void Ground::darken() {
-    constexpr float kSeen = 0.5f;  // of a level
+    constexpr float kSeen = 0.5f;  // of a level of 255: weaker shadows are not seen
     int left = kSide, right = 0, low = kSide, high = 0;
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i) {

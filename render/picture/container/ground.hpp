@@ -54,7 +54,7 @@ class ShadowMap {
     std::vector<float> cells_, before_;
 };
 
-// The shadow on the ground as it is seen. It fades towards the rim of the picture.
+// The shadow on the ground as the camera sees it. It fades towards the rim of the picture.
 class Ground {
   public:
     // The scene must have a container.
@@ -67,7 +67,7 @@ class Ground {
 
   private:
     void darken();
-    Vec3 on_ground(double u, double v) const;  // of the map's places from 0 to 1, in the lab
+    Vec3 on_ground(double u, double v) const;  // m, in the lab; u and v: place on the map, 0 to 1
     Vec3 seen_at(double x, double y) const;
     bool is_seen() const;
     Rectangle where() const;
@@ -77,12 +77,12 @@ class Ground {
     ShadowMap map_;
     const float strength_;
     const int width_, height_;
-    std::vector<float> rim_;     // by which the shadow fades towards the rim of the map
-    std::vector<float> across_;  // by which it fades towards the picture's left and right
+    std::vector<float> rim_;     // shares by which the shadow fades towards the rim of the map
+    std::vector<float> across_;  // shares by which it fades towards the picture's left and right
     std::vector<float> dark_;  // strength of the shadow, 0 to 255: the map's cells and a clear one all around
-    Rectangle dark_cells_;     // of the map, outside of which all is clear
+    Rectangle dark_cells_;     // cells of the map; all cells outside are clear
     View view_;
-    Rectangle part_;  // pixels of the port, outside of which there is no shadow
+    Rectangle part_;  // pixels of the port; there is no shadow outside
 };
 
 // A map of how much each place is darkened.
@@ -97,8 +97,8 @@ struct MapWalk {
     Eigen::Vector3f first, step;
 };
 
-// Darkens a row of pixels by what the map says of the places that they show (shade_row.cpp, compiled for each
-// instruction set): pixels[i] = over(black of strength map * across[i] * all, pixels[i]). Between cells
+// Darkens a row of pixels by the map's strengths at the places that they show (shade_row.cpp, compiled for
+// each instruction set): pixels[i] = over(black of strength map * across[i] * all, pixels[i]). Between cells
 // strengths are interpolated along both axes.
 void shade_row(const ShadeMap& map, const MapWalk& walk, const float* across, float all,
                std::uint32_t* pixels, int count);

@@ -23,7 +23,7 @@ struct Between {
 };
 HWY_INLINE Between between(V at, int side) {
     const F d;
-    // Places beside the map lie on its clear rim. (What is no number becomes 0.)
+    // Places beside the map are moved to its clear rim. (NaN becomes 0.)
     const V inside = hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, static_cast<float>(side) - 1.0001f));
     const auto cell = hn::ConvertTo(I(), inside);
     return {cell, hn::Sub(inside, hn::ConvertTo(d, cell))};

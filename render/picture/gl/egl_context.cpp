@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 
 #define EGL_NO_PLATFORM_SPECIFIC_TYPES  // no X11
-#define EGL_EGL_PROTOTYPES 0            // everything comes from dlsym and eglGetProcAddress
+#define EGL_EGL_PROTOTYPES 0            // all functions come from dlsym and eglGetProcAddress
 #define EGL_EGLEXT_PROTOTYPES 0
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -32,7 +32,7 @@ struct Library {
     PFNEGLDESTROYSURFACEPROC destroy_surface = nullptr;
     PFNEGLMAKECURRENTPROC make_current = nullptr;
     PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display = nullptr;
-    PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;  // null where there is no device platform
+    PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;  // null without the device platform
     std::string extensions;                             // of the client
 };
 
@@ -64,8 +64,8 @@ Library open_library() {
     find(handle, "eglMakeCurrent", egl.make_current);
     const char* extensions = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     egl.extensions = extensions ? extensions : "";
-    // Addresses are asked for only where the extension is listed, because eglGetProcAddress gives one for any
-    // name.
+    // Addresses are asked for only where the extension is listed, because eglGetProcAddress gives an address
+    // for any name.
     if (lists(egl.extensions, "EGL_EXT_platform_base"))
         egl.platform_display =
             reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(egl.address("eglGetPlatformDisplayEXT"));
@@ -103,8 +103,8 @@ class EglContext final : public Context {
   public:
     // Throws RunError when the display offers no OpenGL 3.3.
     explicit EglContext(EGLDisplay display) : Context("EGL"), egl_(library()), display_(display) {
-        // Contexts on one display share its initialization, so it is never terminated. To initialize it again
-        // does no harm.
+        // Contexts on one display share its initialization, so the display is never terminated. Initializing
+        // it again does no harm.
         if (display == EGL_NO_DISPLAY || !egl_.initialize(display, nullptr, nullptr))
             throw RunError("a display does not initialize");
         try {

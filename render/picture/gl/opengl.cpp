@@ -20,8 +20,8 @@ void missing_function(const char* name) {
     throw RunError(fmt::format("the OpenGL library lacks {}; install one that offers OpenGL 3.3", name));
 }
 
-// Mesa's libraries share what is current on a thread without telling each other. So one context lets go
-// before another takes hold.
+// Mesa's libraries share the thread's current context without telling each other. So one context is released
+// before another is bound.
 void Context::make_current() {
     if (current && current != this) current->release();
     current = nullptr;
@@ -53,7 +53,7 @@ void Context::check_version() const {
 
 void set_raster_threads(int raster_threads) {
     GRAINREEL_CHECK(raster_threads >= 1);
-    // With 0 Mesa rasterises on the calling thread itself, which is what one thread means here.
+    // With 0 Mesa rasterises on the calling thread itself; that is meant by one thread here.
     const std::string threads = std::to_string(raster_threads == 1 ? 0 : raster_threads);
     setenv("LP_NUM_THREADS", threads.c_str(), 1);
 }

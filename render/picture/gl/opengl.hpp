@@ -1,6 +1,6 @@
 // OpenGL: an off-screen core context, the table of the functions that drawing uses, and objects that delete
-// themselves. Whoever makes a context fills the table, and nothing links against a GL library, so that one
-// binary serves every way of getting a context. A function that drawing newly needs is added to
+// themselves. The maker of a context fills the table, and nothing links against a GL library, so that one
+// binary serves every way of getting a context. A new function that drawing needs is added to
 // GRAINREEL_GL_FUNCTIONS. Each object may be used only on the thread of its context.
 #pragma once
 
@@ -106,7 +106,7 @@ class Context {
 
     const Functions& gl() const { return functions_; }
     std::string description() const;  // "EGL: ", then vendor, renderer and version
-    // Why this is not the context that one would have expected; mostly empty.
+    // Why this is not the expected kind of context; mostly empty.
     const std::string& note() const { return note_; }
     void set_note(std::string note) { note_ = std::move(note); }
 

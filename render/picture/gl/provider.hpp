@@ -1,10 +1,11 @@
-// Who makes the off-screen OpenGL context. The headers of films include this one and not those of OpenGL.
+// Which library makes the off-screen OpenGL context. The headers of films include this one and not those of
+// OpenGL.
 #pragma once
 
 namespace grainreel::gl {
 
-// automatic: OSMesa, which gives the same picture on every machine. Where there is none (Mesa dropped it
-// in 25.1) it is EGL, and a note says so.
+// automatic: OSMesa, which gives the same picture on every machine; where OSMesa is missing (Mesa dropped it
+// in 25.1), EGL, and a note says so.
 enum class Provider { automatic, osmesa, egl };
 
 }  // namespace grainreel::gl

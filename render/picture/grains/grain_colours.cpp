@@ -18,7 +18,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// J: of translation and of rotation, with the moment of inertia 2/5 m r2 of a solid sphere.
+// J: the energy of translation and of rotation, with the moment of inertia 2/5 m r2 of a solid sphere.
 double kinetic_energy(const Frame& frame, std::size_t i, double density) {
     const double r = frame.radius[i];
     const double mass = density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -97,7 +97,7 @@ const std::vector<double>& Quantities::of(const Frame& frame) {
 namespace {
 
 constexpr Colour pale_grain{0.93, 0.93, 0.93};  // sRGB
-constexpr int smooth_steps = 1024;              // of a colour map: finer than 8 bits
+constexpr int smooth_steps = 1024;              // steps of a colour map: finer than 8 bits
 
 }  // namespace
 
@@ -123,7 +123,7 @@ GrainColours::GrainColours(const FilmedScene& scene)
     for (int i = 0; i < count; ++i) steps_.push_back(to_albedo(scale.at_share(i / (count - 1.0))));
 }
 
-// Where a value lies in the range, as on the colour bar.
+// Where a value lies in the range: the same share as on the colour bar.
 double GrainColours::share_of(double value) const {
     if (!logarithmic_) return (value - low_) / (high_ - low_);
     return value <= low_ ? 0 : std::log(value / low_) / std::log(high_ / low_);

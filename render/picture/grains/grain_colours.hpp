@@ -15,8 +15,8 @@ class Quantities {
   public:
     Quantities(const FilmedScene& scene, GrainValue by);
 
-    // Heights at the start are those of this frame. Without a call they are those of the first frame that
-    // of() sees.
+    // Takes the heights at the start from this frame. Without a call they come from the first frame that of()
+    // sees.
     void start_from(const Frame& frame);
 
     // SI: the value of each grain, in the frame's order. It is NaN for a grain that was not there at the
@@ -31,7 +31,7 @@ class Quantities {
     const GrainValue by_;
     std::vector<double> density_;         // kg/m3, by species
     std::vector<std::int32_t> start_id_;  // rising; ids may be far apart
-    std::vector<double> start_height_;    // m, of the grains of start_id_
+    std::vector<double> start_height_;    // m: heights of the grains of start_id_
     std::vector<double> values_;
 };
 

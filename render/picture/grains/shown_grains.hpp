@@ -24,8 +24,8 @@ std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame);
 
 class ShownGrains {
   public:
-    // left_out: indices into scene.species. The grains of these species are as if they were not there: they
-    // are not lit, cast no shadow and are not counted in fields.
+    // left_out: indices into scene.species. The grains of these species are treated as absent: they are not
+    // lit, cast no shadow and are not counted in fields.
     ShownGrains(const FilmedScene& scene, const std::vector<std::size_t>& left_out);
     // Leaves out all grains but these; ids rise.
     static ShownGrains only(const FilmedScene& scene, std::vector<std::int32_t> ids);
@@ -42,7 +42,7 @@ class ShownGrains {
 
     std::vector<bool> left_out_;      // by species; empty: none
     std::vector<std::int32_t> only_;  // ids; empty: all
-    FilmCut cut_;                     // that leaves grains out
+    FilmCut cut_;                     // the cut that leaves grains out
     std::vector<std::size_t> kept_;
     Frame shown_;
 };

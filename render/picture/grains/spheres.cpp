@@ -13,7 +13,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kGreyer = 0.55;  // share of the neutral colour
+constexpr double kGreyer = 0.55;  // share of the neutral colour in glued grains
 
 }  // namespace
 
@@ -48,7 +48,7 @@ std::vector<GluedSpheres::Seen> GluedSpheres::seen(const View& view, const Frame
 
 Lamp lamp_of(const FilmLook& look, bool colours_are_read) {
     Lamp lamp;
-    if (look.style == FilmLook::Style::flat) {  // a hint of form, and outlines that survive a photocopier
+    if (look.style == FilmLook::Style::flat) {  // little shading, and outlines that survive a photocopier
         lamp.key = 0.22f;
         lamp.sky = 0.80f;
         lamp.ground = 0.72f;
@@ -63,7 +63,8 @@ Lamp lamp_of(const FilmLook& look, bool colours_are_read) {
         lamp.rim = 0.85f;
         lamp.shine = 0.20f;
     }
-    if (colours_are_read && look.style != FilmLook::Style::flat) {  // half as far from the map's colours
+    if (colours_are_read &&
+        look.style != FilmLook::Style::flat) {  // the light changes the map's colours half as much
         lamp.key = 0.45f;
         lamp.sky = 0.50f;
         lamp.ground = 0.35f;

@@ -1,5 +1,5 @@
-// From the grains of a frame to a layer of lit spheres: the grains themselves, those glued to walls, and the
-// light.
+// Makes a layer of lit spheres of the grains of a frame: the grains themselves, the grains glued to walls,
+// and the light.
 #pragma once
 
 #include <array>
@@ -60,14 +60,14 @@ class SpherePainter {
 
     const ClippedCount& clipped() const { return grain_colours_.clipped(); }
 
-    // These are called one after the other.
+    // These four are called in this order.
     void take(const View& view, const Frame& frame);
     void find_visible(const SolidDepth& solid = {});
     // Sight and cut for the frame that is taken.
     const Sight& sight() const { return sight_; }
     const Cut& cut() const { return cut_; }
     const Visibility& visibility() const { return layer_.visibility(); }
-    // walls: as they were painted behind and before the grains.
+    // walls: the walls as they were painted behind and before the grains.
     void find_order(const View& view, const ContainerShapes& walls);
     void find_neighbours();
     const Layer& light();

@@ -12,8 +12,8 @@
 namespace grainreel {
 namespace {
 
-constexpr double least_grains = 3;    // fewer make no mean
-constexpr double most_cells = 20000;  // of the picture
+constexpr double least_grains = 3;    // fewer grains make no mean
+constexpr double most_cells = 20000;  // cells of a picture's field
 constexpr double pi = std::numbers::pi;
 
 // Hz: the inverse of the drive's last period.
@@ -66,7 +66,7 @@ void VelocityField::take(const Frame& frame) {
 // integral of its square.
 bool VelocityField::is_filled(std::size_t cell) const {
     if (std::isnan(fields_.velocity[0][cell])) return false;
-    double grains = 0;  // a cubic metre
+    double grains = 0;  // grains in a cubic metre
     for (std::size_t s = 0; s < fields_.solid_fraction.size(); ++s)
         grains += fields_.solid_fraction[s][cell] / (pi / 6 * mean_cube(scene_.species[s].diameter));
     return grains * 4 * pi * width_ * width_ * sums_.grid().axes[0].cell >= least_grains;

@@ -12,13 +12,13 @@
 
 namespace grainreel {
 
-// Fields of a picture: in the y-z plane, with a kernel of this width (standard deviation, m) and cells as
-// fine as `finest` (m), but not more cells than a picture has use for.
+// Describes the fields of a picture: in the y-z plane, with a kernel of this width (standard deviation, m)
+// and cells as fine as `finest` (m), but not more cells than a picture has use for.
 FieldOutput picture_fields(const FilmedScene& scene, double width, double finest);
 
 // What coarse-graining takes of a frame: places relative to the container, and velocities in the lab. period:
-// takes displacements over a period in place of velocities. Grains that were not there a period before are
-// then left out, and all grains while the frame has no displacements.
+// displacements over a period take the place of velocities. Then grains that were not there a period before
+// are left out, and so are all grains while the frame has no displacements.
 FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period);
 
 class VelocityField {

@@ -14,8 +14,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double strength = 0.8;   // of the layer; the grains are seen through it
-constexpr double full_from = 0.3;  // solid fraction from which on it is as strong as that
+constexpr double strength = 0.8;   // alpha of the layer; the grains are seen through it
+constexpr double full_from = 0.3;  // from this solid fraction on the layer has its full strength
 
 // The kernel is wider than that of fields in files, since this field is of a single moment. The cells are
 // finer, for the eye.
@@ -124,7 +124,7 @@ std::vector<StreamPoint> streamline(const PlaneVelocity& velocity, const PlanePo
 namespace {
 
 constexpr double longest_arrow = 1.5;            // cells
-constexpr double streamline_reach = 1.5;         // distances of seeds, on either side of its own
+constexpr double streamline_reach = 1.5;         // distances between seeds, to either side of the seed
 constexpr double slow = 0.1;                     // of the speed of full width; slower lines fade out
 constexpr double thin = 0.6, thick = 2;          // widths of lines, pens
 const double side_over_width = std::sqrt(12.0);  // of a square and of its spread along one side

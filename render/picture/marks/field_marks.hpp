@@ -28,7 +28,7 @@ class FieldLayer {
     // See Renderer.
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
     void draw(const View& view, const Frame& frame, Shapes& on);
-    const ClippedCount& clipped() const { return clipped_; }  // cells
+    const ClippedCount& clipped() const { return clipped_; }  // counts cells
 
   private:
     void gather(const Frame& frame);
@@ -40,10 +40,11 @@ class FieldLayer {
     Quantities quantities_;
     ColourScale scale_;
     ClippedCount clipped_;
-    std::vector<double> solid_, mass_, sum_;  // of each cell: solid fraction, kg/m3, and kg/m3 times the mean
+    std::vector<double> solid_, mass_,
+        sum_;  // for each cell: solid fraction, kg/m3, and kg/m3 times the mean
 };
 
-// The velocity (m/s) at a place (y, z), m; none where there is no flow to speak of.
+// The velocity (m/s) at a place (y, z) in m; none where too few grains are near.
 using PlaneVelocity = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)>;
 
 struct StreamPoint {

@@ -14,12 +14,13 @@ namespace grainreel {
 
 namespace {
 
-constexpr double longest = 0.14;         // over the smaller side of the bed's part of the picture
+constexpr double longest = 0.14;         // share of the smaller side of the port
 constexpr double shortest = 9;           // pens
 constexpr double thin = 1.6, thick = 3;  // pens, of shafts
-constexpr double along_sight = 0.25;     // of the length in space that is seen, below which it is a circle
+constexpr double along_sight =
+    0.25;  // least share of the length in space that is seen; below it the arrow is a circle
 
-constexpr double room = 10;  // pens, from a grain's centre to the ends of arrows at the least
+constexpr double room = 10;  // pens: least distance from a grain's centre to the ends of arrows
 
 // Pixels by which an arrow at a grain's surface is moved outwards.
 Pixel moved_outwards(const View& view, const PointForce& force, double pen) {
@@ -90,10 +91,10 @@ void draw_point_forces(const View& view, const std::vector<PointForce>& forces, 
 
 namespace {
 
-constexpr double usual_arrow = 0.25, longest_arrow = 0.5;  // over the container's width
+constexpr double usual_arrow = 0.25, longest_arrow = 0.5;  // shares of the container's width
 constexpr double grazing = 0.05;                           // sine of 3 degrees
 constexpr double packing = 0.55;
-constexpr double face_on = 0.7;  // cosine: of walls that are looked at, forces point at the eye
+constexpr double face_on = 0.7;  // cosine: walls beyond it face the eye, and forces on them point at the eye
 
 // The vector whose components are three columns of the last row; NaN where there is no such row or column.
 Vec3 last_vector(const Frame& frame, const std::string& name, const std::string& unit) {
@@ -142,15 +143,15 @@ void WallForceMarks::draw(const View& view, const Frame& frame, Shapes& on) cons
     for (const Wall& wall : walls_) draw_wall(wall, view, frame, on);
 }
 
-// Moments of the container's faces are about the origin of its body, those of other faces about a point of
-// the face.
+// Draws the arrow of one wall. Moments of the container's faces are about the origin of its body; moments of
+// other faces are about a point of the face.
 void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const {
     const Vec3 force = last_vector(frame, wall.name + "_force", "N");
     const Vec3 moment = last_vector(frame, wall.name + "_moment", "N.m");
     if (!force.allFinite() || !moment.allFinite()) return;
     Face face = wall.face;
     const bool round = face.kind == Face::Kind::cylinder;
-    if (round && face.body.number == kTrayBody) return;  // the bed is not beside it
+    if (round && face.body.number == kTrayBody) return;  // the bed is not beside the tray's wall
     if (!round && std::abs(face.normal.dot(view.forward)) > face_on) return;
     const bool own = face.body.number >= kFirstPlaneBody;
     const Vec3 origin = own ? face.point : Vec3(0, 0, 0);

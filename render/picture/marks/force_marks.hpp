@@ -16,7 +16,7 @@ namespace grainreel {
 
 struct ArrowStyle {
     Colour colour, border;
-    double width;  // pixels, of its shaft
+    double width;  // pixels, of the shaft
     double pen;    // pixels, of the border
 };
 
@@ -38,14 +38,14 @@ inline void draw_arrow(Shapes& on, const Pixel& tail, const Pixel& tip, const Ar
 // Pixels: the length of the arrow of the strongest force.
 double longest_force_arrow(const View& view);
 
-// The arrow of a force in the picture. Lengths are proportional to the forces, except that arrows of weak
-// forces stay long enough to be seen. Where a grain is so small that heads would hide it and each other,
-// arrows are moved away from its centre. The arrow of a force along the line of sight has a length near 0.
+// The arrow of a force in the picture. Lengths are proportional to the forces, but arrows of weak forces stay
+// long enough to be seen. Where a grain is so small that heads would hide it and each other, arrows are moved
+// away from its centre. The arrow of a force along the line of sight has a length near 0.
 struct ForceArrow {
     Pixel tail, tip;
-    double share;     // of the strongest force
+    double share;     // over the strongest force
     bool at_eye;      // the force points towards the eye
-    double in_space;  // pixels: its length if it lay across the line of sight
+    double in_space;  // pixels: the arrow's length if it lay across the line of sight
 };
 std::vector<ForceArrow> force_arrows(const View& view, const std::vector<PointForce>& forces, double pen);
 

@@ -65,7 +65,7 @@ std::vector<std::vector<Trails::Point>> Trails::paths() const {
 
 namespace {
 
-constexpr double weakest_force = 0.02;  // of the widest; weaker ones are left out
+constexpr double weakest_force = 0.02;  // of the widest line's force; weaker forces are left out
 
 }  // namespace
 
@@ -149,9 +149,9 @@ void Marks::draw_trails(const View& view, Shapes& on) const {
 }
 
 // Grains chosen by id get rings wherever they are. Grains that a condition chooses get rings only where they
-// are seen: in a bed full of them, rings around buried grains would seem to belong to others.
+// are seen: in a bed with many such grains, rings around buried grains would seem to belong to other grains.
 void Marks::draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
-    constexpr double kHidden = 0.02, kPlain = 0.2;  // shares, between which a ring fades in
+    constexpr double kHidden = 0.02, kPlain = 0.2;  // seen shares between which a ring fades in
     const FilmShows& look = scene_.film.shows;
     for (const std::int32_t id : look.highlighted)
         if (const auto grain = find_grain(frame, id))
@@ -174,7 +174,7 @@ void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, dou
     outlined(on, circle_corners(middle, radius, corners), true, 2 * pen_, palette_.accent, strength);
 }
 
-// The legend: what the marks over the grains mean.
+// The legend explains the marks over the grains.
 
 namespace {
 
@@ -184,7 +184,7 @@ std::string quantity_text(double value, Dimension dimension) {
     return fmt::format("{:.3g}\u00a0{}", value / unit_size(unit, dimension), unit);
 }
 
-// Entries below each other, each a sample of a mark with its words beside it.
+// Writes entries below each other. An entry is a sample of a mark with its words beside it.
 class MarksLegend {
   public:
     MarksLegend(const Writer& writer, double x, double y, double wrap)
@@ -253,7 +253,7 @@ class MarksLegend {
     double height_ = 0;
 };
 
-constexpr std::size_t most_named = 12;  // grains
+constexpr std::size_t most_named = 12;  // grains named in the legend
 
 std::string words_of_rings(const FilmShows& look) {
     std::string ringed;

@@ -33,8 +33,8 @@ class Trails {
         double age;  // 0: now, 1: as old as trails get
         Vec3 at;     // m
     };
-    // The path of each grain, with the newest point first. It ends where a grain left through a periodic wall
-    // and came back at the other.
+    // The path of each grain, with the newest point first. A path ends where a grain left through a periodic
+    // wall and came back at the opposite one.
     std::vector<std::vector<Point>> paths() const;
 
   private:
@@ -54,7 +54,7 @@ class Trails {
 bool has_marks(const FilmShows& look);
 // N: from this force on, the line of a contact has its full width.
 double widest_force(const FilmedScene& scene);
-// Pixels: that width.
+// Pixels: the full width of a contact's line.
 double widest_line(int picture_height);
 
 class Marks {
@@ -88,7 +88,7 @@ class Marks {
     FlowMarks flow_;
     std::optional<WallForceMarks> wall_forces_;
     Trails trails_;
-    Quantities condition_;  // of which some grains are ringed
+    Quantities condition_;  // the quantity by which grains are ringed
 };
 
 }  // namespace grainreel
