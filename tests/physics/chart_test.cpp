@@ -1,4 +1,4 @@
-// What the charts are made with.
+// Tests of the experiments and tools with which charts are made.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -36,7 +36,7 @@ TEST_F(ResultTableTest, GoesOnWhereItStopped) {
         EXPECT_FALSE(table.has({"a", "1"}));
         table.add({"a", "1", "3.5"});
     }
-    std::ofstream(path, std::ios::app) << "a,2,7";  // cut short by a kill: no end of line
+    std::ofstream(path, std::ios::app) << "a,2,7";  // a kill cut this row short: it has no end of line
     ResultTable table(path, "name,seed,value", 2);
     EXPECT_TRUE(table.has({"a", "1"}));
     EXPECT_FALSE(table.has({"a", "2"}));
@@ -65,8 +65,8 @@ TEST(Charts, NormalErrorsAreThoseOfSectionSix) {
     EXPECT_EQ((Method{"", Integrator::forest_ruth}).forces_a_step(), 4);
 }
 
-// The standard setting: with corrections the restitution is kept for any number of steps, whole or not; plain
-// Verlet keeps it for whole numbers only.
+// Standard setting: with corrections the restitution is right for any number of steps, whole or not; plain
+// Verlet gives it for whole numbers only.
 TEST(Charts, CorrectionsKeepTheRestitutionAtFractionsOfAStepToo) {
     const Method corrected{"corrected", Integrator::velocity_verlet, NormalForce::walton_braun_corrected,
                            TangentialLaw::none};
@@ -81,8 +81,8 @@ TEST(Charts, CorrectionsKeepTheRestitutionAtFractionsOfAStepToo) {
     EXPECT_GT(normal_errors(plain, 0.9, 12.5, 50).restitution, 0.005);
 }
 
-// ... but for what the first force adds to an elastic impact's energy, (w s)^4 / 4 with s up to the step: the
-// reason why the plan leaves them out where hardly anything is lost (nearly_elastic).
+// The first force adds (w s)^4 / 4 to the energy of an elastic impact, where s is at most the step. That is
+// why the plan leaves corrections out where hardly anything is lost (nearly_elastic).
 TEST(Charts, CorrectionsGainTheFourthPowerOfTheStep) {
     const Method corrected{"corrected", Integrator::velocity_verlet, NormalForce::walton_braun_corrected,
                            TangentialLaw::none};
@@ -92,9 +92,8 @@ TEST(Charts, CorrectionsGainTheFourthPowerOfTheStep) {
     }
 }
 
-// A contact that lasts follows a linear spring to second order, and so does an impact whose slip counts from
-// the touch; without that the first increment begins in the middle of a step, and the error is of first
-// order.
+// A contact that lasts follows a linear spring to second order. So does an impact whose slip counts from the
+// touch; otherwise the first increment begins in the middle of a step, and the error is of first order.
 TEST(Charts, LinearSpringIsOfSecondOrderWithCorrections) {
     const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun,
                        TangentialLaw::linear_spring};

@@ -1,5 +1,5 @@
-// Runs that go on from a checkpoint: only in the scene that it is from, but for what decides nothing; and a
-// checkpoint is believed in nothing, whatever its checksum says.
+// Tests of runs that continue from a checkpoint. They do so only in the scene of the checkpoint, apart from
+// keys that decide nothing. No number in a checkpoint is believed, even if its checksum is right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <xxhash.h>
@@ -32,19 +32,19 @@ class Continuation : public testing::Test {
         sets.insert(sets.begin(), {kStiffness, "start.settle_limit=0.02 s", "run.threads=1"});
         return read_scene_text(test::small_scene_text + more, "fifty.toml", with_tested_precision(sets));
     }
-    // The same, from the end of the first run.
+    // The same scene, which continues from the end of the first run.
     Scene next_of(std::vector<std::string> sets = {}, const std::string& more = "", bool keep_clock = true,
                   const char* file = "first.grs") const {
         sets.insert(sets.begin(), {kStiffness, "start.method=file", "start.file=" + (here / file).string(),
                                    keep_clock ? "start.keep_clock=true" : "start.keep_clock=false"});
         return read_scene_text(test::small_scene_text + more, "fifty.toml", with_tested_precision(sets));
     }
-    // The plan would choose another for grains that fall than for those of a file.
+    // For falling grains the plan would choose another stiffness than for those of a file.
     static constexpr const char* kStiffness = "contact.stiffness=700 N/m";
 
     static std::int64_t steps_of(const Scene& scene) { return make_plan(scene).clock.steps_per_period; }
 
-    // A period of the small scene.
+    // Runs a period of the small scene.
     std::string first(const Scene& scene) const {
         Simulation run(scene, make_plan(scene), 1);
         run.pack();
@@ -118,8 +118,8 @@ TEST_F(Continuation, GoesOnOnlyInTheSceneItIsFrom) {
                 HasSubstr(":32:1: 'wall[0].point' is [0.0, 0.0, 0.005], but it was not there in the run"));
 }
 
-// A scene without a stiffness of its own has that of the file. What its plan chooses otherwise is in the
-// scene of the run.
+// A scene without a stiffness of its own gets that of the file. Whatever its plan chooses differently is in
+// the scene of the run.
 TEST_F(Continuation, WhatThePlanChoseIsInTheSceneOfTheRun) {
     const auto read = [](const std::string& text, const std::vector<std::string>& sets) {
         return read_scene_text(text, "fifty.toml", with_tested_precision(sets));
@@ -151,8 +151,8 @@ TEST_F(Continuation, ContainersOfOtherShapesAreRefused) {
                 HasSubstr(says + "cylinder\", but it was \"box\""));
 }
 
-// Every key of the list decides or is written down as not deciding: what the writer leaves out could change
-// unseen.
+// Every key of the list decides something or is written down as deciding nothing. A key that the writer left
+// out could change unseen.
 TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
     const std::string walton = test::small_scene_text;
     std::string all = scene_to_keep(scene_of(), make_plan(scene_of()));
@@ -209,7 +209,7 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
             return find_key(d.key) != nullptr && find_key(d.key)->path == key;
         });
     };
-    // What the plan or the reader turns into other keys.
+    // The plan or the reader turns these keys into other keys.
     const std::vector<std::string> turned = {"drive.g_level", "drive.stage[].g_level", "species[].mass",
                                              "run.steps_per_contact", "container.floor_width"};
     for (const Key& key : scene_keys()) {
@@ -223,7 +223,7 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
     }
 }
 
-// Also where the floor has moved farther than the lists reach since they were refreshed.
+// This also holds where the floor has moved farther than the lists reach since they were renewed.
 TEST_F(Continuation, IsBitForBitWhereverTheFloorIs) {
     const Scene scene = scene_of({"drive.g_level=5", "run.duration=0.5 s"});
     const Plan plan = make_plan(scene);
@@ -244,7 +244,7 @@ TEST_F(Continuation, IsBitForBitWhereverTheFloorIs) {
 TEST_F(Continuation, RotationMayBeginOrEnd) {
     first(scene_of());
     Scene scene = next_of();
-    scene.wishes.orientation = true;  // as of a film that shows how grains turn
+    scene.wishes.orientation = true;  // as for a film that shows how grains turn
     Simulation turning(scene, make_plan(scene), 1);
     const std::int64_t end = turning.step() + 200;
     turning.advance(end);
@@ -260,7 +260,7 @@ TEST_F(Continuation, RotationMayBeginOrEnd) {
     EXPECT_EQ(again.state_hash(), straight.state_hash());
 }
 
-// A checkpoint of a run whose first step was still to come, with a drive that starts at once.
+// The first step of the checkpoint's run was still to come, and its drive starts at once.
 TEST_F(Continuation, FromBeforeTheFirstStep) {
     for (const char* integrator : {"velocity-verlet", "gear"}) {
         first(scene_of());
@@ -327,7 +327,7 @@ TEST_F(Continuation, TablesAreNotBelieved) {
     EXPECT_THAT(with_last_row("49,2,0.003,0,0,1e300" + still), HasSubstr("so far out"));
 }
 
-// As a run writes it that grains have left: those that stayed keep their order, and new numbers.
+// A run that grains have left writes such a table: those that stayed keep their order and get new numbers.
 TEST_F(Continuation, AnewATableMayHaveGaps) {
     first(scene_of());
     Frame frame = read_grain_table(here / "final.csv");
@@ -348,10 +348,10 @@ TEST_F(Continuation, AnewATableMayHaveGaps) {
     }
 }
 
-// A checkpoint whose checksum is right, though what it holds is not.
+// A checkpoint whose checksum is right although its content is wrong.
 class ForgedCheckpoint : public Continuation {
   protected:
-    static constexpr std::size_t kBody = 16;  // name and version, checksum
+    static constexpr std::size_t kBody = 16;  // bytes of name, version and checksum before the body
 
     void forge(std::string bytes) const {
         const std::uint64_t sum = XXH64(bytes.data() + kBody, bytes.size() - kBody, 0);
@@ -360,7 +360,8 @@ class ForgedCheckpoint : public Continuation {
     }
 };
 
-// Whatever is in it, the answer is a message or a run; never an access out of range, which sanitizers see.
+// Whatever the checkpoint holds, the answer is a message or a run, and never an access out of range, which
+// sanitizers would see.
 TEST_F(ForgedCheckpoint, NeverCrashes) {
     const std::string good = first(scene_of());
     const Scene keeps = next_of(), anew = next_of({}, "", false);

@@ -1,5 +1,5 @@
-// Grains that come during the run: how many by when, where they may appear, their energy and momentum, and
-// the same bits on any number of threads and through a checkpoint.
+// Tests of grains that come during the run: how many there are at a time, where they may appear, their energy
+// and momentum, and the same bits on any number of threads and through a checkpoint.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,8 +66,8 @@ Scene scene_of(const std::string& more, const std::vector<std::string>& sets = {
 
 constexpr std::int64_t kLook = 200;  // steps
 
-// After t seconds a feed has given rate x (t - from), at the last multiple of 200 steps, and no more than its
-// count. Nothing waits here: the box is wide.
+// After t seconds a feed has given rate x (t - from) grains at the last multiple of 200 steps, and no more
+// than its count. No grain waits here, because the box is wide.
 TEST(Feed, GivesRateTimesTime) {
     const Scene scene = scene_of(kTwoFeeds);
     const Plan plan = make_plan(scene);
@@ -91,8 +91,8 @@ double gap(const Frame& f, std::size_t a, std::size_t b) {
     return (f.position[a] - f.position[b]).norm() - f.radius[a] - f.radius[b];
 }
 
-// A grain is a thousandth of its radius from every other and from the walls when it appears, of the sizes of
-// its species, in its box, with its velocity; and ids rise.
+// When a grain appears it is a thousandth of its radius away from every other grain and from the walls. It
+// has a size of its species, lies in its box and has its velocity; and ids rise.
 TEST(Feed, AppearsWhereNothingIs) {
     const std::string low =
         "[[feed]]\nspecies = \"big\"\nrate = 3000\ncount = 60\n"
@@ -122,8 +122,8 @@ TEST(Feed, AppearsWhereNothingIs) {
     EXPECT_EQ(there, 65u);
 }
 
-// Where nothing touches, a grain that came with v0 at t0 has m (v0 + g (t - t0)), and the energies are those
-// at the start plus what came in: velocity Verlet follows a parabola exactly.
+// If nothing touches, a grain that came with v0 at t0 has the momentum m (v0 + g (t - t0)). The energies are
+// those at the start plus what came in, because velocity Verlet follows a parabola exactly.
 TEST(Feed, KeepsTheAccountOfMomentumAndEnergy) {
     const Scene scene = scene_of(
         "[[feed]]\nrate = 2000\ncount = 20\nvelocity = [0, 0, \"2 m/s\"]\n"
@@ -210,7 +210,7 @@ TEST(Feed, IntoAFullContainerStops) {
     }
 }
 
-// A container that has nothing in it at first.
+// The container is empty at first.
 TEST(Feed, FillsAnEmptyContainer) {
     const Scene scene = scene_of(kTwoFeeds, {"species[1].count=1"});
     Scene empty = scene;

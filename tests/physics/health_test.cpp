@@ -1,4 +1,4 @@
-// The health check: it stops what is no longer physics, says where, and lets be what is.
+// Tests of the health check: it stops a run that is no longer physical, says where, and stops no other run.
 #include "engine/measure/health.hpp"
 
 #include <gmock/gmock.h>
@@ -81,7 +81,7 @@ TEST_F(HealthCheck, LetsWallsGiveEnergyAndStopsAtMore) {
     EXPECT_NO_THROW(check(2.7, 1.6));
 }
 
-// Nothing moves any more, and nothing was turned over: what is left is rounding of sums that were 1 J.
+// Nothing moves any more and no energy was exchanged; what is left is rounding of sums that were 1 J.
 TEST_F(HealthCheck, TakesRoundingForNoGain) {
     EnergyWatch watch;
     const auto check = [&](double energy, double through) {
@@ -92,7 +92,8 @@ TEST_F(HealthCheck, TakesRoundingForNoGain) {
     EXPECT_THROW(check(0.1 + 1e-6, 0.2), RunError);
 }
 
-// Two balls fall through an outlet and touch nothing on their way; when the last has left there is nothing.
+// Two balls fall through an outlet and touch nothing on their way. When the last one has left, no grain is
+// there.
 TEST(Health, FallsWithoutContactsEndInGoodOrder) {
     for (const char* height : {"0.041", "0.05", "0.0234", "0.035", "0.0333"}) {
         const std::string text = std::string(R"([[species]]

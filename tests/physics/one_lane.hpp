@@ -1,5 +1,5 @@
 // A single number that does what a lane of a register does, so that a law can be run beside its kernel and
-// give the same bits: multiplications and additions are fused, or are not.
+// give the same bits. Multiplications and additions are fused or not.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A start by rain: all grains come, the species mixed, and the bed is at rest and whole.
+// Tests of a start by rain: all grains come, with the species mixed, and the bed is whole and at rest.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ TEST(Rain, FillsTheContainerAndComesToRest) {
         EXPECT_LT(f.velocity[i].norm(), 0.05);
     }
     EXPECT_EQ(big, 80);
-    // Half of the big ones are among the first half, within four deviations of drawing without replacement:
+    // Half of the big grains are among the first half, within four deviations of drawing without replacement:
     // n K (N - K) (N - n) / (N^2 (N - 1)).
     const double N = 240, n = 120, K = 80;
     const double deviation = std::sqrt(n * K * (N - K) * (N - n) / (N * N * (N - 1)));

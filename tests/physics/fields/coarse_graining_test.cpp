@@ -1,4 +1,4 @@
-// Fields of states with a known answer.
+// Tests of fields of states with a known answer.
 #include "engine/measure/fields/coarse_graining.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Each, Fields,
                                            Choice{Grid::yz, Kernel::lucy}, Choice{Grid::xyz, Kernel::lucy}));
 
 // Whatever the kernel, the mean over the box is 1. With a kernel of a grain's width the single grains are
-// hardly seen: by the Gaussian of half a spacing as ripples of exp(-2 pi^2 / 4) = 0.7 % and their multiples.
+// hardly seen: the Gaussian of half a spacing leaves ripples of exp(-2 pi^2 / 4) = 0.7 % and their multiples.
 TEST_P(Fields, CubicPackingOfMassOneHasDensityOne) {
     CoarseGraining by(box({5, 5, 5}, 0.5, 0.25), 1);
     by.add(cubic_packing(), 0);
@@ -63,12 +63,13 @@ TEST_P(Fields, ShearedLatticeHasItsShearRate) {
         const auto k = static_cast<std::int64_t>((height - z.low) / z.cell);
         return fields.velocity[1][static_cast<std::size_t>(by.grid().index(i, j, k))];
     };
-    // Over two whole layers, so that the lattice is met in the same place.
+    // The difference is taken over two whole layers, so that both places lie alike in the lattice.
     EXPECT_NEAR((speed(3.6) - speed(1.6)) / 2, rate, 1e-3 * rate);
     EXPECT_NEAR(fields.velocity[0][static_cast<std::size_t>(by.grid().index(i, j, z.count / 2))], 0, 1e-12);
 }
 
-// Two streams through each other: kinetic stress rho u2 along them, temperature u2 / 3.
+// Two streams flow through each other: the kinetic stress is rho u2 along them, and the temperature is u2 /
+// 3.
 TEST_P(Fields, StreamsThroughEachOtherAreHeat) {
     constexpr double speed = 2;
     FieldState state;
@@ -86,9 +87,9 @@ TEST_P(Fields, StreamsThroughEachOtherAreHeat) {
     EXPECT_NEAR(fields.velocity[1][middle], 0, 1e-12);
 }
 
-// A grain of 2 kg in one phase and one of 6 kg in the other, both in one place: V = (2 v1 + 6 v2) / 8, and
-// against its own phase each stands still. Two more in a phase of their own move against each other along a
-// diagonal: m v v of both, off the diagonal as well.
+// A grain of 2 kg in one phase and one of 6 kg in the other are in the same place: V = (2 v1 + 6 v2) / 8, and
+// each is at rest against its own phase. Two more in a phase of their own move against each other along a
+// diagonal, so that m v v has entries off the diagonal as well.
 TEST_P(Fields, WeighMassAcrossPhases) {
     const Scene scene = box({5, 5, 5}, 0.5, 0.5);
     CoarseGraining by(scene, 3);
@@ -117,7 +118,7 @@ TEST_P(Fields, WeighMassAcrossPhases) {
     EXPECT_NEAR(fields.temperature[middle], heat / (3 * 12), 1e-12);
 }
 
-// What all grains do in every period at the same phase is no heat.
+// A motion that all grains make in every period at the same phase is no heat.
 TEST_P(Fields, BouncingTogetherIsNoHeat) {
     for (const int phases : {2, 1}) {
         CoarseGraining by(box({5, 5, 5}, 0.5, 0.5), phases);
@@ -136,7 +137,7 @@ TEST_P(Fields, BouncingTogetherIsNoHeat) {
     }
 }
 
-// The sum over the padded grid is the sum of f x b, whatever the contacts are (Goldhirsch 2010, eq. 35).
+// The sum over the padded grid is the sum of f x b for any contacts (Goldhirsch 2010, eq. 35).
 TEST_P(Fields, ContactStressKeepsTheVirial) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -159,14 +160,14 @@ TEST_P(Fields, ContactStressKeepsTheVirial) {
                         virial(a, b), 1e-10);
 }
 
-// A stack of spheres on a floor, each carrying those above: the stress at each height is the weight above.
+// In a stack of spheres on a floor, the stress at each height is the weight above.
 TEST_P(Fields, StackCarriesItsWeight) {
     constexpr int count = 8;
     constexpr double gravity = 10;
     FieldState state;
     for (int i = 0; i < count; ++i) {
         state.grains.push_back(sphere(Vec3(0, 0, i + 0.5), 0.5, 6 / std::numbers::pi));
-        const Vec3 force(0, 0, -(count - i) * gravity);  // on what is below
+        const Vec3 force(0, 0, -(count - i) * gravity);  // acts on the grain below
         state.contacts.push_back({state.grains.back().position, Vec3(0, 0, i > 0 ? -1 : -0.5), force});
     }
     CoarseGraining by(box({4, 4, 10}, 0.5, 0.25), 1);
@@ -176,7 +177,7 @@ TEST_P(Fields, StackCarriesItsWeight) {
     const std::int64_t layer = x.count * y.count;
     double above = 0;  // N
     for (std::int64_t k = z.count - 1; z.middle(k) > 1.8; --k) {
-        double weight = 0, carried = 0;  // of the layer of cells, N
+        double weight = 0, carried = 0;  // N, in the layer of cells
         for (std::int64_t cell = k * layer; cell < (k + 1) * layer; ++cell) {
             weight += gravity * by.grid().cell_volume() * fields.density[static_cast<std::size_t>(cell)];
             carried +=
@@ -188,7 +189,7 @@ TEST_P(Fields, StackCarriesItsWeight) {
     EXPECT_GT(above, 0.7 * count * gravity);
 }
 
-// Likewise with small and large spheres in turn, whose kernels are as wide as they are.
+// The stress is also right if small and large spheres alternate, whose kernels are as wide as they are.
 TEST_P(Fields, StackOfTwoSizesCarriesItsWeight) {
     constexpr int count = 6;
     constexpr double gravity = 10, small = 0.5, large = 1;
@@ -214,7 +215,7 @@ TEST_P(Fields, StackOfTwoSizesCarriesItsWeight) {
     const auto& [x, y, z] = by.grid().axes;
     const std::int64_t layer = x.count * y.count;
     for (std::int64_t k = z.count - 1; z.middle(k) > 3.2; --k) {
-        double weight = 0, carried = 0;  // of the layer of cells, N
+        double weight = 0, carried = 0;  // N, in the layer of cells
         for (std::int64_t cell = k * layer; cell < (k + 1) * layer; ++cell) {
             weight += gravity * by.grid().cell_volume() * fields.density[static_cast<std::size_t>(cell)];
             carried +=
@@ -226,10 +227,11 @@ TEST_P(Fields, StackOfTwoSizesCarriesItsWeight) {
     EXPECT_GT(above, 0.6 * gravity * all);
 }
 
-// Small spheres that fill a box, and in their middle a large one in place of those that it would meet: no
-// place is fuller than spheres can be packed. Where the large one is there is its own volume.
+// Small spheres fill a box, and a large one in the middle replaces those that it would meet. No place may be
+// fuller than spheres can be packed, and the large sphere's own volume is counted where it lies.
 TEST_P(Fields, SolidFractionAroundAnIntruderIsThatOfAPacking) {
-    constexpr double intruder = 1.5, spheres = std::numbers::pi / 6;  // of what a cubic packing fills
+    constexpr double intruder = 1.5,
+                     spheres = std::numbers::pi / 6;  // spheres: solid fraction of a cubic packing
     const Vec3 middle(0, 0, 4.5);
     for (const bool periodic : {false, true}) {
         FieldState state;
@@ -261,7 +263,8 @@ TEST_P(Fields, SolidFractionAroundAnIntruderIsThatOfAPacking) {
     }
 }
 
-// The wall's part reaches from the lowest centre down to the floor, and no further than the kernel.
+// The wall's part of the stress reaches from the lowest centre down to the floor, and no further than the
+// kernel.
 TEST_P(Fields, WallTermIsSpreadAlongTheWayToTheWall) {
     FieldState state;
     state.contacts.push_back({Vec3(0, 0, 0.5), Vec3(0, 0, -0.5), Vec3(0, 0, -1)});

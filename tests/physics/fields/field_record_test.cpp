@@ -1,4 +1,5 @@
-// Fields of whole runs: what a bed at rest weighs, alike on any number of threads, and through a checkpoint.
+// Tests of fields of whole runs: they give the weight of a bed at rest, and are the same on any number of
+// threads and through a checkpoint.
 #include "engine/measure/fields/coarse_graining_observer.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace grainreel {
 namespace {
 
-// No friction, no front and back: the floor alone carries the bed.
+// There is neither friction nor front and back, so the floor alone carries the bed.
 const char* const column_text = R"(gravity = 9.81
 [[species]]
 name = "glass"
@@ -132,7 +133,7 @@ TEST_F(ShakenFields, GoOnThroughACheckpoint) {
     next.pack();
     EXPECT_TRUE(same(unbroken, fields_at(next, plan.fields.record)));
 
-    // With another kernel what was gathered is of no use: the first whole record is the next one.
+    // With another kernel, gathered sums are of no use, and the first whole record is the next one.
     const Scene other = next_of({"output.fields.width=3 mm"});
     Simulation changed(other, make_plan(other), 1);
     changed.pack();
@@ -166,7 +167,7 @@ TEST(FieldTimes, RecordsAreWholePeriodsAndTheLastMayBeShorter) {
     EXPECT_EQ(ends, (std::vector<std::int64_t>{80, 160, 200}));
     EXPECT_EQ(times.begin_of_record(160), 80);
     EXPECT_EQ(times.begin_of_record(200), 160);
-    std::vector<std::int64_t> seen(16, 0);  // moments of each phase
+    std::vector<std::int64_t> seen(16, 0);  // number of moments of each phase
     for (std::int64_t step = 0; step != FieldTimes::kNever; step = times.next(step)) {
         if (!times.is_moment(step)) continue;
         ++seen[static_cast<std::size_t>(times.phase_of(step))];

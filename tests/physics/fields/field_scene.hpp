@@ -28,7 +28,7 @@ inline FieldGrain sphere(const Vec3& position, double radius, double density,
     return {position, velocity, density * volume, volume, species, radius};
 }
 
-// Spheres of diameter 1 and mass 1, five a side, that fill a box of side 5.
+// Spheres of diameter 1 and mass 1 that fill a box of side 5, five along each side.
 inline FieldState cubic_packing() {
     FieldState state;
     for (int i = 0; i < 125; ++i)
@@ -44,7 +44,7 @@ inline double integral(const CoarseGraining& by, const CellValues& field) {
     return sum * by.grid().cell_volume();
 }
 
-// Over all cells, those in the walls as well.
+// The same sum over all cells, including those in the walls.
 inline double padded_integral(const CoarseGraining& by, const CellValues& field) {
     double sum = 0;
     for (const double value : field) sum += value;

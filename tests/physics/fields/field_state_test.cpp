@@ -1,4 +1,4 @@
-// What fields are made from, and how a record of a run is made of it.
+// Tests of the state from which fields are computed, and of how a record of a run is made of it.
 #include <gtest/gtest.h>
 
 #include "engine/measure/fields/coarse_graining_observer.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using Moves = Drive::Moves;
 
-// Two grains in a box that has moved, of 3 kg/m3.
+// Two grains of 3 kg/m3 in a box that has moved.
 struct MovedBox {
     Scene scene = field_box({4, 4, 4}, FieldOutput::Grid::yz, 0.5, 0.25);
     Plan plan;
@@ -22,7 +22,7 @@ struct MovedBox {
         scene.drive.present = true;
         scene.drive.moves = moves;
         scene.species[0].density = 3;
-        grains.add(0, 0, {-2.1, 0.5, 0.6}, 0.4, 3);  // its image inside is at 1.9
+        grains.add(0, 0, {-2.1, 0.5, 0.6}, 0.4, 3);  // its image inside the box is at 1.9
         grains.add(1, 0, {1.9, 0.5, 1.4}, 0.5, 3);
         grains.motion[0].velocity = {1, 2, 3};
     }
@@ -56,7 +56,7 @@ ContactView touch(std::int32_t second, const Vec3& normal, double overlap) {
     return contact;
 }
 
-// The branch goes to the other grain's centre, or to the face of a wall; the force has its friction.
+// The branch ends at the other grain's centre or on the face of a wall. The force includes friction.
 TEST(FieldState, BranchesEndAtACentreOrOnAFace) {
     const MovedBox moved(Moves::floor);
     const FieldContact pair = field_contact(moved.moment(), touch(1, {0, 0, 1}, 0.1));
@@ -66,7 +66,7 @@ TEST(FieldState, BranchesEndAtACentreOrOnAFace) {
     const FieldContact wall = field_contact(moved.moment(), touch(-1, {0, 0, -1}, 0.05));
     EXPECT_LT((wall.branch - Vec3(0, 0, -0.35)).norm(), 1e-12);
     EXPECT_LT((wall.force - Vec3(0.5, 0, -6)).norm(), 1e-12);
-    // Each end has its grain's own kernel; at a wall both have that of the grain.
+    // Each end has the kernel of its own grain; at a wall both ends have that of the grain.
     EXPECT_EQ(pair.radius, 0.4);
     EXPECT_EQ(pair.other_radius, 0.5);
     EXPECT_EQ(wall.radius, 0.4);
@@ -81,7 +81,8 @@ FieldTimes two_phases() {
     return field_times(fields, Clock{1, 40, 0}, 160);
 }
 
-// Grains that go up at one phase and down at the other: no heat. In the second record they also drift.
+// All grains go up at one phase and down at the other, which is no heat. In the second record they also
+// drift.
 TEST(FieldRecords, KeepPhasesAndRecordsApart) {
     const Scene scene = field_box({5, 5, 5}, FieldOutput::Grid::yz, 0.5, 0.5);
     const FieldTimes times = two_phases();
@@ -101,7 +102,7 @@ TEST(FieldRecords, KeepPhasesAndRecordsApart) {
     }
 }
 
-// The sum of stress over all cells is that of force times branch, walls among them.
+// The sum of stress over all cells is the sum of force times branch, including contacts with walls.
 TEST(FieldRecords, HaveTheContactsWithWalls) {
     MovedBox box(Moves::floor);
     box.plan.fields = two_phases();

@@ -1,4 +1,4 @@
-// Cells at the walls: what of them is inside, and that no mass is lost there.
+// Tests of cells at walls: which part of them is inside, and that no mass is lost there.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -45,7 +45,7 @@ TEST(FieldCells, AddUpToTheContainer) {
         EXPECT_NEAR(free_volume(scene) / scene.container.volume(), 1, 1e-12);
 }
 
-// Where the floor alone is shaken, its lowest place is the end of the room.
+// If only the floor is shaken, its lowest place is the end of the room.
 TEST(FieldCells, ReachDownToWhereAMovingFloorGoes) {
     Scene scene = field_box({4, 10, 12}, Grid::yz, 0.5, 0.37);
     scene.drive.present = true;
@@ -91,7 +91,7 @@ TEST(FieldCells, ReachAsFarBeyondAsTheKernelOfTheLargestGrain) {
     EXPECT_GT(grid.axes[1].low, -5 - cutoff - 0.37);
 }
 
-// A grain that is out has no density inside, near as it may be to the wall; the whole kernel has its mass.
+// A grain outside has no density inside, however near to the wall it is; the whole kernel has its mass.
 TEST(FieldCells, GrainsOutsideHaveNoDensity) {
     for (const Vec3& place : {Vec3(0, 5.3, 6), Vec3(0, 0, -0.2), Vec3(0, 0, 12.4), Vec3(0, 4.9, 1)}) {
         Scene scene = field_box({4, 10, 12}, Grid::yz, 0.5, 0.37);
@@ -102,7 +102,7 @@ TEST(FieldCells, GrainsOutsideHaveNoDensity) {
     }
 }
 
-// Grains anywhere inside, many of them with their kernels beyond slants, corners and the round wall.
+// Grains lie anywhere inside, many with kernels that reach beyond slants, corners and the round wall.
 TEST(FieldCells, NoMassIsLostAtWalls) {
     for (const Scene& scene : {wedge(Grid::yz), wedge(Grid::xyz), cylinder()}) {
         const Container& container = scene.container;

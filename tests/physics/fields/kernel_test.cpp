@@ -21,7 +21,7 @@ TEST_P(Kernels, TableIsWithinWhatItPromises) {
     EXPECT_EQ(kernel.at(std::pow(1.0001 * kernel.cutoff(), 2)), 0);
 }
 
-// Against the mean over a thousand points of the same line.
+// The line is compared with the mean over a thousand of its points.
 TEST_P(Kernels, LineIsTheMeanOverItsPoints) {
     Scene scene = field_box({6, 6, 6}, FieldOutput::Grid::xyz, 0.5, 0.25);
     const FieldGrid grid = make_field_grid(scene, scene.output.fields);
@@ -47,8 +47,8 @@ TEST_P(Kernels, LineIsTheMeanOverItsPoints) {
     }
 }
 
-// What flows through planes across the grid, along the line, is what of the kernel at the beginning lies
-// before them less what of that at the end does; across the line nothing flows on the whole.
+// Through each plane across the line flows the part of the first kernel before the plane, less the part of
+// the last kernel before it. Across the line the flows sum to nothing.
 TEST_P(Kernels, AChangingLineCarriesTheOneKernelIntoTheOther) {
     for (const auto grid_of : {FieldOutput::Grid::xyz, FieldOutput::Grid::yz}) {
         Scene scene = field_box({8, 8, 8}, grid_of, 0.5, 0.125);
@@ -81,7 +81,7 @@ TEST_P(Kernels, AChangingLineCarriesTheOneKernelIntoTheOther) {
 INSTANTIATE_TEST_SUITE_P(Both, Kernels,
                          ::testing::Values(FieldOutput::Kernel::gaussian, FieldOutput::Kernel::lucy));
 
-// exp(-r2 / 2 w2) up to three widths.
+// The kernel is exp(-r2 / 2 w2) up to three widths.
 TEST(GaussianKernel, HasItsWidthAndItsCutoff) {
     for (const int dimensions : {2, 3}) {
         const FieldKernel kernel(FieldOutput::Kernel::gaussian, kWidth, dimensions);
@@ -91,7 +91,7 @@ TEST(GaussianKernel, HasItsWidthAndItsCutoff) {
     }
 }
 
-// A point on the outer edge of the grid has half of its kernel beyond it, and that half is lost.
+// A point on the outer edge of the grid has half of its kernel beyond the edge, and that half is lost.
 TEST(Footprints, WhatLiesBeyondTheGridIsNotMadeUpFor) {
     const Scene scene = field_box({6, 6, 6}, FieldOutput::Grid::yz, 0.5, 0.25);
     const FieldGrid grid = make_field_grid(scene, scene.output.fields);

@@ -1,4 +1,4 @@
-// Profiles of states with a known answer.
+// Tests of profiles of states with a known answer.
 #include "engine/measure/fields/profile.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,8 @@ Scene box_of_two_species() {
     return scene;
 }
 
-// Layers of spheres at 0.5, 1.5, ...: the lower two are of the first species. upright: layers along y.
+// Layers of spheres at 0.5, 1.5, ...; the lower two are of the first species. upright: the layers follow each
+// other along y.
 FieldState layered(bool upright) {
     FieldState state = cubic_packing();
     for (FieldGrain& grain : state.grains) {
@@ -57,7 +58,7 @@ TEST_P(Profiles, SolidFractionsHoldTheVolumeOfTheGrains) {
     }
 }
 
-// The kernel ends at 1.5: beside a layer it sees only the two next to it.
+// The kernel ends at 1.5, so that beside a layer only the two next layers count.
 TEST_P(Profiles, SharesAreOneAmongTheirOwnAndHalfAtTheBorder) {
     const auto share = share_profiles(fields_, by_, GetParam());
     for (std::size_t k = 0; k < share[0].size(); ++k) {
@@ -69,16 +70,17 @@ TEST_P(Profiles, SharesAreOneAmongTheirOwnAndHalfAtTheBorder) {
         if (place(k) > 3.01) {
             EXPECT_NEAR(share[0][k], 0, 1e-12) << place(k);
         }
-        // The border is in the middle between two cells.
+        // The border lies in the middle between two cells.
         if (std::abs(place(k) - 1.875) < 1e-9) {
-            // The floor cuts the lowest layer's kernel off, which is made up for: it counts a little more.
+            // The floor cuts off part of the lowest layer's kernel. This is made up for, so that the layer
+            // counts a little more.
             EXPECT_NEAR(share[0][k] + share[0][k + 1], 1, 2e-3);
             EXPECT_GT(share[0][k], 0.55);
         }
     }
 }
 
-// What the Gaussian leaves of its other direction, for layers with weights exp(-(z - z_k)^2 / 2 w^2).
+// Expected are the layers' velocities, averaged with the Gaussian weights exp(-(z - z_k)^2 / 2 w^2).
 TEST_P(Profiles, VelocityIsMomentumOverMass) {
     const std::vector<double> velocity = velocity_profile(fields_, by_, GetParam(), 2);
     int looked_at = 0;
@@ -100,8 +102,8 @@ TEST_P(Profiles, VelocityIsMomentumOverMass) {
         }
 }
 
-// In a wedge, a heavy grain that rises in the middle and a light one that sinks at the slant, each out of the
-// other's reach: mean times mass, summed over heights, is their momentum.
+// In a wedge a heavy grain rises in the middle and a light one sinks at the slant, too far apart to be in one
+// kernel. Mean velocity times mass, summed over heights, is their momentum.
 TEST(VelocityProfile, IsByTheMassInsideTheContainer) {
     Scene scene = field_box({4, 10, 12}, FieldOutput::Grid::yz, width, 0.37);
     scene.container.shape = Container::Shape::wedge;

@@ -1,5 +1,6 @@
-// Energy on closed paths of normal force and slip: a tangential law whose stiffness depends on the normal
-// force can make some on each round (Elata & Berryman 1996, Mech. Mater. 24, 229). The laws are led by hand.
+// Tests of energy on closed paths of normal force and slip. A tangential law whose stiffness depends on the
+// normal force can make energy on each round (Elata & Berryman 1996, Mech. Mater. 24, 229). The laws are
+// called by hand.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -17,13 +18,14 @@ namespace {
 using namespace HWY_NAMESPACE;
 using std::numbers::pi;
 
-// Normal force over its largest, and slip over mu N / K at that force; the round goes from 0 to 1.
+// Normal force divided by its largest value, and slip divided by mu N / K at that value. The place on a round
+// goes from 0 to 1.
 struct Point {
     double normal, slip;
 };
 using Path = std::function<Point(double)>;
 
-// Slip forward under the full force, back under `low` of it; or the other way about.
+// The slip goes forward under the full force and back under `low` of it, or the other way round.
 Path rectangle(double slip, double low, bool backwards) {
     return [=](double share) {
         const double corner = 4 * (backwards ? 1 - share : share);
@@ -59,9 +61,10 @@ struct Led {
     typename Tangential::template Parameters<double> tangential;
     typename Normal::template Parameters<double> normal;
     double stiffness, largest;  // N/m and N, at the largest force
-    std::function<double(double)> overlap_at = [](double) { return 1e-5; };  // m, of the share of that force
+    std::function<double(double)> overlap_at = [](double) { return 1e-5; };  // m, by the share of that force
 
-    // The energy that the last of four rounds made, over what it turned over, which is half of |T ds|.
+    // The energy that the last of four rounds made, divided by the energy exchanged in it, which is half of
+    // |T ds|.
     double made(const Path& path, double friction) const {
         constexpr int steps = 1000;
         typename Tangential::template History<double> history{};
@@ -92,8 +95,8 @@ struct Led {
 
 constexpr double kFriction = 0.5;
 
-// It has no state function, and makes a little: most where a small slip comes back under a small normal
-// force.
+// The law has no state function and makes a little energy, most where a small slip comes back under a small
+// normal force.
 TEST(ClosedLoop, IncrementalSlipMakesAFewPerCentAtWorst) {
     struct Row {
         double gamma, bound;
@@ -118,7 +121,8 @@ TEST(ClosedLoop, LinearSpringMakesNone) {
     EXPECT_LT(led.most_made(kFriction), 1e-9);
 }
 
-// Because its force shrinks with the contact; without that it makes up to an eighth of what it turns over.
+// Mindlin's law makes none because its force shrinks with the contact. Without that it would make up to an
+// eighth of the energy exchanged.
 TEST(ClosedLoop, MindlinMakesNone) {
     PairPlan pair = walton_braun_pair(1, kFriction);
     pair.modulus = 1e8;

@@ -1,5 +1,5 @@
-// Every combination of law, friction, rolling, integrator, precision and container runs soundly, or is
-// refused with a reason.
+// Tests that every combination of law, friction, rolling, integrator, precision and container runs soundly,
+// or is refused with a reason.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ const std::vector<std::string> containers = {
     "shape = \"cylinder\"\ndiameter = 0.02\nheight = 0.04\n",
     "shape = \"none\"\n[[wall]]\npoint = [0, 0, 0]\nnormal = [0, 0.2, 1]\n"};
 
-// A small, fast crowd: its grains all but touch, and hit each other and the floor within its 2 ms.
+// A small, fast crowd. Its grains nearly touch, and hit each other and the floor within its 2 ms.
 std::string crowd(const std::string& law, const std::string& friction, bool rolls,
                   const std::string& container) {
     std::string text = fmt::format(
@@ -49,7 +49,8 @@ double energy(const Measures& m) {
     return m.at("kinetic_J") + m.at("rotational_J") + m.at("gravitational_J") + m.at("elastic_J");
 }
 
-// What the scene says when it is refused, or "" after a sound run: no grain lost, no energy from nowhere.
+// The message of a scene that is refused, or "" after a sound run, in which no grain is lost and no energy
+// appears.
 std::string run(const std::string& text, const std::vector<std::string>& sets) {
     Scene scene;
     try {
@@ -75,7 +76,7 @@ bool go_together(const std::string& law, const std::string& friction) {
 }
 
 // The plan of repelling Hertz integrates hundreds of impacts to find its dashpot. The rest of it is as with
-// attraction, so it takes every integrator in one container, and every container with one integrator.
+// attraction. So each integrator runs in one container, and each container with one integrator.
 bool left_out(const std::string& law, const std::string& container, const std::string& integrator) {
     return law == "law = \"hertz\"" && container != containers[0] &&
            integrator != all_of(integrator_words).front();
@@ -105,8 +106,9 @@ TEST(Combinations, RunOrAreRefusedWithAReason) {
             }
         }
     }
-    // Five of the 7 laws go with 2 frictions that rub and 2 with one, rolling or not, and each with none; in
-    // 5 containers with 5 integrators in 2 precisions; but for the 4 x 4 that repelling Hertz leaves out.
+    // Five of the 7 laws go with 2 kinds of friction and 2 laws with one, rolling or not, and each law goes
+    // without friction; in 5 containers with 5 integrators in 2 precisions. The 4 x 4 that repelling Hertz
+    // leaves out are subtracted.
     EXPECT_EQ(ran, ((5 * 2 + 2 * 1) * 2 + 7) * 5 * 5 * 2 - (2 + 1) * 4 * 4 * 2);
     EXPECT_EQ(ran + refused, 7 * 4 * 2 * 5 * 5 * 2 - 4 * 2 * 4 * 4 * 2);
 }

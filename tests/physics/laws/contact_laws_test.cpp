@@ -1,5 +1,5 @@
-// Closed forms of the laws beyond Walton and Braun's: dashpots without attraction, Hertz and Mindlin, tables
-// of restitution, rolling resistance; and each kind of contact with a law of its own.
+// Tests of closed forms of all laws except Walton and Braun's: dashpots without attraction, Hertz and
+// Mindlin, tables of restitution, rolling resistance; and of kinds of contact with laws of their own.
 #include <gtest/gtest.h>
 
 #include "engine/plan/damping.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Two equal spheres head-on at speed v.
+// Two equal spheres that meet head-on at speed v.
 struct Rebound {
     double restitution, contact_time, largest_overlap, largest_force;
 };
@@ -35,7 +35,7 @@ Rebound rebound(const PairPlan& pair, NormalForce law, double v, double step) {
     return result;
 }
 
-// Schwager & Poeschel 2007: what the damping for a nominal restitution gives when the dashpot must not pull.
+// Schwager & Poeschel 2007 give the restitution for a nominal damping if the dashpot must not pull.
 TEST(Dashpot, WithoutAttractionReboundsFaster) {
     struct Row {
         double nominal, clipped;
@@ -61,7 +61,7 @@ TEST(Dashpot, DampingAndRestitutionAreInverse) {
             EXPECT_NEAR(hertz_restitution(hertz_damping(e, attraction), attraction), e, 1e-5) << e;
         }
     }
-    // The branch above the critical damping joins the one below: e^-2 at beta = 1.
+    // The branches above and below critical damping meet there: e^-2 at beta = 1.
     EXPECT_NEAR(linear_restitution(1 - 1e-5, false), std::exp(-2), 1e-4);
     EXPECT_NEAR(linear_restitution(1 + 1e-5, false), std::exp(-2), 1e-4);
 }
@@ -91,8 +91,8 @@ TEST(Dashpot, FallingBallFollowsTheDampedOscillation) {
     }
 }
 
-// A ball on the floor, pushed off its equilibrium and always in contact: u/w e^(-b w0 t) sin w t. The dashpot
-// acts at the time of the force, so the error falls with the square of the step.
+// A ball on the floor is pushed off its equilibrium and always in contact: u/w e^(-b w0 t) sin w t. The
+// dashpot acts at the time of the force, so the error falls with the square of the step.
 TEST(Dashpot, IsOfSecondOrderInTheStep) {
     const double natural = std::sqrt(kStiffness / sphere_mass()), beta = 0.2, push = 1e-4;
     const double sink = 10 * push / natural, gravity = sink * kStiffness / sphere_mass();
@@ -129,10 +129,11 @@ PairPlan hertz_pair(double e, double friction, bool attraction) {
     pair.tangential_ratio = 2 * (1 - 0.3) / (2 - 0.3);
     return pair;
 }
-// N/m^1.5, of two equal spheres.
+// N/m^1.5, for two equal spheres
 const double kHertz = 4.0 / 3 * 1e8 * std::sqrt(kRadius / 2);
 
-// Elastic: a = (5 m v^2 / 4k)^0.4, P = k a^1.5, t = 2.9432 a / v (Timoshenko & Goodier art. 142).
+// An elastic impact has a = (5 m v^2 / 4k)^0.4, P = k a^1.5, t = 2.9432 a / v (Timoshenko & Goodier art.
+// 142).
 TEST(Hertz, PeakAndDurationOfAnElasticImpact) {
     for (const double v : {0.03, 1.0}) {
         const double deepest = std::pow(1.25 * sphere_mass() / 2 * v * v / kHertz, 0.4);
@@ -160,7 +161,7 @@ TEST(Hertz, RestitutionIsTheAskedOneAtAnySpeed) {
     }
 }
 
-// A ball pressed on the floor, the floor pulled aside by s: T = K_t s with K_t = ratio 2 E* sqrt(R a).
+// A ball is pressed on the floor and moved aside by s: T = K_t s with K_t = ratio 2 E* sqrt(R a).
 TEST(Mindlin, StiffnessFollowsTheContactRadius) {
     PairPlan pair = hertz_pair(1, 10, false);
     World w = make_world(pair, 1e-9, NormalForce::hertz, TangentialLaw::mindlin);
@@ -177,7 +178,7 @@ TEST(Mindlin, StiffnessFollowsTheContactRadius) {
     EXPECT_NEAR(force.x(), expected, 1e-3 * expected);
 }
 
-// Sliding throughout: Coulomb's share of the normal impulse, whatever the law.
+// If the contact slides throughout, the tangential impulse is mu times the normal one, whatever the law.
 TEST(Mindlin, SlidingContactTakesCoulombsShare) {
     const double mu = 0.1, vn = 0.05, vt = 20 * mu * vn, e = 0.8;
     const double k = 4.0 / 3 * 1e8 * std::sqrt(kRadius);
@@ -192,8 +193,8 @@ TEST(Mindlin, SlidingContactTakesCoulombsShare) {
     EXPECT_NEAR(vt - w.velocity(0).x(), mu * (1 + e) * vn, 5e-3 * mu * (1 + e) * vn);
 }
 
-// Loading with slip, then unloading without: the force shrinks with the contact's radius, so that the stored
-// energy T^2 / (2 K_t) falls; kept at its size it would grow without work.
+// The contact is loaded with slip and then unloaded without it. The force shrinks with the contact's radius,
+// so the stored energy T^2 / (2 K_t) falls; a force that kept its size would give energy without work.
 TEST(Mindlin, UnloadingTheContactMakesNoEnergy) {
     World w = make_world(hertz_pair(1, 10, false), 1e-8, NormalForce::hertz, TangentialLaw::mindlin);
     w.around.faces = {floor_face()};
@@ -224,7 +225,7 @@ TEST(RestitutionTable, HoldsAtItsRowsAndBetweenThem) {
     }
 }
 
-// Three kinds of pair with a restitution and a law each, and a wall with another: all at once in one world.
+// Three kinds of pair with a restitution and a law each, and a wall with another law, are in one world.
 TEST(KindsOfContact, EachHasItsLawAndItsNumbers) {
     const double v = 0.2, natural = std::sqrt(kStiffness / (sphere_mass() / 2));
     PairPlan one = walton_braun_pair(0.9, 0.3), mixed = walton_braun_pair(0.6, 0);
@@ -256,8 +257,8 @@ TEST(KindsOfContact, EachHasItsLawAndItsNumbers) {
     EXPECT_NEAR(w.velocity(8).z() / v, 0.4, 2e-3);
 }
 
-// Species whose contacts do not differ share one row of parameters; observers must read that one too.
-// Pairs of two kinds, computed before walls of one, must not lend these their kind.
+// Species whose contacts do not differ share one row of parameters, and observers must read that row too.
+// Pairs of two kinds, computed before walls of one kind, must not lend these their kind.
 TEST(KindsOfContact, OfPairsDoNotShowAtWalls) {
     const auto rolled = [](bool with_pairs) {
         PairPlan pair = walton_braun_pair(0.8, 0.5);
@@ -312,7 +313,8 @@ TEST(Rolling, SlowsABallDown) {
     EXPECT_NEAR(w.velocity(0).x(), u - 5.0 / 7 * rolling * gravity * 0.5, 2e-3 * u);
 }
 
-// On a slope it holds a ball as long as tan < mu_r, and lets it roll with (5/7) g (sin - mu_r cos) beyond.
+// On a slope rolling friction holds a ball as long as tan < mu_r. Beyond that the ball rolls with (5/7) g
+// (sin - mu_r cos).
 TEST(Rolling, HoldsABallOnASlopeUpToItsFriction) {
     const double rolling = 0.1, gravity = 9.81;
     for (const double slope : {0.8 * rolling, 2 * rolling}) {
@@ -334,7 +336,7 @@ TEST(Rolling, HoldsABallOnASlopeUpToItsFriction) {
     }
 }
 
-// Two spheres that roll on each other: the torques on them are opposite, and angular momentum is kept.
+// Two spheres roll on each other: the torques on them are opposite, and angular momentum is kept.
 TEST(Rolling, KeepsAngularMomentumBetweenGrains) {
     PairPlan pair = walton_braun_pair(0.7, 0.4);
     pair.model.rolls = true;
@@ -359,7 +361,7 @@ TEST(Rolling, KeepsAngularMomentumBetweenGrains) {
 }
 
 // Along the unloading branch of Walton and Braun nothing is lost: kinetic and stored energy add up to the
-// share e^2 of what came in, all the way.
+// share e^2 of the energy that came in, all the way.
 TEST(StoredEnergy, IsWhatUnloadingGivesBack) {
     const double e = 0.6, v = 0.3;
     World w = make_world(walton_braun_pair(e, 0), 1e-8);
@@ -367,7 +369,7 @@ TEST(StoredEnergy, IsWhatUnloadingGivesBack) {
     w.grains.add(1, 0, Vec3(kRadius, 0, 0), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(v, 0, 0);
     w.start();
-    const double centre = 0.25 * sphere_mass() * v * v;  // kinetic energy of the centre of mass stays
+    const double centre = 0.25 * sphere_mass() * v * v;  // J; the kinetic energy of the centre of mass stays
     int looked = 0;
     while (w.grains.load[0].force.x() != 0 || w.step < 10) {
         w.run(1);

@@ -1,5 +1,5 @@
-// Grazing impacts on a wall: friction with a history must not add energy. A widely used engine was found to
-// add up to a third of the kinetic energy at 76 degrees from the normal and mu = 0.5
+// Tests of grazing impacts on a wall: friction with a history must not add energy. A widely used engine was
+// found to add up to a third of the kinetic energy at 76 degrees from the normal and mu = 0.5
 // (docs/reference/stability.md).
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ PairPlan pair_of(double friction) {
     return pair;
 }
 
-// Kinetic energy of a ball after it left the wall, over that before.
+// Kinetic energy of a ball after it left the wall, divided by that before.
 double kept(const Laws& laws, double friction, double degrees, double spin, double steps) {
     World w = make_world(pair_of(friction), 0, laws.normal, laws.tangential);
     w.plan.clock.step = pi * std::sqrt(sphere_mass() / kStiffness) / steps;
@@ -45,8 +45,8 @@ double kept(const Laws& laws, double friction, double degrees, double spin, doub
     return w.energy() / before;
 }
 
-// What the normal motion loses is lost, so at least (1 - e^2) cos^2 / (1 + 0.4 spin^2) of the energy;
-// friction may only take more.
+// The normal motion loses at least (1 - e^2) cos^2 / (1 + 0.4 spin^2) of the energy; friction may only take
+// more.
 TEST(GrazingImpact, FrictionAddsNoEnergyAtAWall) {
     using N = NormalForce;
     using T = TangentialLaw;

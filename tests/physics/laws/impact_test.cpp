@@ -1,4 +1,4 @@
-// Closed forms of single impacts.
+// Tests of closed forms of single impacts.
 #include <gtest/gtest.h>
 
 #include "engine/laws/walton_braun-inl.hpp"
@@ -8,7 +8,8 @@
 namespace grainreel {
 namespace {
 
-// Two equal spheres closing head-on at speed v, apart by `gap`; t: s from touch to separation.
+// Two equal spheres that approach head-on at speed v, with a gap (m) between them. t: s from touch to
+// separation.
 struct Impact {
     double e, contact_time, largest_overlap, lost;
 };
@@ -93,8 +94,8 @@ TEST(NormalImpact, RestitutionFallsWithSpeedAsWaltonAndBraunHaveIt) {
     }
 }
 
-// Schwager & Poeschel 2007, free to pull at the end: e = exp(-pi b / sqrt(1 - b^2)), contact time
-// pi / (w0 sqrt(1 - b^2)), b = c / (2 w0).
+// Schwager & Poeschel 2007: a dashpot that may pull at the end gives e = exp(-pi b / sqrt(1 - b^2)) and the
+// contact time pi / (w0 sqrt(1 - b^2)), where b = c / (2 w0).
 TEST(NormalImpact, SpringAndDashpotReboundAsTheClosedFormSays) {
     const double natural = std::sqrt(kStiffness / (sphere_mass() / 2)), v = 0.3;
     for (const double damping_ratio : {0.03, 0.2, 0.5}) {
@@ -110,7 +111,8 @@ TEST(NormalImpact, SpringAndDashpotReboundAsTheClosedFormSays) {
     }
 }
 
-// Its contacts without hardening are those of the plain law, bit for bit but for how K2 (a - a0) is written.
+// Without hardening its contacts are those of the plain law, bit for bit except for how K2 (a - a0) is
+// written.
 TEST(NormalImpact, WithoutHardeningTheLawOfSpeedsIsThePlainOne) {
     const PairPlan pair = walton_braun_pair(0.7, 0);
     const double step = 2e-7, v = 0.5;
@@ -142,7 +144,7 @@ TEST(NormalImpact, EndsAtTheResidualOverlap) {
     EXPECT_DOUBLE_EQ(WaltonBraun::force(p, h, touch), kStiffness * 1.5 * deepest);
 }
 
-// One sphere against the floor at an angle; mu infinite: v_t' = v_t cos[sqrt(3.5 K0/K1) (pi/2)(1 + e)].
+// A sphere hits the floor at an angle with infinite mu: v_t' = v_t cos[sqrt(3.5 K0/K1) (pi/2)(1 + e)].
 TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
     for (const double e : {0.5, 0.9}) {
         for (const double ratio : {0.3, 0.8}) {
@@ -165,7 +167,7 @@ TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
     }
 }
 
-// The same for two spheres head-on, where all of the slip comes from one that spins.
+// The same holds for two spheres head-on, if all of the slip comes from one that spins.
 TEST(ObliqueImpact, SpinOfOneSphereIsSlipForBoth) {
     const double e = 0.8, ratio = 0.5, v = 0.05, vt = 0.05;
     World w = make_world(walton_braun_pair(e, INFINITY, ratio), 0);
@@ -199,7 +201,8 @@ TEST(ObliqueImpact, SlidingContactTakesCoulombsShare) {
     EXPECT_NEAR(w.spin(0).y(), 2.5 * mu * (1 + e) * vn / kRadius, 5e-3 * 2.5 * mu * (1 + e) * vn / kRadius);
 }
 
-// Two unequal spheres off-centre, spinning: linear and angular momentum to round-off with arms to the plane.
+// Two unequal spheres meet off-centre and spin. Linear and angular momentum are kept to round-off, with arms
+// that reach to the contact plane.
 TEST(ObliqueImpact, KeepsLinearAndAngularMomentum) {
     World w = make_world(walton_braun_pair(0.7, 0.4), 1e-7);
     w.grains.add(0, 0, Vec3(-1.01 * kRadius, 0.3 * kRadius, 0), kRadius, kDensity);
@@ -226,8 +229,8 @@ TEST(ObliqueImpact, KeepsLinearAndAngularMomentum) {
     EXPECT_LT((angular_after - angular).norm(), of_rounding(1e-11, 1e-8) * angular.norm());
 }
 
-// A dashpot over the root of the effective mass keeps one restitution for grains of every size; one times the
-// mass does not.
+// A dashpot proportional to the root of the effective mass gives one restitution for grains of every size;
+// one proportional to the mass does not.
 TEST(NormalImpact, ADashpotByTheRootOfTheMassKeepsTheRestitutionOfAllSizes) {
     for (const double e : {0.3, 0.5, 0.8}) {
         PairPlan pair = walton_braun_pair(1, 0);

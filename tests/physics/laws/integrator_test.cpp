@@ -1,5 +1,5 @@
-// The integrators: order on smooth motion, agreement with one another, and the corrections at a contact's
-// kinks.
+// Tests of the integrators: order on smooth motion, agreement with one another, and the corrections at the
+// beginning and end of a contact.
 #include <gtest/gtest.h>
 
 #include "tests/physics/world.hpp"
@@ -12,7 +12,7 @@ using std::numbers::pi;
 constexpr Integrator kAll[] = {Integrator::velocity_verlet, Integrator::leapfrog, Integrator::position_verlet,
                                Integrator::forest_ruth, Integrator::gear};
 
-// A ball on the floor's elastic spring, pushed off its equilibrium, always in contact: (u/w) sin wt.
+// A ball on the floor's elastic spring is pushed off its equilibrium and always in contact: (u/w) sin wt.
 double swing_error(Integrator integrator, int steps) {
     PairPlan pair = walton_braun_pair(1, 0);
     const double natural = std::sqrt(kStiffness / sphere_mass()), push = 1e-4;
@@ -41,7 +41,7 @@ TEST(Integrators, HaveTheirOrderOnSmoothMotion) {
         const double ratio = swing_error(integrator, 50) / swing_error(integrator, 100);
         const int name = static_cast<int>(integrator);
         if (integrator == Integrator::forest_ruth) {
-            // In floats what is left of it is their rounding already.
+            // In floats the remaining error is already rounding.
             if (!mixed_precision()) {
                 EXPECT_NEAR(std::log2(ratio), 4, 0.2);
             }
@@ -55,8 +55,8 @@ TEST(Integrators, HaveTheirOrderOnSmoothMotion) {
     }
 }
 
-// Lists know how far grains have gone since they were made, though runs end after every step: two grains that
-// fly into each other meet when the gap between them is closed.
+// Lists know how far grains have moved since they were made, even if runs end after every step: two grains
+// that fly towards each other meet when the gap between them is closed.
 TEST(Integrators, MeetInTimeStepByStep) {
     constexpr double kSpeed = 2, kStep = 2e-6, kGap = 0.5 * kRadius;
     for (const Integrator integrator : kAll) {
@@ -77,7 +77,8 @@ TEST(Integrators, MeetInTimeStepByStep) {
     }
 }
 
-// One run in pieces is the run in one: what a step leaves to the next is not lost between them.
+// A run in pieces is the same as a run in one go: nothing that a step leaves to the next is lost between
+// them.
 TEST(Integrators, GoOnWhereTheyStopped) {
     for (const Integrator integrator : kAll) {
         const auto end = [&](int pieces) {
@@ -100,8 +101,9 @@ TEST(Integrators, GoOnWhereTheyStopped) {
     }
 }
 
-// All come to the same collision as the step shrinks, but for the one that drifts backwards at times:
-// friction with a memory takes that for a turn of the slip, however short the step. The plan warns of it.
+// All integrators come to the same collision as the step shrinks, except one whose drift goes backwards at
+// times: friction with a memory takes that for a turn of the slip, however short the step. The plan warns of
+// it.
 TEST(Integrators, AgreeOnAnObliqueImpact) {
     std::vector<Vec3> velocities;
     for (const Integrator integrator : kAll) {
@@ -143,7 +145,7 @@ double largest_restitution_error(double e, int steps, NormalForce law, Integrato
     return largest;
 }
 
-// Against plain Verlet's .0018, .0050, .0076, .0082 at 12 steps (docs/reference/accuracy.md).
+// Plain Verlet has .0018, .0050, .0076, .0082 at 12 steps (docs/reference/accuracy.md).
 TEST(Corrections, BringTheRestitutionBackAtTwelveSteps) {
     struct Row {
         double e, plain, bound;

@@ -1,4 +1,4 @@
-// What `check` promises of the restitution, against impacts run as a user runs them.
+// Tests of the error of the restitution that `check` promises, against impacts run as a user runs them.
 #include "engine/lab/chart/accuracy/single_contact.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ struct Setting {
     const char* run;      // lines of [run]
 };
 
-// A small ball flies at a large one, or at a plane, from `gap` (m) before the touch.
+// A small ball flies at a large one, or at a plane, from a gap (m) before the touch.
 Scene scene_of(const Setting& setting, bool wall, double gap) {
     const double reach = wall ? 0.002 : 0.005;
     return read_scene_text(
@@ -37,7 +37,7 @@ Scene scene_of(const Setting& setting, bool wall, double gap) {
         "impact.toml");
 }
 
-// |e_measured - e| of one impact.
+// |e_measured - e| in one impact.
 double error_of(const Setting& setting, bool wall, double phase, const Plan& plan, double restitution) {
     const Scene scene = scene_of(setting, wall, phase * speed * plan.clock.step);
     Simulation simulation(scene, plan, 1);
@@ -65,7 +65,7 @@ TEST_P(PromisedError, IsKeptAtEveryOnset) {
     }
 }
 
-// Nor more than has to be: it is the worst of just those impacts.
+// The promise is not larger than needed: it is the worst of just those impacts.
 TEST_P(PromisedError, IsThatOfTheWorstOnset) {
     const Scene scene = scene_of(GetParam(), false, 0);
     const Plan plan = make_plan(scene);
@@ -109,8 +109,8 @@ TEST(PromisedErrorText, IsRoundedUp) {
     EXPECT_EQ(promised_error_text(std::nan("")), "-");
 }
 
-// Found by secants and sixty halvings of which most are known beforehand: the same damping, bit for bit, as
-// by all of them.
+// The dashpot is found by secants and sixty halvings, most of which are known beforehand. The damping is the
+// same, bit for bit, as by all halvings.
 TEST(Dashpot, OfHertzIsThatOfPlainHalving) {
     for (const double e : {0.05, 0.3, 0.7, 0.9, 0.97, 0.999}) {
         double low = 0, high = 4 / e;

@@ -1,4 +1,4 @@
-// Ten thousand impacts of two bodies, drawn at random: none makes energy, all keep momentum.
+// Tests of ten thousand impacts of two bodies, drawn at random: none makes energy, and all keep momentum.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,9 +11,9 @@ namespace {
 using std::numbers::pi;
 
 struct Outcome {
-    double gained;   // of kinetic energy, over what the contact point brought in
-    double linear;   // change of momentum, over what there was
-    double angular;  // of angular momentum, as above
+    double gained;   // kinetic energy, divided by what the contact point brought in
+    double linear;   // change of momentum, divided by the momentum before
+    double angular;  // the same for angular momentum
     bool met;
 };
 
@@ -74,7 +74,7 @@ class RandomImpacts {
     std::mt19937_64 random_;
 };
 
-// bound: of energy made, over the kinetic energy that came in.
+// bound: for the energy made, divided by the kinetic energy that came in.
 void expect_none_makes_energy(NormalForce normal, TangentialLaw tangential, int impacts, double bound) {
     RandomImpacts random(normal, tangential, 17);
     double most = -1, linear = 0, angular = 0;

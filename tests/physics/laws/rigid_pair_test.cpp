@@ -1,4 +1,4 @@
-// A touching pair that turns as one body: geometry and law together see no slip.
+// Tests of a touching pair that turns as one body: geometry and law together see no slip.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace grainreel {
 namespace {
 
-// Two unequal spheres led by hand, and their contact's history.
+// Two unequal spheres that are moved by hand, and the history of their contact.
 class LedPair {
   public:
     explicit LedPair(TangentialLaw tangential)
@@ -23,8 +23,8 @@ class LedPair {
         grains_.add(1, 0, Vec3(1.59 * kRadius, 0, 0), 0.6 * kRadius, kDensity);
     }
 
-    // Where they are at the step's end, and how they move in the middle of it; the tangential force on the
-    // second.
+    // pose: where they are at the step's end; rate, slip: how they move in the middle of it. Returns the
+    // tangential force on the second sphere.
     Vec3 step(const Quaternion& pose, const Vec3& rate, const Vec3& slip, double step) {
         const Quaternion middle(Eigen::AngleAxisd(-0.5 * step * rate.norm(), rate.normalized()) * pose);
         const Vec3 apart(1.59 * kRadius, 0, 0);
@@ -49,7 +49,7 @@ class LedPair {
     std::int32_t first_[kBlock] = {}, second_[kBlock] = {1}, kind_[kBlock] = {};
 };
 
-// By how much of itself the force is off that turns with the pair, after 0.01 s and nearly half a turn.
+// The relative error of the force that turns with the pair, after 0.01 s and nearly half a turn.
 double carried_wrong(TangentialLaw law, double step) {
     LedPair pair(law);
     const Vec3 rate = 300 * Vec3(0.3, -0.5, 0.8).normalized();
@@ -64,9 +64,9 @@ double carried_wrong(TangentialLaw law, double step) {
     return (force - pose * start).norm() / start.norm();
 }
 
-// Nothing slips, so the force turns with the pair and keeps its size: to second order in the step, with the
-// normal of the middle of the step beside the velocities of the middle. With that of its end it is first
-// order.
+// Nothing slips, so the force turns with the pair and keeps its size. The error is of second order in the
+// step if the normal of the middle of the step is used with the velocities of the middle. With the normal of
+// the end it is of first order.
 TEST(RigidPair, CarriesItsForceAroundUnchanged) {
     for (const TangentialLaw law : {TangentialLaw::incremental_slip, TangentialLaw::linear_spring}) {
         const double error = carried_wrong(law, 1e-6);
@@ -75,9 +75,9 @@ TEST(RigidPair, CarriesItsForceAroundUnchanged) {
     }
 }
 
-// Two grains fly past each other from one force to the next: the turn that geometry finds from where they are
-// and how they moved takes the normal from where it was, to the third power of the angle. (tan(t) / 2 in
-// place of tan(t / 2) is off by t^3 / 4, and what the step leaves out of the distance by twice the square of
+// Two grains fly past each other from one force to the next. From their places and velocities, geometry finds
+// a turn that takes the old normal to the new one, up to the third power of the angle. (tan(t) / 2 in place
+// of tan(t / 2) is off by t^3 / 4, and neglecting the change of the distance is off by twice the square of
 // v_n step / d.)
 TEST(RigidPair, TurnTakesTheOldNormalToTheNew) {
     const Vec3 before(1.5e-3, -0.4e-3, 0.9e-3), velocity(0.7, 1.1, -0.6);
@@ -101,7 +101,7 @@ TEST(RigidPair, TurnTakesTheOldNormalToTheNew) {
     }
 }
 
-// The same along a round wall; at a plane one there is the twist alone.
+// The same holds along a round wall; at a plane wall there is only the twist.
 TEST(RigidPair, TurnsAlongARoundWall) {
     const Vec3 before(8e-3, -5.9e-3, 1e-3), velocity(-0.4, -0.9, 0.7), spin(10, -20, 30);
     constexpr double step = 1e-4;

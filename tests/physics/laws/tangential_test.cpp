@@ -1,4 +1,4 @@
-// Walton's incremental slip, called by hand.
+// Tests of Walton's incremental slip, called by hand.
 #include <gtest/gtest.h>
 
 #include "engine/laws/contact_law-inl.hpp"
@@ -46,8 +46,8 @@ struct Sheared {
     }
 };
 
-// dT/ds = K0 (1 - T/(mu N))^gamma from rest: T/(mu N) = 1 - (1 - (1 - gamma) x)^(1/(1 - gamma)), x = K0 s/(mu
-// N); for gamma = 1, 1 - exp(-x).
+// dT/ds = K0 (1 - T/(mu N))^gamma from rest gives T/(mu N) = 1 - (1 - (1 - gamma) x)^(1/(1 - gamma)), where x
+// = K0 s/(mu N); for gamma = 1 it is 1 - exp(-x).
 double virgin_loading(double gamma, double slip, double stiffness) {
     const double limit = kFriction * kNormal, x = stiffness * slip / limit;
     if (gamma == 1) return limit * (1 - std::exp(-x));
@@ -63,7 +63,8 @@ TEST(IncrementalSlip, LoadsAlongTheIntegralOfItsStiffness) {
     }
 }
 
-// Unloading from T0: with u = T0 - T, du/d(-s) = K0 (1 - u/(mu N + T0))^gamma: the loading curve, stretched.
+// Unloading from T0: with u = T0 - T, du/d(-s) = K0 (1 - u/(mu N + T0))^gamma. This is the loading curve,
+// stretched.
 TEST(IncrementalSlip, UnloadsFromItsTurningPointThroughZero) {
     Sheared s(1.0);
     const double limit = kFriction * kNormal;
@@ -74,7 +75,7 @@ TEST(IncrementalSlip, UnloadsFromItsTurningPointThroughZero) {
     ASSERT_LT(expected, 0) << "it should pass zero";
     EXPECT_NEAR(s.slip(-back, 20000), expected, 2e-4 * limit);
     EXPECT_NEAR(s.history.turning_ratio * kNormal, -top, 1e-9) << "T* changes sign with the direction";
-    // And forward again from there: T* takes the force at the new turning point.
+    // The slip goes forward again from there, and T* becomes the force at the new turning point.
     const double bottom = std::abs(s.history.force.x);
     s.slip(1e-9, 1);
     EXPECT_NEAR(s.history.turning_ratio * kNormal, bottom, 1e-9);
@@ -86,7 +87,7 @@ TEST(IncrementalSlip, NeverPassesCoulombsLimit) {
         Sheared s(gamma);
         s.slip(100 * kFriction * kNormal / s.parameters.stiffness, 57);
         EXPECT_LE(size(s.history.force), kFriction * kNormal * (1 + 1e-12));
-        s.slip(0, 1, 0.5 * kNormal);  // the normal force falls: so does the cap
+        s.slip(0, 1, 0.5 * kNormal);  // the normal force falls, and so does the limit
         EXPECT_LE(size(s.history.force), 0.5 * kFriction * kNormal * (1 + 1e-12));
         s.slip(0, 1, 0);
         EXPECT_EQ(size(s.history.force), 0);
@@ -96,8 +97,8 @@ TEST(IncrementalSlip, NeverPassesCoulombsLimit) {
     }
 }
 
-// It slides, its normal force falls while it turns back, and it slips forward again: T* is mu N. Pressed
-// harder, T* grows with N and T does not, so that there is room to take hold.
+// The contact slides, its normal force falls while it turns back, and it slips forward again: T* is mu N. If
+// it is pressed harder, T* grows with N and T does not, so T can grow again.
 TEST(IncrementalSlip, TakesHoldAgainWhenPressedHarderAfterATurnAtTheLimit) {
     Sheared s(1.0);
     const double limit = kFriction * kNormal, slip = 1e-3 * limit / s.parameters.stiffness;
@@ -118,8 +119,8 @@ TEST(IncrementalSlip, IsLinearAndUncappedWithInfiniteFriction) {
     EXPECT_EQ(s.slip(slip, 1, 0), 0) << "without a normal force nothing holds";
 }
 
-// A touching pair that turns as one body: T turns with it, |T| constant, also when it spins about its own
-// axis.
+// In a touching pair that turns as one body, T turns with it and |T| is constant, also when the pair spins
+// about its own axis.
 TEST(IncrementalSlip, TurnsWithTheContact) {
     const Vec3 axis = Vec3(1, 2, -0.5).normalized(), normal(0, 0, 1);
     Sheared s(1.0 / 3.0);

@@ -1,4 +1,4 @@
-// The vector code: against the same laws on plain doubles, and the same bits at every width.
+// Tests of the vector code: against the same laws on plain doubles, and for the same bits at every width.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -28,7 +28,7 @@ using namespace HWY_NAMESPACE;
 // The instruction set of the kernels in use.
 std::int64_t used = 0;
 
-// Calls work() for each, and notes which it is.
+// Calls work() for each instruction set, and notes which one it is.
 template <class Work>
 void for_each_width(const Work& work) {
     test::for_each_instruction_set([&](std::int64_t target) {
@@ -37,12 +37,12 @@ void for_each_width(const Work& work) {
     });
 }
 
-// Kernels of these fuse multiplications with additions.
+// Whether kernels of this instruction set fuse multiplications with additions.
 bool fuses() {
     return used == HWY_AVX2 || used == HWY_AVX3;
 }
 
-// Collects the numbers of a history; takes those of a kind from the table of parameters.
+// Collects the numbers of a history. For a kind of contact, it takes them from the table of parameters.
 template <class R>
 struct Push {
     std::vector<NumberOf<R>>& to;
@@ -185,7 +185,7 @@ void compare(NormalForce normal, TangentialLaw tangential, const std::vector<Pai
     }
 }
 
-// 12,800 contact states a combination and width.
+// There are 12,800 contact states for each combination and width.
 TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
     for (const bool several : {false, true}) {
         auto kinds = three_kinds();
@@ -221,7 +221,7 @@ TEST(VectorLaws, AreTheScalarLawsToTheLastBitAtEveryWidth) {
     }
 }
 
-// Rounding must not act on a contact that does not turn, step after step.
+// In a contact that does not turn, rounding must not change the force step after step.
 TEST(VectorLaws, AContactAtRestKeepsItsForceInSinglePrecision) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> one(-1, 1);
@@ -249,7 +249,7 @@ TEST(VectorLaws, PowersAreThoseOfTheLibrary) {
     EXPECT_NEAR(power(1e-28, 1.0 / 3.0), std::cbrt(1e-28), 1e-14 * std::cbrt(1e-28));
 }
 
-// A tumbling heap of two sizes in a corner with a round wall: every kind of contact there is.
+// A tumbling heap of two sizes in a corner with a round wall, which has every kind of contact.
 std::vector<double> tumble(TangentialLaw tangential, int threads, double skin = 0.0002,
                            Precision precision = Precision::full, int steps = 300) {
     World w = make_world(walton_braun_pair(0.8, 0.4), 2e-6, NormalForce::walton_braun, tangential);
@@ -282,7 +282,7 @@ std::vector<double> tumble(TangentialLaw tangential, int threads, double skin = 
     return state;
 }
 
-// One answer of the widths that fuse multiplications with additions, one of those that do not.
+// All widths that fuse multiplications with additions give the same bits, and so do all that do not.
 TEST(VectorSteps, GiveTheSameBitsAtEveryWidthAndNumberOfThreads) {
     for (const auto law :
          {TangentialLaw::incremental_slip, TangentialLaw::linear_spring, TangentialLaw::none}) {
@@ -302,8 +302,8 @@ TEST(VectorSteps, GiveTheSameBitsAtEveryWidthAndNumberOfThreads) {
     EXPECT_EQ(tumble(TangentialLaw::none, 5), tumble(TangentialLaw::none, 1));
 }
 
-// Lists renewed every few steps or once in the run: histories are carried, turned where two grains changed
-// places, and no contact is missed. Only the order of sums differs, and what rounding makes of it.
+// Lists are renewed every few steps or once in the run. Histories are carried over, and turned where two
+// grains changed places, and no contact is missed. Only the order of sums differs, and with it the rounding.
 TEST(Lists, DoNotShowInTheMotion) {
     for (const auto law : {TangentialLaw::incremental_slip, TangentialLaw::linear_spring}) {
         const std::vector<double> often = tumble(law, 1, 0.00002), seldom = tumble(law, 2, 0.002);
