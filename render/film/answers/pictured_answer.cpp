@@ -116,7 +116,7 @@ bool is_among(const std::vector<std::int32_t>& ids, std::int32_t id) {
     return std::binary_search(ids.begin(), ids.end(), id);
 }
 
-// Whether the film's cut takes one of these grains away.
+// Says whether the film's cut takes one of these grains away.
 bool cut_hides(const Snapshot& snapshot, const FilmCut& cut, const std::vector<std::int32_t>& ids) {
     const std::vector<HalfSpace> halves = kept_by_cut(cut, snapshot.frame);
     return std::any_of(ids.begin(), ids.end(), [&](std::int32_t id) {
@@ -127,7 +127,7 @@ bool cut_hides(const Snapshot& snapshot, const FilmCut& cut, const std::vector<s
     });
 }
 
-// The scene of one moment, before which there was nothing.
+// The scene as it is drawn for a single moment: nothing is shown of what came before.
 FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const AnswerMarks& marks) {
     FilmShows& shows = scene.film.shows;
     shows.plots.clear();

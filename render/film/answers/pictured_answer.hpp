@@ -27,14 +27,14 @@ namespace grainreel {
 // are drawn.
 struct AskedRunWithFilm {
     const AskedRun* asked = nullptr;
-    const FilmedScene& scene() const { return run ? run->scene() : *film; }  // with its film
+    const FilmedScene& scene() const { return run ? run->scene() : *film; }  // the scene with its film
 
-    std::unique_ptr<const RecordedRun> run;  // of a run's folder
+    std::unique_ptr<const RecordedRun> run;  // the run, when a run's folder was opened
     std::unique_ptr<const AskedRun> state;   // of a single state
     std::optional<FilmedScene> film;         // of a single state
 };
 
-// Opens a run's folder. sets: as for a RecordedRun. Throws UserError as a RecordedRun does.
+// Opens a run's folder. `sets` has the same meaning as for a RecordedRun, and the same UserErrors are thrown.
 std::unique_ptr<const AskedRunWithFilm> open_filmed_run(const std::filesystem::path& folder,
                                                         const Assignments& sets);
 
@@ -46,17 +46,19 @@ std::unique_ptr<const AskedRunWithFilm> open_filmed_state(const std::filesystem:
                                                           const Assignments& sets,
                                                           const ReadingOptions& reading = {});
 
-// A moment as the scene's film shows it: its size, camera, cut, hidden species. Ghosts are seen through.
+// Finds what is at a pixel of a moment's picture. The picture has the film's size, camera, cut and hidden
+// species; ghosts do not count.
 class PixelPicker {
   public:
-    // film_time: s since the film's first frame: where a camera that moves is then. Snapshot and scene must
-    // outlive this.
+    // film_time: s since the film's first frame; it decides where a moving camera stands. Snapshot and scene
+    // must outlive this object.
     PixelPicker(const Snapshot& snapshot, const FilmedScene& scene, double film_time);
 
-    // The ray that a pixel looks along; x, y: of the picture, from its top left corner, a pixel's middle at
-    // + 0.5. Throws UserError outside the part of the picture that shows the bed.
+    // The ray that a pixel looks along; x, y: pixels from the picture's top left corner; the middle of a
+    // pixel lies at + 0.5. Throws UserError for a place outside the part of the picture that shows the bed.
     Ray ray(double x, double y) const;
-    // What is there, the nearest first; through: what lies behind, too. Throws as above.
+    // Tells what is at a pixel, the nearest thing first. With `through`, what lies behind it is told too.
+    // Throws as ray() does.
     Answer at(double x, double y, bool through) const;
 
   private:
@@ -66,21 +68,22 @@ class PixelPicker {
     View view_;
 };
 
-// What the picture points out.
+// What the picture of an answer points out.
 struct AnswerMarks {
-    std::vector<std::int32_t> grains;  // ids, rising: ringed, and all others are pale and seen through
-    std::vector<PointForce> forces;    // arrows
-    std::string words;                 // beside the grains; empty: those of the film
+    std::vector<std::int32_t>
+        grains;  // ids, rising; these grains get a ring, all others become pale and transparent
+    std::vector<PointForce> forces;  // drawn as arrows
+    std::string words;               // words beside the grains; empty: the words of the film
     bool lines = true;  // lines from these grains to those that they touch, where contacts are known
 };
 
-// As the scene's film would show the moment, with that in it. What the film takes from earlier moments and
-// from measures is left out; a cut or a hidden species gives way where it would take away a grain of the
-// answer. Throws UserError where the file is there already.
+// Draws the moment as the scene's film would show it, with the answer's marks. What the film takes from
+// earlier moments and from measures is left out. A cut or a hidden species is not applied where it would
+// remove a grain of the answer. Throws UserError when the file exists already.
 void draw_answer(const Snapshot& snapshot, const FilmedScene& scene, const AnswerMarks& marks,
                  double film_time, const std::filesystem::path& file, gl::Provider provider);
 
-// The same mistakes, before anything is asked.
+// Throws the UserErrors of draw_answer() about the file, before the question is answered.
 void check_picture_file(const std::filesystem::path& file);
 
 }  // namespace grainreel

@@ -14,13 +14,13 @@ namespace grainreel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Pixels = hn::ScalableTag<std::uint32_t>;  // a pixel a lane, red in the lowest byte
+using Pixels = hn::ScalableTag<std::uint32_t>;  // one pixel in each lane, red in the lowest byte
 using OnePixel = hn::CappedTag<std::uint32_t, 1>;
 
-constexpr int kBits = 16;  // of the shares' fractions
+constexpr int kBits = 16;  // bits of a share's fraction
 
-// What a code is made of: shares of the colours, 219 or 224 codes to 255 levels; and the code of black or
-// grey.
+// How a code is made: the shares of the three colours (219 or 224 codes stand for 255 levels), and the code
+// of black or grey.
 struct Share {
     int red, green, blue, zero;
 };
@@ -45,7 +45,7 @@ HWY_INLINE hn::Vec<D> pixels_at(D d, const std::uint8_t* at) {
     return hn::LoadU(d, reinterpret_cast<const std::uint32_t*>(at));
 }
 
-// Codes of sums of 2^bits pixels, as bytes.
+// Turns sums of 2^bits pixels into codes and stores them as bytes.
 template <int bits, class D>
 HWY_INLINE void store_codes(const Share& share, const Colours<D>& sum, std::uint8_t* to) {
     const hn::RebindToSigned<D> numbers;
@@ -69,7 +69,7 @@ HWY_INLINE void luma(D d, const std::uint8_t* pixels, std::uint8_t* to) {
         kLuma, Colours<D>{colour(all), colour(hn::ShiftRight<8>(all)), colour(hn::ShiftRight<16>(all))}, to);
 }
 
-// Columns from begin to end.
+// Columns from `begin` up to, but without, `end`.
 struct Columns {
     int begin, end;
 };
@@ -79,13 +79,15 @@ void luma_row(const std::uint8_t* pixels, const Columns& columns, std::uint8_t* 
     const int lanes = static_cast<int>(hn::Lanes(d));
     int x = columns.begin;
     for (; x + lanes <= columns.end; x += lanes) {
-        hwy::Prefetch(pixels + 4 * (x + 512));  // another processor has just drawn them: 0.8 of the time
+        hwy::Prefetch(
+            pixels +
+            4 * (x + 512));  // another processor has just drawn these pixels: this takes 0.8 of the time
         luma(d, pixels + 4 * x, to + x);
     }
     for (; x < columns.end; ++x) luma(OnePixel(), pixels + 4 * x, to + x);
 }
 
-// Sums of pixels, 16 bits a colour: red and blue side by side, green by itself.
+// Sums of pixels with 16 bits for each colour: red and blue share a lane, green has its own.
 template <class D>
 struct Halves {
     hn::Vec<D> red_blue, green;
@@ -120,7 +122,8 @@ struct RowPair {
 };
 
 #if HWY_TARGET != HWY_SCALAR
-// Every other column from `x` on, with those beside it: two registers of pixels for one of sums.
+// Sums every other column from `x` on with the columns beside it. Two registers of pixels give one register
+// of sums.
 HWY_INLINE Halves<Pixels> every_other(const RowPair& rows, int x) {
     const Pixels d;
     const int lanes = static_cast<int>(hn::Lanes(d));
@@ -157,7 +160,7 @@ void chroma_row(const RowPair& rows, const Columns& columns, std::uint8_t* cb, s
     for (; x < columns.end; x += 2) one(x);
 }
 
-// `part` begins and ends with even columns and rows.
+// Converts `part`, which begins and ends with even columns and rows.
 void convert(const Picture& picture, const Rectangle& part, const YuvPlanes& to) {
     const Columns columns{part.x, part.x + part.width};
     for (int y = part.y; y < part.y + part.height; y += 2) {
@@ -186,7 +189,7 @@ void to_bt709(const Picture& picture, const Rectangle& part, const YuvPlanes& to
     GRAINREEL_CHECK(picture.width > 0 && picture.width % 2 == 0 && picture.height % 2 == 0);
     const auto even = [](int at) { return at / 2 * 2; };
     const int x = even(std::max(part.x, 0)), y = even(std::max(part.y, 0));
-    // The next column's chroma looks at the last one, too.
+    // The chroma of the column behind the part also depends on the part's last column.
     const int right = std::min(even(part.x + part.width + 2), picture.width);
     const int bottom = std::min(even(part.y + part.height + 1), picture.height);
     if (x < right && y < bottom) HWY_DYNAMIC_DISPATCH(convert)(picture, {x, y, right - x, bottom - y}, to);

@@ -13,7 +13,7 @@ namespace grainreel {
 
 struct YuvPlanes {
     std::uint8_t *y, *cb, *cr;
-    std::ptrdiff_t y_stride, cb_stride, cr_stride;  // bytes a row
+    std::ptrdiff_t y_stride, cb_stride, cr_stride;  // bytes from one row to the next
 };
 
 // Converts a picture of even width and height; alpha is left out. A chroma sample lies on the left one of two

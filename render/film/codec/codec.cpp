@@ -13,8 +13,8 @@ namespace grainreel {
 
 namespace {
 
-// Half a second of film at most waits for a fragment or cluster to be whole; their headers are some hundred
-// bytes.
+// A fragment or cluster holds half a second of film at most, so that no more waits for it to be complete. Its
+// header has some hundred bytes.
 const FilmContainer mp4{
     "mp4",
     {{"movflags", "frag_keyframe+empty_moov+default_base_moof"}, {"frag_duration", "500000"}},
@@ -24,14 +24,14 @@ const FilmContainer matroska{"matroska", {{"cluster_time_limit", "500"}}, {}};
 const FilmContainer gif{"gif", {{"loop", "0"}}, {}};
 const FilmContainer y4m{"yuv4mpegpipe", {}, {}};
 
-constexpr AVPixelFormat yuv = AV_PIX_FMT_YUV420P;  // browsers refuse anything finer
+constexpr AVPixelFormat yuv = AV_PIX_FMT_YUV420P;  // browsers refuse finer chroma
 constexpr AVPixelFormat no_alpha = AV_PIX_FMT_NONE;
 
 const Codec h264{
     "H.264 in MP4", "mp4", "H.264", mp4, {{"libx264", set_up_x264}, {"libopenh264", set_up_openh264}}, yuv,
     no_alpha,       true};
 const Codec vp9{"VP9 in WebM", "webm", "VP9", webm, {{"libvpx-vp9", set_up_vp9}}, yuv, no_alpha};
-// In MP4, not WebM: Safari plays AV1 in MP4 alone, all others both.
+// AV1 is stored in MP4, not WebM: Safari plays it in MP4 only, the other browsers play both.
 const Codec av1{
     "AV1 in MP4", "mp4",   "AV1", mp4, {{"libsvtav1", set_up_svt_av1}, {"libaom-av1", set_up_aom_av1}},
     yuv,          no_alpha};
@@ -148,12 +148,13 @@ OpenCodec open_codec(const Codec& codec, const CodecSettings& settings) {
 
 namespace {
 
-// Half a second of film at most: who seeks in a film waits for the frames since the last key frame.
+// Key frames are half a second apart at most: seeking in a film takes as long as decoding the frames since
+// the last key frame.
 int key_frame_distance(const CodecSettings& settings) {
     return std::max(1, static_cast<int>(av_q2d(settings.rate) / 2));
 }
 
-// What a kill loses is above all what the encoder holds back: a third of a second at most.
+// A killed run loses above all the frames that the encoder holds back. These are a third of a second at most.
 int look_ahead(const CodecSettings& settings) {
     return std::min(10, static_cast<int>(av_q2d(settings.rate) / 3));
 }
@@ -161,7 +162,8 @@ int look_ahead(const CodecSettings& settings) {
 constexpr std::array<const char*, 10> presets{"ultrafast", "superfast", "veryfast", "faster",   "fast",
                                               "medium",    "slow",      "slower",   "veryslow", "placebo"};
 
-// x264 itself prints to the terminal when it does not know a preset, past FFmpeg's log.
+// Finds the preset among the known ones. For an unknown preset x264 would print to the terminal itself, past
+// FFmpeg's log.
 std::size_t preset_number(const std::string& preset) {
     const auto found = std::find(presets.begin(), presets.end(), preset);
     if (found == presets.end())
@@ -176,7 +178,7 @@ int crf_alike(int quality, double at_23) {
     return std::clamp(static_cast<int>(std::lround(at_23 + 1.5 * (quality - 23))), 1, 63);
 }
 
-// Constant quality, or the rate that two passes are to reach.
+// Sets constant quality, or the rate that two passes are to reach.
 std::string set_quality(AVCodecContext& codec, AvOptions& options, const CodecSettings& settings, int crf) {
     codec.bit_rate = settings.bit_rate;
     if (settings.bit_rate > 0) return fmt::format("two passes, {} kbit/s", settings.bit_rate / 1000);
@@ -184,9 +186,9 @@ std::string set_quality(AVCodecContext& codec, AvOptions& options, const CodecSe
     return fmt::format("crf {}", crf);
 }
 
-// x264 164's look-ahead (mbtree) reads memory that nobody wrote where it uses AVX-512 and the width is no
-// multiple of its registers: films then differ from run to run. With AVX2 they do not, and are those of
-// lesser machines.
+// x264 164's look-ahead (mbtree) reads memory that nobody wrote when it uses AVX-512 and the width is no
+// multiple of its registers. Films then differ from run to run. With AVX2 they do not differ, and they equal
+// the films of machines without AVX-512.
 std::string deterministic_x264() {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512f")) return "asm=AVX2,FMA3,BMI2,LZCNT";
@@ -210,11 +212,13 @@ std::string set_up_x264(AVCodecContext& codec, AvOptions& options, const CodecSe
         if (!parameters.empty()) parameters += ':';
         parameters += more;
     };
-    // The default preset's motion, sought to half a sample only: 28 % less work, files 6 % larger, and as
-    // good (SSIM of the default film 27.9 dB in place of 28.5; of films at one phase 24.6 either way).
+    // With the default preset, motion is searched to half a sample only. This takes 28 % less work and makes
+    // files 6 % larger. The quality stays about the same: the SSIM of the default film is 27.9 dB instead of
+    // 28.5 dB, that of films at one phase is 24.6 dB either way.
     if (settings.preset == "veryfast") add("subme=1");
     if (av_q2d(settings.rate) < 15) {
-        // Slow films hold nothing back; x264 looks ahead for B-frames in a thread of its own, too.
+        // In slow films no frame is held back. x264's search for B-frames, in a thread of its own, would hold
+        // back frames too.
         codec.max_b_frames = 0;
         options.set("rc-lookahead", "0");
         add("sync-lookahead=0");
@@ -226,7 +230,7 @@ std::string set_up_x264(AVCodecContext& codec, AvOptions& options, const CodecSe
     if (!parameters.empty()) options.set("x264-params", parameters);
     set_pass(codec, settings);
     if (settings.pass > 0) options.set("stats", settings.log);
-    if (settings.pass == 1) options.set("fastfirstpass", "0");  // this pass is a film in its own right
+    if (settings.pass == 1) options.set("fastfirstpass", "0");  // the first pass is a complete film itself
     options.set("preset", settings.preset);
     return set_quality(codec, options, settings, settings.quality) + ", " + settings.preset;
 }
@@ -238,7 +242,8 @@ std::string set_up_x264_lossless(AVCodecContext& codec, AvOptions& options, cons
     return "lossless";
 }
 
-// OpenH264 knows no constant quality: bits a pixel that halve for every 6 of crf, 0.1 at crf 23.
+// OpenH264 has no constant quality. Instead it gets a rate: 0.1 bits a pixel at crf 23, and half as many for
+// every 6 of crf more.
 std::string set_up_openh264(AVCodecContext& codec, AvOptions&, const CodecSettings& settings) {
     const double pixels = static_cast<double>(settings.width) * settings.height * av_q2d(settings.rate);
     codec.gop_size = key_frame_distance(settings);
@@ -256,7 +261,7 @@ std::string set_up_vp9(AVCodecContext& codec, AvOptions& options, const CodecSet
     options.set("deadline", "good");
     options.set("cpu-used", speed);
     options.set("row-mt", "1");
-    // By the width alone: with tiles by threads the bits would depend on them.
+    // The number of tiles depends on the width alone. If it depended on the threads, the bits would too.
     options.set("tile-columns", settings.width >= 1024 ? "2" : settings.width >= 512 ? "1" : "0");
     options.set("lag-in-frames", std::to_string(look_ahead(settings)));
     set_pass(codec, settings);
@@ -271,7 +276,7 @@ std::string set_up_svt_av1(AVCodecContext& codec, AvOptions& options, const Code
     const char* preset = numbers[preset_number(settings.preset)];
     codec.gop_size = key_frame_distance(settings);
     options.set("preset", preset);
-    // Mini groups of 8 frames in place of 16 or 32: half a second less is lost by a kill, for 2 % more bytes.
+    // Mini groups have 8 frames instead of 16 or 32: a kill loses half a second less, for 2 % more bytes.
     options.set("svtav1-params", fmt::format("lp={}:lookahead={}:hierarchical-levels=3", settings.threads,
                                              look_ahead(settings)));
     return fmt::format("{}, preset {}",
@@ -292,8 +297,8 @@ std::string set_up_aom_av1(AVCodecContext& codec, AvOptions& options, const Code
 
 std::string set_up_ffv1(AVCodecContext& codec, AvOptions& options, const CodecSettings&) {
     codec.gop_size = 1;
-    codec.level = 3;   // the version of RFC 9043: slices, each with a checksum
-    codec.slices = 4;  // a number of its own, or the bits would depend on the threads
+    codec.level = 3;   // the version of RFC 9043, in which each slice has a checksum
+    codec.slices = 4;  // fixed here; otherwise the bits would depend on the threads
     options.set("slicecrc", "1");
     return "lossless";
 }

@@ -64,7 +64,8 @@ Encoder::~Encoder() {
     try {
         close();
     } catch (const RunError&) {
-        // The film so far is on disk and plays; who wanted to know of errors called finish().
+        // The film so far is on disk and plays. Errors are not reported here: callers that want them call
+        // finish().
     }
 }
 
@@ -87,7 +88,7 @@ void Encoder::open_file() {
 
     // Each fragment reaches the disk whole as soon as it ends.
     context->flags |= AVFMT_FLAG_FLUSH_PACKETS;
-    context->flags |= AVFMT_FLAG_BITEXACT;  // or Matroska would draw a number by lot
+    context->flags |= AVFMT_FLAG_BITEXACT;  // otherwise Matroska would write a random number
     AvOptions options;
     for (const auto& [key, value] : container.growing) options.set(key, value);
     const std::string url = settings_.path == to_stdout ? "pipe:1" : ffmpeg_url(settings_.path);
@@ -103,7 +104,7 @@ void Encoder::check_open() const {
 
 void Encoder::add(const Picture& picture) {
     check_open();
-    const int code = av_frame_make_writable(frame_.get());  // the encoder may still read the last one
+    const int code = av_frame_make_writable(frame_.get());  // the encoder may still read the last picture
     if (code < 0) fail(code);
     conversion_.convert(picture, *frame_);
     add(*frame_);
@@ -112,12 +113,13 @@ void Encoder::add(const Picture& picture) {
 void Encoder::add(AVFrame& frame) {
     check_open();
     frame.pts = frames_ - group_;
-    frame.pict_type = AV_PICTURE_TYPE_NONE;  // what kind it was where it comes from is of no interest
+    frame.pict_type = AV_PICTURE_TYPE_NONE;  // the encoder decides the type itself
     encode(&frame);
     ++frames_;
 }
 
-// An encoder of its own, since what one keeps from group to group (its rate control) changes the bits.
+// Each group gets an encoder of its own: what an encoder keeps from group to group (its rate control) would
+// change the bits.
 void Encoder::begin_group() {
     check_open();
     if (frames_ == group_) return;
@@ -126,7 +128,7 @@ void Encoder::begin_group() {
     group_ = frames_;
 }
 
-// Null drains the encoder.
+// Encodes a frame; null drains the encoder.
 void Encoder::encode(const AVFrame* frame) {
     int code = avcodec_send_frame(codec_.get(), frame);
     if (code < 0) fail(code);
@@ -142,15 +144,15 @@ void Encoder::write(AVPacket& packet) {
     packet.dts += group_;
     packet.stream_index = 0;
     av_packet_rescale_ts(&packet, codec_->time_base, context.streams[0]->time_base);
-    const int code = av_write_frame(&context, &packet);  // tells of the file's errors, too
+    const int code = av_write_frame(&context, &packet);  // reports errors of the file, too
     av_packet_unref(&packet);
     if (code < 0) fail(code);
 }
 
 void Encoder::close() {
-    if (frames_ > group_) encode(nullptr);  // SVT-AV1 would wait for ever for a first frame
+    if (frames_ > group_) encode(nullptr);  // without frames SVT-AV1 would wait for the first one for ever
     int code = av_write_trailer(file_.get());
-    if (frames_ == 0) code = std::max(code, 0);  // the GIF muxer has nothing to end then
+    if (frames_ == 0) code = std::max(code, 0);  // the GIF muxer then fails, as it has nothing to end
     if (code >= 0) code = avio_closep(&file_->pb);
     if (code < 0) fail(code);
     file_.reset();

@@ -1,6 +1,6 @@
-// Pictures in, a film of one codec out. While it is written the file consists of short fragments or clusters,
-// so that a killed process leaves a film that plays up to its last 2 s; finish() turns it into one with its
-// index in front where the container has such a form.
+// Encodes pictures as a film of one codec. While the film is written its file consists of short fragments or
+// clusters, so that a killed process leaves a film that plays up to its last 2 s; finish() turns it into a
+// file with its index in front, where the container has such a form.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,20 @@ struct EvenSize {
     int width = 0, height = 0;  // pixels
 };
 
-// Where the chroma is halved an odd width or height grows by one.
+// Size of the encoded pictures: where the chroma is halved an odd width or height grows by one.
 EvenSize coded_size(int width, int height, AVPixelFormat pixels);
 
 class ColourConversion {
   public:
-    // Size of the pictures, pixels. Where the coded size is larger the last column or row is repeated.
-    // pixels: yuv420p, bgr0, bgra, or pal8, for which there is nothing to convert here.
+    // width, height: of the pictures, in pixels. Where the coded size is larger the last column or row is
+    // repeated. pixels: yuv420p, bgr0, bgra or pal8; pal8 is not converted here.
     ColourConversion(int width, int height, AVPixelFormat pixels = AV_PIX_FMT_YUV420P);
 
     int coded_width() const { return coded_.width; }
     int coded_height() const { return coded_.height; }
 
-    // `target`: of the coded size, writable; it holds the picture converted before, if there is one.
+    // Converts a picture. `target` has the coded size and is writable; it still holds the picture that was
+    // converted before, if there is one.
     void convert(const Picture& picture, AVFrame& target);
 
   private:
@@ -39,23 +40,24 @@ class ColourConversion {
 
     int width_, height_;
     EvenSize coded_;
-    ScalerPtr scaler_;         // of the same RGB in another order
-    Picture padded_;           // only used when a size is odd
-    std::uint64_t still_ = 0;  // of the picture converted before
+    ScalerPtr scaler_;         // puts the same RGB in another order
+    Picture padded_;           // used only when the width or height is odd
+    std::uint64_t still_ = 0;  // number of the picture converted before
 };
 
-inline constexpr const char* to_stdout = "-";  // a path
+inline constexpr const char* to_stdout = "-";  // as a path: the film goes to stdout
 
 struct EncoderSettings {
     const Codec* codec = &codec_of(FilmFormat::mp4);
     std::filesystem::path path;
-    int width = 0, height = 0;  // pixels of the pictures; an odd one may be padded by one and noted
-    double rate = 30;           // frames a second
-    int quality = 20;           // as film.quality
+    int width = 0,
+        height = 0;    // pixels of the pictures; an odd size may be padded by one pixel, which is noted
+    double rate = 30;  // frames a second
+    int quality = 20;  // film.quality
     std::string preset = "veryfast";
     bool alpha = false;
     int threads = 1;
-    int pass = 0;               // and what belongs to it: see CodecSettings
+    int pass = 0;               // pass, bit_rate and log: see CodecSettings
     std::int64_t bit_rate = 0;  // bits/s
     std::string log;
     std::string title, comment;  // metadata, UTF-8
@@ -63,17 +65,18 @@ struct EncoderSettings {
 
 class Encoder final : public FilmWriter {
   public:
-    // Creates the file. Throws RunError when it cannot be written or no encoder is to be had.
+    // Creates the file. Throws RunError when it cannot be written or there is no encoder.
     explicit Encoder(const EncoderSettings& settings);
-    // Without finish(): writes what was taken in, and leaves the film as it grew, which plays.
+    // Without finish() before: writes the pictures that were added and leaves the film as it was written; it
+    // plays.
     ~Encoder() override;
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;
 
-    // Throws RunError, naming the file and the reason, when writing fails; what was written still plays, and
-    // no more pictures are taken.
+    // Adds a picture. Throws RunError, naming the file and the reason, when writing fails. What was written
+    // still plays, but no more pictures are taken.
     void add(const Picture& picture) override;
-    // The next frame, in the codec's pixels and size; its time stamp is set here.
+    // Adds a frame in the codec's pixels and size; its time stamp is set here.
     void add(AVFrame& frame);
     void begin_group() override;
 
@@ -81,7 +84,7 @@ class Encoder final : public FilmWriter {
     void finish() override;
 
     std::int64_t frames() const { return frames_; }
-    std::int64_t payload() const { return payload_; }  // bytes of coded pictures, without the container's
+    std::int64_t payload() const { return payload_; }  // bytes of the coded pictures, without the container
     std::string description() const override { return description_; }
     std::vector<std::string> notes() const override { return notes_; }
 
@@ -106,7 +109,7 @@ class Encoder final : public FilmWriter {
     std::int64_t group_ = 0;  // the first frame that codec_ has taken
 };
 
-// What an encoder is asked for, the size padded where it must be even.
+// The settings of the codec, with the size padded where it must be even.
 CodecSettings codec_settings(const EncoderSettings& settings);
 
 }  // namespace grainreel

@@ -28,7 +28,7 @@ struct ErrorLog {
     std::string last;
 };
 
-// Codecs log from their own threads, up to the end of the process: never destroyed.
+// The log is never destroyed: codecs write to it from their own threads until the process ends.
 ErrorLog& error_log() {
     static ErrorLog& log = *new ErrorLog;
     return log;
@@ -46,7 +46,7 @@ void collect(void*, int level, const char* format, std::va_list arguments) {
     log.last = std::move(text);
 }
 
-// One black picture for an encoder, and what comes of it thrown away.
+// Gives an encoder one black picture and throws the result away.
 void encode_nothing(AVCodecContext& codec) {
     const AvFramePtr frame(av_frame_alloc());
     if (!frame) return;
@@ -70,7 +70,7 @@ void free_codec(AVCodecContext* codec) {
     const bool waits = avcodec_is_open(codec) && av_codec_is_encoder(codec->codec) &&
                        codec->codec_id == AV_CODEC_ID_AV1 && codec->frame_number == 0;
     if (waits) encode_nothing(*codec);
-    av_freep(&codec->stats_in);  // ours, of a second pass
+    av_freep(&codec->stats_in);  // the figures of the first pass, which we have allocated
     avcodec_free_context(&codec);
 }
 
@@ -78,7 +78,7 @@ void quiet_ffmpeg() {
     static std::once_flag once;
     std::call_once(once, [] {
         av_log_set_callback(collect);
-        ::setenv("SVT_LOG", "1", 0);  // SVT-AV1 prints past FFmpeg's log; from 1 on errors alone
+        ::setenv("SVT_LOG", "1", 0);  // SVT-AV1 prints past FFmpeg's log; with 1 it prints errors only
     });
 }
 

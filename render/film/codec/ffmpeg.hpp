@@ -1,5 +1,5 @@
-// What we use of FFmpeg: owners of its objects, its errors in words, and one of its filters. All other files
-// of films go through these.
+// Our access to FFmpeg: owners of its objects, its errors in words, and its filters. The other files about
+// films use these.
 #pragma once
 
 extern "C" {
@@ -74,11 +74,11 @@ namespace grainreel {
 
 class FilterGraph {
   public:
-    // frames: of the size and pixels of `codec`. second: a still for the filter's second input, if it has
-    // one. Throws RunError.
+    // Frames have the size and pixels of `codec`. second: a still picture for the filter's second input, if
+    // it has one. Throws RunError.
     FilterGraph(const AVCodecContext& codec, const std::string& filter, const AVFrame* second = nullptr);
 
-    void push(AVFrame& frame);  // stays the caller's
+    void push(AVFrame& frame);  // the frame stays the caller's
     void end();                 // no more frames
     AvFramePtr pull();          // null when there is none yet
 

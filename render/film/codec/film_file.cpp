@@ -32,7 +32,7 @@ AVFrame* FilmReader::next() {
     return frame_.get();
 }
 
-// One more packet to the decoder; false when there is none.
+// Gives the decoder one more packet; false when there is none.
 bool FilmReader::feed() {
     const int code = av_read_frame(file_.get(), packet_.get());
     if (code == AVERROR_EOF) return false;
@@ -91,8 +91,8 @@ int open_output(const AVFormatContext& input, const std::filesystem::path& path,
 int copy_packets(AVFormatContext& input, AVFormatContext& output) {
     const PacketPtr packet(av_packet_alloc());
     if (!packet) return AVERROR(ENOMEM);
-    // A fragmented file cannot say that its first picture comes some frames of coding order late; this one
-    // can.
+    // The first picture may come some frames late in the order of coding. A fragmented file cannot say so;
+    // the new file can.
     std::int64_t start = AV_NOPTS_VALUE;
     int code = 0;
     while ((code = av_read_frame(&input, packet.get())) >= 0) {
@@ -121,7 +121,7 @@ int write_copy(const std::filesystem::path& from, const std::filesystem::path& t
     return code;
 }
 
-// A file or a folder; 0 or a negative error.
+// Syncs a file or a folder to disk. Returns 0 or a negative error.
 int sync(const std::filesystem::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return AVERROR(errno);
@@ -142,7 +142,8 @@ int replace_synced(const std::filesystem::path& from, const std::filesystem::pat
     std::error_code renamed;
     std::filesystem::rename(from, to, renamed);
     if (renamed) return AVERROR(renamed.value());
-    sync(std::filesystem::absolute(to).parent_path());  // the new name; without it the film is no worse off
+    sync(std::filesystem::absolute(to)
+             .parent_path());  // syncs the new name; if that fails the film is no worse off
     return 0;
 }
 

@@ -1,5 +1,4 @@
-// Films that lie on disk: their frames, one after another, as the decoder gives them, and copies of their
-// packets without decoding.
+// Reads films on disk: decodes their frames one after another, and copies their packets without decoding.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +12,11 @@ namespace grainreel {
 
 class FilmReader {
   public:
-    // threads: that decode. Throws RunError when the file is no film.
+    // threads: number of threads that decode. Throws RunError when the file is no film.
     explicit FilmReader(const std::filesystem::path& path, int threads = 1);
 
-    // The next frame; null at the end. Valid until the next call. Throws RunError when the file is damaged.
+    // Gives the next frame; null at the end. It is valid until the next call. Throws RunError when the file
+    // is damaged.
     AVFrame* next();
 
     const AVCodecContext& codec() const { return *codec_; }
@@ -32,20 +32,20 @@ class FilmReader {
     AvFramePtr frame_;
 };
 
-// Pictures that are whole in a film, without decoding them. Throws RunError when the file is no film.
+// Counts the complete pictures in a film without decoding them. Throws RunError when the file is no film.
 std::int64_t pictures_in(const std::filesystem::path& film);
 
 // Copies the film's packets to `path`.part, syncs it and renames it over `path`. Throws RunError, naming the
 // file and the reason, and leaves the film as it grew.
 void remux_for_streaming(const std::filesystem::path& path, const FilmContainer& container);
 
-// Renames `from`, synced to disk, to `to`; a negative error of FFmpeg or 0.
+// Syncs `from` to disk and renames it to `to`. Returns 0 or a negative error of FFmpeg.
 int replace_synced(const std::filesystem::path& from, const std::filesystem::path& to);
 
-// Opens an ordinary file for reading; a negative error of FFmpeg or 0. A pipe is not waited for.
+// Opens an ordinary file for reading. Returns 0 or a negative error of FFmpeg. It does not wait for a pipe.
 int open_film(const std::filesystem::path& path, InputPtr& input);
 
-// A path as FFmpeg wants it: a colon in a name must not look like a protocol.
+// The path in the form that FFmpeg needs: a colon in a name must not look like a protocol.
 std::string ffmpeg_url(const std::filesystem::path& path);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// Pictures in, one film out. Each format has a writer; make_film_writer() chooses.
+// Writes pictures as one film. Each format has its own writer; make_film_writer() chooses it.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,14 @@ namespace grainreel {
 
 class FilmWriter {
   public:
-    // Without finish(): what was taken in is on disk in a form that plays, where the format allows that.
+    // Without finish() before: the pictures that were added are on disk, in a form that plays where the
+    // format allows it.
     virtual ~FilmWriter() = default;
 
-    // Throws RunError, naming the file and the reason, when writing fails.
+    // Adds a picture. Throws RunError, naming the file and the reason, when writing fails.
     virtual void add(const Picture& picture) = 0;
-    // Pictures from here on are coded as if a film began with them: films that end and begin here can be
-    // joined to this one. Throws RunError as above, and where the format has no such groups.
+    // The pictures from here on are coded as if a film began with them, so that films which were cut here can
+    // be joined. Throws RunError as above, and where the format has no such groups.
     virtual void begin_group();
     // Completes the film under its final name. Throws RunError as above.
     virtual void finish() = 0;
@@ -33,21 +34,23 @@ class FilmWriter {
 
 struct FilmWriterOptions {
     std::filesystem::path folder;
-    bool to_stdout = false;  // y4m only: the film goes there and not into the folder
-    int threads = 1;         // of the encoder
+    bool to_stdout = false;  // y4m only: the film goes to stdout and not into the folder
+    int threads = 1;         // threads of the encoder
 };
 
 // "movie.webm"; empty for a film of PNG pictures, which has no file of its own.
 std::string film_file_name(FilmFormat format);
-// The same of a film whose writer was left without finish(): of a GIF, what it was to be made from.
+// The name of the file that is left when finish() was not called. For a GIF this is the copy that the GIF
+// would have been made from.
 std::string left_film_name(FilmFormat format);
 
 // Creates the film's file. Null for a film of PNG pictures. Throws RunError.
 std::unique_ptr<FilmWriter> make_film_writer(const FilmedScene& scene, const FilmWriterOptions& options);
 
-// Says in words which film of the same scene has `share` of its bytes: "--size 854x480, or 180 of its 352
-// frames". Bytes go with the number of frames, and with the pixels to the power 0.7 (the wedge at 640x360 and
-// 1280x720, quality 24: 4 times the pixels, 2.8 times the bytes). A tenth is kept in hand.
+// Says in words which film of the same scene would have `share` of its bytes: "--size 854x480, or 180 of its
+// 352 frames". The bytes are taken to grow with the number of frames, and with the pixels to the power 0.7.
+// (The wedge at quality 24 has 2.8 times the bytes at 1280x720 that it has at 640x360, for 4 times the
+// pixels.) A tenth is kept as a margin.
 std::string smaller_film(int width, int height, std::int64_t frames, double share);
 
 }  // namespace grainreel

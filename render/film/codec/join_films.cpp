@@ -13,7 +13,8 @@ namespace grainreel {
 
 PieceReader::PieceReader(const FilmPiece& piece, AVRational rate)
     : piece_(piece), frame_time_(av_inv_q(rate)) {
-    // A coded frame has a byte at least: what a file says of its length is not believed beyond that.
+    // A coded frame has at least one byte, so a file cannot hold more frames than bytes, whatever it says of
+    // its length.
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(piece.file, error);
     if (error) fail(error.message());
@@ -68,7 +69,7 @@ bool same_coding(const AVCodecParameters& a, const AVCodecParameters& b) {
            std::equal(a.extradata, a.extradata + a.extradata_size, b.extradata);
 }
 
-// The film that grows. Its file goes unless it is finished.
+// The joined film while it is written. Its file is removed unless it is finished.
 class Joined {
   public:
     Joined(std::filesystem::path path, const Codec& codec, AVRational rate)
@@ -82,7 +83,7 @@ class Joined {
     Joined(const Joined&) = delete;
     Joined& operator=(const Joined&) = delete;
 
-    // After the first packet of the first piece was read.
+    // To be called when the first packet of the first piece has been read.
     void begin(const PieceReader& like);
     // frame: that it shows, of the whole film; place: in the order of coding.
     void add(AVPacket& packet, const PieceReader& of, std::int64_t before);
@@ -98,7 +99,7 @@ class Joined {
     const FilmContainer& container_;
     const AVRational frame_time_;
     OutputPtr output_;
-    std::int64_t delay_ = 0, bytes_ = 0, duration_ = 0;  // of packets
+    std::int64_t delay_ = 0, bytes_ = 0, duration_ = 0;  // sums over the packets
     bool begun_ = false;
 };
 
@@ -140,7 +141,7 @@ void Joined::add(AVPacket& packet, const PieceReader& of, std::int64_t before) {
 }
 
 void Joined::finish(const std::filesystem::path& to) {
-    // MP4 has it in its index: that of the film, as where its file was read back in one go, not of a piece.
+    // MP4 has the bit rate in its index. It must be that of the whole film, not of a piece.
     AVStream& film = *output_->streams[0];
     if (duration_ > 0)
         film.codecpar->bit_rate =

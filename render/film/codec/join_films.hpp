@@ -15,36 +15,36 @@ namespace grainreel {
 
 struct FilmPiece {
     std::filesystem::path file;
-    std::string name;         // for messages
-    std::int64_t frames = 0;  // that it is to have
+    std::string name;         // the piece's name in messages
+    std::int64_t frames = 0;  // number of frames that it must have
 };
 
-// What kept pieces from being joined: none, or asked to stop.
+// How joining ended: with the film, or because the caller asked to stop.
 enum class JoinEnd { joined, stopped };
 
-// Writes the pieces, in their order, as one film of so many frames a second, in the container of `codec`.
-// `to` is replaced once all of it is there, and nothing else is left beside it. Every packet stays as it is
-// but for its times. Throws UserError naming the piece that cannot be read, has other frames than it is to
-// have or at other times, or is coded otherwise than the first one; RunError when writing fails. go_on: asked
-// now and then; false: stop.
+// Writes the pieces, in their order, as one film with `rate` frames a second, in the container of `codec`.
+// `to` is replaced once all of it is there, and nothing else is left beside it. Only the times of packets
+// change. Throws UserError that names the piece when a piece cannot be read, has a wrong number of frames or
+// wrong times, or is coded otherwise than the first one. Throws RunError when writing fails. go_on is called
+// now and then and stops the work by returning false.
 JoinEnd join_films(const std::vector<FilmPiece>& pieces, const Codec& codec, double rate,
                    const std::filesystem::path& to, const std::function<bool()>& go_on);
 
 class PieceReader {
   public:
-    // rate: frames a second. All throw UserError naming the piece.
+    // rate: frames a second. All functions throw UserError that names the piece.
     PieceReader(const FilmPiece& piece, AVRational rate);
 
     const AVFormatContext& file() const { return *file_; }
     const AVStream& stream() const { return *file_->streams[0]; }
 
-    // The next packet, in the order of coding; false after the last one, when all frames have come, each
-    // once.
+    // Reads the next packet in the order of coding. False after the last one; then each frame has come
+    // exactly once.
     bool next(AVPacket& packet);
     // The frame that the last packet shows, from 0, and how many packets came before it.
     std::int64_t frame() const { return frame_; }
     std::int64_t place() const { return place_; }
-    // Frames by which the first packet is decoded before it is shown; known from the first packet on.
+    // Number of frames between decoding the first packet and showing it; known once the first packet is read.
     std::int64_t delay() const { return delay_; }
 
   private:

@@ -14,9 +14,9 @@ namespace grainreel {
 
 namespace {
 
-constexpr double aim = 0.96, least = 0.9;  // of the cap
-constexpr int most_passes = 4;             // the first of them hits nearly always
-constexpr const char* fitted = "fitted";   // in the work folder: the film encoded anew
+constexpr double aim = 0.96, least = 0.9;  // parts of the cap
+constexpr int most_passes = 4;             // the first one is nearly always good enough
+constexpr const char* fitted = "fitted";   // name of the film encoded anew, in the work folder
 
 EncoderSettings first_settings(EncoderSettings settings, const WorkFolder& work) {
     if (!settings.codec->film_is_first_pass) return settings;
@@ -66,9 +66,9 @@ void CappedFilm::finish() {
     work_.remove();
 }
 
-// Brings the film under its cap, if it can be legible there.
+// Brings the film under its cap, if it stays legible.
 void CappedFilm::fit(std::int64_t size) {
-    const auto overhead = static_cast<double>(size - film_->payload());  // of the container
+    const auto overhead = static_cast<double>(size - film_->payload());  // bytes of the container
     film_.reset();  // x264 writes the last of its log when it is closed
     const std::int64_t floor = settings_.quality < least_legible ? encode_legible() : size;
     if (floor > cap_) refuse(size, floor, overhead);
@@ -94,7 +94,8 @@ void CappedFilm::refuse(std::int64_t size, std::int64_t floor, double overhead) 
                     data_size_text(static_cast<double>(size))));
 }
 
-// Encodes anew, with the rate corrected by what came out, until the size is within its bounds.
+// Encodes the film again, each time with a rate corrected by the last size, until the size is within its
+// bounds.
 void CappedFilm::fill(double overhead) {
     const auto cap = static_cast<double>(cap_);
     const double wanted = aim * cap - overhead;
@@ -115,7 +116,7 @@ void CappedFilm::fill(double overhead) {
                     settings_.path.string(), settings_.codec->words, data_size_text(cap)));
 }
 
-// Puts the film that was encoded anew in place of the one at its quality.
+// Replaces the film at its own quality by the film that was encoded anew.
 void CappedFilm::take_fitted() const {
     const int code = replace_synced(work_.file(fitted), settings_.path);
     if (code < 0)
@@ -123,12 +124,12 @@ void CappedFilm::take_fitted() const {
             fmt::format("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code)));
 }
 
-// What the first pass found, for the second one: the name of x264's file, or libvpx's text.
+// What the first pass found for the second one: the name of x264's file, or the text of libvpx.
 std::string CappedFilm::first_pass() const {
     if (settings_.codec->film_is_first_pass) return work_.file("pass.log");
     CodecSettings settings = codec_settings(settings_);
     settings.pass = 1;
-    settings.bit_rate = 1'000'000;  // of no consequence yet
+    settings.bit_rate = 1'000'000;  // has no effect in the first pass
     const OpenCodec codec = open_codec(*settings_.codec, settings);
     FilmReader spool(work_.file("spool.mkv"));
     const PacketPtr packet(av_packet_alloc());
@@ -174,7 +175,8 @@ std::string CappedFilm::description() const {
 
 namespace {
 
-// One palette for the whole film: with one a frame, colours that stand still would flicker.
+// Finds one palette for the whole film: with a palette for each frame, colours that stand still would
+// flicker.
 AvFramePtr find_palette(const std::filesystem::path& spool, int colours) {
     FilmReader reader(spool);
     FilterGraph graph(reader.codec(), fmt::format("palettegen=max_colors={}", colours));
@@ -185,7 +187,8 @@ AvFramePtr find_palette(const std::filesystem::path& spool, int colours) {
     return palette;
 }
 
-// Bayer's pattern depends on nothing but the place: it does not crawl, and what stands still costs no bytes.
+// Encodes the GIF. Bayer's pattern depends on the place alone, so it does not crawl, and what stands still
+// costs no bytes.
 void encode(const std::filesystem::path& spool, const AVFrame& palette, const char* dither, Encoder& gif) {
     FilmReader reader(spool);
     FilterGraph graph(reader.codec(), fmt::format("paletteuse=dither={}:diff_mode=rectangle", dither),
@@ -217,7 +220,7 @@ GifFilm::GifFilm(const EncoderSettings& settings, std::optional<std::int64_t> ca
     work_.keep();
 }
 
-// The film in these colours; its size in bytes.
+// Writes the film in these colours and returns its size in bytes.
 std::int64_t GifFilm::write(const GifColours& colours, const std::filesystem::path& path) {
     EncoderSettings settings = settings_;
     settings.path = path;

@@ -1,11 +1,11 @@
-// Films that are made from an exact copy of their pictures on disk once all pictures are there: those with a
+// Films that are made once all pictures are there, from an exact copy of the pictures on disk: films with a
 // cap on their bytes, and GIFs.
 //
-// A film with a cap is made at its quality, and that is all when it fits.
-// If it does not, two-pass encoding brings it to the cap, as long as the words on it can be read: what the
-// film needs for that is found by encoding it at the least legible quality. Encoding anew needs the pictures
-// once more, and they cannot be drawn again: the trajectory does not have the film's steps. So an exact copy
-// of them, in the pixels of the codec, is kept on disk until the film is complete.
+// A film with a cap is first made at its quality. When it fits, nothing more is done. If it does not,
+// two-pass encoding brings it to the cap, as long as the words on it can be read. How many bytes this needs
+// is found by encoding the film at the least legible quality. Encoding anew needs the pictures once more, and
+// they cannot be drawn again: the trajectory does not have the film's steps. So an exact copy of them, in the
+// pixels of the codec, is kept on disk until the film is complete.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@
 
 namespace grainreel {
 
-// What a film needs beside itself while it is made: a folder next to it that goes with the writer. Another
-// folder that has got its name meanwhile is left alone.
+// A folder next to the film for files that are needed while it is made. It is removed together with the
+// writer. If another folder has got its name meanwhile, that one is left alone.
 
 class WorkFolder {
   public:
@@ -44,7 +44,7 @@ class WorkFolder {
     WorkFolder& operator=(const WorkFolder&) = delete;
 
     std::filesystem::path file(const char* name) const { return path_ / name; }
-    // From now on it stays, since it holds the only copy of the film; until remove().
+    // Keeps the folder until remove(), since it holds the only copy of the film.
     void keep() { kept_ = true; }
     void remove() {
         std::error_code ignored;
@@ -53,7 +53,7 @@ class WorkFolder {
     }
 
   private:
-    // Device and number of what has the name now; zeros for nothing.
+    // Device and inode number of what has the folder's name now; zeros when nothing has it.
     std::pair<dev_t, ino_t> identity() const {
         struct stat named {};
         return ::stat(path_.c_str(), &named) == 0 ? std::pair(named.st_dev, named.st_ino)
@@ -71,9 +71,9 @@ class CappedFilm final : public FilmWriter {
     CappedFilm(const EncoderSettings& settings, std::int64_t cap);
 
     void add(const Picture& picture) override;
-    // The film has at most `cap` bytes then, and at least nine tenths of them unless it is smaller at its
-    // quality. Throws RunError when the cap is below the size of the film at the least legible quality, and
-    // says what would fit; the film at its own quality is left then.
+    // Completes the film. It then has at most `cap` bytes, and at least nine tenths of `cap` unless it is
+    // smaller at its own quality. Throws RunError, which says what would fit, when the cap is below the
+    // film's size at the least legible quality; the film at its own quality then stays.
     void finish() override;
 
     std::string description() const override;
@@ -85,7 +85,8 @@ class CappedFilm final : public FilmWriter {
     [[noreturn]] void refuse(std::int64_t size, std::int64_t floor, double overhead) const;
     void take_fitted() const;
     std::string first_pass() const;
-    // Bytes of the film encoded anew: as told, at the least legible quality, at that rate (bits/s).
+    // These encode the film anew and return its bytes: with the given settings, at the least legible quality,
+    // or at a rate in bits/s.
     std::int64_t encode(EncoderSettings settings) const;
     std::int64_t encode_legible() const;
     std::int64_t encode_at(std::int64_t bit_rate, const std::string& log) const;
@@ -98,8 +99,8 @@ class CappedFilm final : public FilmWriter {
     std::vector<std::string> notes_;
 };
 
-// A GIF, whose 256 colours are chosen when all pictures are known: until then they lie on disk as an exact
-// copy, movie.work/spool.mkv, which plays when the run is killed. Under a cap it gets fewer colours.
+// A GIF's 256 colours are chosen when all pictures are known. Until then the pictures lie on disk as an exact
+// copy, movie.work/spool.mkv, which plays when the run is killed. Under a cap the GIF gets fewer colours.
 
 struct GifColours {
     int count;
@@ -112,13 +113,13 @@ class GifFilm final : public FilmWriter {
     explicit GifFilm(const EncoderSettings& settings, std::optional<std::int64_t> cap = {});
 
     void add(const Picture& picture) override { spool_->add(picture); }
-    // Throws RunError also when the cap is below what the fewest colours need, and says what would fit; the
-    // film in all its colours is left then.
+    // Throws RunError also when the cap is below what the fewest colours need. The error says what would fit,
+    // and the film in all its colours stays.
     void finish() override;
 
     std::string description() const override { return description_; }
     std::vector<std::string> notes() const override { return {}; }
-    // Beside the GIF: the exact copy, which is all there is without finish().
+    // Name of the exact copy beside the GIF. Without finish() only this copy exists.
     static const char* spool_name() { return "movie.work/spool.mkv"; }
 
   private:

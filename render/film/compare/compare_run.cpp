@@ -53,7 +53,7 @@ bool CompareRun::work() {
     return (all_.still ? draw_still(frames) : draw_film(frames)) && finish(frames);
 }
 
-// The same in each panel's own thread.
+// Takes the next picture of every panel, each in the panel's own thread.
 bool CompareRun::next(Frames& frames) {
     return for_all(Stage::pictures, frames, [this](ComparedMember& member, FramePtr& frame) {
         frame = member.next(go_on());
@@ -61,7 +61,7 @@ bool CompareRun::next(Frames& frames) {
     });
 }
 
-// What remains of the runs.
+// Runs all members to their ends.
 bool CompareRun::finish(Frames& frames) {
     return for_all(Stage::pictures, frames, [this](ComparedMember& member, FramePtr&) {
         member.next(go_on());

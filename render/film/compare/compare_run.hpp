@@ -32,21 +32,22 @@ class CompareRun final : public FilmRun {
     bool finish(Frames& frames);
     bool draw_film(Frames& frames);
     bool draw_still(Frames& frames);
-    // Does the same for every panel at once, and shows how far they are; false when asked to stop.
+    // Does `work` for every panel at once and shows the progress; false when asked to stop.
     enum class Stage { packing, pictures };
     using Work = std::function<bool(ComparedMember&, FramePtr&)>;
     bool for_all(Stage stage, Frames& frames, const Work& work);
-    const char* name_of(Stage stage) const;  // in run.json
+    const char* name_of(Stage stage) const;  // name of the stage in run.json
     void show_progress(Stage stage);
     std::function<bool()> go_on() const;
 
     Comparison all_;
     Stopwatch stage_;
-    std::string still_;  // its file, once it is there
+    std::string still_;  // the still's file, once it is written
 };
 
-// Does several pieces of work at once, each on a thread of its own. Returns when all have ended; calls
-// `watch` now and then until then. Of several exceptions the first in order is thrown on.
+// Does several pieces of work at once, each on a thread of its own. Returns when all have ended; until then
+// it calls `watch` now and then. When several works throw, the exception of the first one in order is thrown
+// on.
 inline void run_together(const std::vector<std::function<void()>>& works,
                          const std::function<void()>& watch) {
     constexpr auto glance = std::chrono::milliseconds(100);
@@ -65,7 +66,7 @@ inline void run_together(const std::vector<std::function<void()>>& works,
 }
 
 // Makes a drawer whose pictures show several scenes beside each other. film: size, title and background of
-// the whole. clock: the panel whose time is shown. segments: of the film, one a picture.
+// the whole. clock: index of the panel whose time is shown. segments: the film's segment of each picture.
 DrawerMaker side_by_side_drawer(const std::vector<Panel>& panels, const Film& film, int raster_threads,
                                 gl::Provider provider, std::size_t clock, std::vector<std::size_t> segments);
 

@@ -38,8 +38,8 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-// What a scene's captions say was written for its own value of the key. Those of the command line are for
-// all.
+// Drops the captions of a scene whose key is varied: they were written for the scene's own value of the key.
+// Captions of the command line hold for all panels and stay.
 void leave_out_captions(const CompareRequest& what, Comparison& all) {
     if (!what.vary) return;
     const std::vector<Assignment> values = read_vary(*what.vary);
@@ -75,13 +75,13 @@ void make_panels(const CompareRequest& what, Comparison& all) {
             all.panels[i].playback.resize(all.pictures.segments.size());
         else
             all.panels[i].playback = playback_of(all.members[i]->source(), all);
-        // All plots and clocks are of the time that is shown.
+        // All plots and clocks cover the time that is shown.
         if (all.film_end > 0) all.panels[i].scene.run.duration = all.film_end;
     }
     leave_out_captions(what, all);
     share_colours(all.panels);
     share_reach(all.panels);
-    if (!common_of(all.panels).exaggerated)  // then each panel has to say so
+    if (!common_of(all.panels).exaggerated)  // otherwise each panel has to say so itself
         for (Panel& panel : all.panels)
             if (panel.scene.film.exaggerate != 1)
                 panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
@@ -96,7 +96,8 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     warn_of_missing_letters(all);
 }
 
-// Name, title and film of the whole: those of the first, a title only when all have it.
+// The scene that stands for the whole film: its name and film are those of the first scene, and it has a
+// title only when all scenes have the same one.
 FilmedScene whole(const std::vector<FilmedScene>& scenes) {
     FilmedScene film = scenes.front();
     film.name.clear();
@@ -130,8 +131,8 @@ Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) 
     return all;
 }
 
-// Which moments all panels show: those of the film's segments, or, where a finished run cannot give them,
-// those that it kept.
+// Chooses the moments that all panels show: the moments of the film's segments, or, where a finished run
+// cannot give these, the moments that it kept.
 
 namespace {
 
@@ -143,8 +144,8 @@ double mean_interval(const std::vector<Frame>& moments) {
                : (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
 }
 
-// Number of the finished run with the fewest frames a second, whose moments the others can
-// follow; none when there is no finished run.
+// Index of the finished run with the fewest frames a second, whose moments the others can follow; none when
+// there is no finished run.
 std::optional<std::size_t> coarsest(const Comparison& all) {
     std::optional<std::size_t> found;
     double longest = 0;
@@ -168,7 +169,7 @@ Span common_time(const Comparison& all) {
     return common;
 }
 
-// Periods after which the beds of all finished runs repeat themselves.
+// Number of periods after which the beds of all finished runs repeat themselves.
 int common_periods(const Comparison& all) {
     int periods = 1;
     for (const auto& member : all.members)
@@ -180,7 +181,7 @@ bool has_all(const ComparedMember& member, const Pictures& pictures) {
     return member.record() == nullptr || member.record()->has_all(pictures);
 }
 
-// False where a finished run lacks one of them.
+// Takes the moments of the film's schedule. Returns false when a finished run lacks one of them.
 bool take_moments_of_schedule(Comparison& all) {
     all.reference = reference_of(scenes_of(all));
     const Clock& clock = all.members[all.reference]->clock();
@@ -250,7 +251,7 @@ void take_moments_of_record(Comparison& all) {
     }
 }
 
-// A still is taken at its moment, whatever its segment is locked to.
+// Takes the one moment of a still, whatever the segment there is locked to.
 void take_one(double at, Comparison& all) {
     const Span common = common_time(all);
     if (at < common.from - hair || at > common.to + hair)

@@ -26,14 +26,15 @@ namespace grainreel {
 
 namespace {
 
-// That the moments were chosen by.
+// The clock by which the moments were chosen.
 const Clock& schedule_clock(const Comparison& all) {
     return all.members[all.reference]->clock();
 }
 
-// The smallest of this shape in which plots have room, as far as one looks; empty beyond.
+// The smallest size of this shape in which plots have room; empty when none of the sizes that are tried is
+// large enough.
 std::string size_with_plots(const std::vector<Panel>& panels, Film film) {
-    constexpr int parts = 8, most = 5;  // of the size; times the size
+    constexpr int parts = 8, most = 5;  // steps in eighths of the size; up to five times the size
     const int width = film.width, height = film.height;
     for (int k = parts + 1; k <= most * parts; ++k) {
         film.width = (k * width + parts - 1) / parts / 2 * 2;
@@ -46,8 +47,8 @@ std::string size_with_plots(const std::vector<Panel>& panels, Film film) {
 
 }  // namespace
 
-// Its drive may be unlike that of the reference, and its moments then come otherwise; where it is like that,
-// or does not matter, the segment says it best.
+// The drive of this panel may differ from that of the reference; its moments then pass at another pace. Where
+// it does not differ, or does not matter, the segment's own words say it best.
 std::vector<std::string> playback_of(const FrameSource& source, const Comparison& all) {
     const std::vector<FilmSegment>& segments = all.pictures.segments;
     const Drive &drive = source.scene().drive, &reference = all.members[all.reference]->scene().drive;
@@ -77,7 +78,8 @@ void warn_of_pace(Comparison& all) {
     }
 }
 
-// Where the moments are those of a finished run, scenes that are run beside it show them too.
+// Warns where single moments are shown. Where the moments are those of a finished run, scenes that are run
+// beside it show them too.
 void warn_of_single_moments(Comparison& all) {
     std::set<std::string> said;
     for (const auto& member : all.members) {
@@ -137,7 +139,8 @@ std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segmen
 
 namespace {
 
-// Keys and tables that the whole film has once: of its file, its time, and of what stands around the panels.
+// Keys and tables that the whole film has once: those about its file, its time, and what stands around the
+// panels.
 constexpr std::array of_the_whole = {"film.size",    "film.rate",        "film.for",        "film.format",
                                      "film.quality", "film.preset",      "film.max_size",   "film.sheet",
                                      "film.segment", "film.transparent", "film.background", "film.title",
@@ -154,7 +157,8 @@ std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// At commas outside of brackets and quotes. A quote within a word is none: 5' is not the beginning of one.
+// Splits a text at commas outside of brackets and quotes. A quote within a word is no quote: 5' does not
+// begin one.
 std::vector<std::string> split(const std::string& text) {
     std::vector<std::string> parts(1);
     int depth = 0;
@@ -196,7 +200,7 @@ bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.eE+-_") == std::string::npos;
 }
 
-// The key that the value was given to, "species[1].density" for "species.big.density"; none of a table.
+// The key that the value was given to, "species[1].density" for "species.big.density"; empty for a table.
 std::string path_of(const Assignment& value, const FilmedScene& scene) {
     std::string longest;
     for (const auto& [path, where] : scene.written)
@@ -223,7 +227,7 @@ std::string words_of_key(const std::string& key) {
                                            : name;
 }
 
-// As the frames say it; empty for a key without a symbol.
+// The value with its symbol, as frames show it; empty for a key without a symbol.
 std::string with_symbol(const std::string& path, const FilmedScene& scene) {
     if (path == "drive.frequency") return "f = " + frequency_text(scene.drive.frequency);
     if (path == "drive.g_level") return fmt::format("Γ = {:.4g}", scene.drive.g_level(scene.gravity.norm()));

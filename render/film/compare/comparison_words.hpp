@@ -11,41 +11,43 @@
 
 namespace grainreel {
 
-// What a panel says of time in each segment of the film. The comparison has its members and pictures.
+// What a panel says about time in each segment of the film. The comparison must have its members and
+// pictures.
 std::vector<std::string> playback_of(const FrameSource& source, const Comparison& all);
 
-// What all panels say of it in one segment, in one line.
+// What all panels say about time in one segment, as one line.
 std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segment);
 
-// Drives that would seem to move at another frequency, in panels that show moments of a finished run.
+// Warns of drives that would seem to move at another frequency, in panels that show moments of a finished
+// run.
 void warn_of_pace(Comparison& all);
 
-// Periods of their beds by which finished runs go, and means and exposures that are not to be had beside
-// them.
+// Warns of the periods of their beds that finished runs follow, and of means and exposures that cannot be had
+// beside them.
 void warn_of_single_moments(Comparison& all);
 
-// Letters of words on the film that no font has.
+// Warns of letters on the film that no font has.
 void warn_of_missing_letters(Comparison& all);
 
-// What a film of one scene would show and this one does not. The film of the whole has its moments.
+// Warns of what a film of one scene would show and this one does not. The moments must be chosen already.
 void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all);
 
 // Several values of one key of a scene: `compare SCENE --vary drive.g_level=2,4`.
 
-// What was typed after --vary: the key with each of its values, as --set takes them. Values are split at
-// commas outside of brackets and quotes. Throws UserError for fewer than two values, an empty one, one that
-// comes twice, and for a key of what all panels share.
+// Reads what was typed after --vary: the key with each of its values, as --set takes them. Values are split
+// at commas outside of brackets and quotes. Throws UserError for fewer than two values, for an empty value or
+// one that comes twice, and for a key of something that all panels share.
 std::vector<Assignment> read_vary(const std::string& typed);
 
-// What tells the panels apart: "Γ = 2", "friction = 0.3", "density of big = 2500 kg/m3". scenes: read with
-// the values, in the same order.
+// The labels that tell the panels apart: "Γ = 2", "friction = 0.3", "density of big = 2500 kg/m3". scenes:
+// the scenes as read with the values, in the same order.
 std::vector<std::string> labels_of(const std::vector<Assignment>& values,
                                    const std::vector<FilmedScene>& scenes);
 
-// Whether the value changes what happens in the scene, and not its picture or its random choices alone.
+// Whether the value changes what happens in the scene, not only its picture or its random choices.
 bool changes_the_scene(const Assignment& value);
 
-// "hopper-g_level-2", for its folder.
+// The name of a member's folder, "hopper-g_level-2".
 std::string name_with(const std::string& name, const Assignment& value);
 
 }  // namespace grainreel

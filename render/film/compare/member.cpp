@@ -101,18 +101,18 @@ void ComparedMember::close(RunStatus status, int exit_status, FirstFailure& fail
     if (failed_.any()) failure.note(failed_.what());
 }
 
-// What is compared: scenes to run and runs on disk, and one of them with several values of a key.
+// Reads what is compared: scenes to run and runs on disk, or one scene with several values of a key.
 
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_panels = 6;  // more, and each is too small to see anything in
+constexpr std::size_t most_panels = 6;  // with more, each is too small to show anything
 
 // What one panel is made from.
 struct Input {
     fs::path path;
-    std::optional<Assignment> value = std::nullopt;  // that it alone has
+    std::optional<Assignment> value = std::nullopt;  // value of the varied key in this panel
     bool is_run() const {
         std::error_code ignored;
         return fs::is_directory(path, ignored);
@@ -124,7 +124,7 @@ struct Input {
     }
 };
 
-// A pipe gives its scene once, and scenes may be read twice.
+// Refuses pipes: a pipe gives its scene once, but scenes may be read twice.
 void check_not_pipe(const fs::path& input) {
     if (other_than_file(input, true) == "a pipe")
         throw UserError(
@@ -161,7 +161,7 @@ void check_not_set_too(const CompareRequest& what, const std::vector<Input>& inp
                                         inputs[0].value->place(), set.place()));
 }
 
-// Each has a folder of its own in that of the comparison.
+// Gives scenes different names, since each has its own folder inside the folder of the comparison.
 void number_names(std::vector<FilmedScene>& scenes) {
     std::set<std::string> taken{"frames"};
     for (FilmedScene& scene : scenes) {
@@ -186,7 +186,7 @@ std::vector<FilmedScene> read_scenes(const CompareRequest& what, const std::vect
     return scenes;
 }
 
-// All scenes end when the shortest does; a film's segments are shortened with it.
+// Reads the scenes. All end when the shortest one ends, and their films' segments are shortened to fit.
 std::vector<FilmedScene> read_scenes_of_one_length(const CompareRequest& what,
                                                    const std::vector<Input>& inputs,
                                                    std::vector<std::string>& warnings) {
@@ -218,7 +218,7 @@ ThreadPlan plan_threads_for(const std::vector<FilmedScene>& scenes) {
     std::int64_t grains = 0;
     for (const FilmedScene& scene : scenes) grains += scene.grains();
     ThreadPlan threads = plan_threads(processors, true, grains);
-    threads.engine = std::max(1, threads.engine / static_cast<int>(scenes.size()));  // for each
+    threads.engine = std::max(1, threads.engine / static_cast<int>(scenes.size()));  // threads for each scene
     return threads;
 }
 

@@ -1,5 +1,5 @@
-// One source of a film that shows several: a scene that is run, in a folder of its own with a run.json of its
-// own, or a run that lies on disk.
+// One of the sources of a film that compares several. It is a scene that is run in its own folder with its
+// own run.json, or a run that lies on disk.
 #pragma once
 
 #include <atomic>
@@ -34,37 +34,38 @@ class ComparedMember {
     const RunDriver* run() const { return driver_.get(); }              // null for a record
     const RevisitedRun* record() const { return record_; }              // null for what is run
     const Clock& clock() const { return driver_ ? driver_->plan().clock : record_->clock(); }
-    // Where its files are, as run.json of the whole tells it.
+    // Where the member's files are, as run.json of the whole film tells it.
     std::string place() const;
 
-    // In this order. What is run says so by `go_on`, now and then, and stops when that is false: then pack()
-    // is false, and next() nothing.
+    // These are called in this order. A scene that is run calls `go_on` now and then and stops when it
+    // returns false; pack() then returns false, and next() null.
     void begin(const std::filesystem::path& folder, const RunRequest& request);
     bool pack(const GoOn& go_on);
     std::string found_packing_text() const { return driver_ ? driver_->found_packing_text() : ""; }
     void start(const Pictures& pictures);
-    FramePtr next(const GoOn& go_on);  // null after the last too, when what remains of the run is done
+    FramePtr next(const GoOn& go_on);  // null also after the last picture, when the rest of the run is done
 
-    // After all that, whatever happened: the end state; then the record of its run. status: of the whole;
-    // where another member has failed, this one was interrupted. close() may be called twice.
+    // These end the member after all that, whatever happened: the end state is kept first, then run.json is
+    // closed. status: that of the whole film; where another member has failed, this one was interrupted.
+    // close() may be called twice.
     void keep_state();
-    // Formats of other programs that its scene asks for. watcher: as in write_also().
+    // Writes the formats of other programs that the scene asks for. watcher: see write_also().
     void write_other_formats(const std::function<bool(const std::string&, double)>& watcher);
     void close(RunStatus status, int exit_status, FirstFailure& failure);
     void note_failure(const std::string& what) { failed_.note(what); }
 
-    // How far another thread's work is, for the progress line.
+    // How far the work of the member's thread is, for the progress line.
     double done() const { return done_; }
     double speed() const { return speed_; }  // particle-steps/s
 
   private:
-    std::unique_ptr<RunDriver> driver_;     // of the source, when it is run
-    const RevisitedRun* record_ = nullptr;  // of the source, when it lies on disk
+    std::unique_ptr<RunDriver> driver_;     // driver of the source when it is run
+    const RevisitedRun* record_ = nullptr;  // the source when it lies on disk
     std::unique_ptr<FrameSource> source_;
-    std::optional<FolderLock> folder_;  // of what is run, once it is made
-    RunJson report_;                    // as above
+    std::optional<FolderLock> folder_;  // lock of the run's folder, once that is made
+    RunJson report_;                    // run.json of what is run
     std::atomic<double> done_ = 0, speed_ = 0;
-    FirstFailure failed_;  // of this member's own work
+    FirstFailure failed_;  // first failure of this member's own work
 };
 
 }  // namespace grainreel

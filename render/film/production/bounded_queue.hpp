@@ -1,4 +1,4 @@
-// Hands items from one thread to the next, in order, never more than `capacity` at a time.
+// A queue that hands items from one thread to the next, in order. It never holds more than `capacity` items.
 #pragma once
 
 #include <chrono>
@@ -14,13 +14,13 @@ namespace grainreel {
 template <class Item>
 class BoundedQueue {
   public:
-    // patience: 0, and both sides work at the same time. Otherwise they take turns, which is faster where
-    // they share processors: items come out once the queue is full, or no more has come for so long, and then
-    // go in once it is empty.
+    // With a patience of 0 both sides work at the same time. Otherwise they take turns, which is faster where
+    // they share processors: items come out once the queue is full or no item has come in for as long as the
+    // patience, and items go in again once it is empty.
     explicit BoundedQueue(std::size_t capacity, std::chrono::milliseconds patience = {})
         : capacity_(capacity), patience_(patience) {}
 
-    // Waits for a place. False, and the item is gone, when the queue is closed.
+    // Waits for a place. Returns false when the queue is closed; the item is then lost.
     bool push(Item item) {
         {
             std::unique_lock lock(mutex_);

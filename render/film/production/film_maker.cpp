@@ -26,32 +26,35 @@ double seconds_since(Watch::time_point start) {
     return std::chrono::duration<double>(Watch::now() - start).count();
 }
 
-// Deep enough that an uneven engine or encoder rarely makes the others wait; a picture is 8 MB at 1080p.
+// The queues are deep enough that an uneven engine or encoder rarely makes the other stages wait. A picture
+// has 8 MB at 1080p.
 constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
 
-// Where engine and film take turns: as many frames as 64 MB hold, since each turn begins and ends with a
-// stage that has nothing to do; and a patience that an engine which needs longer for a frame does not try.
+// These hold where engine and film take turns. Each turn begins and ends with a stage that has nothing to do,
+// so turns are long: up to as many frames as 64 MB hold. An engine that needs longer than the patience for
+// one frame does not have to fill the queue: the film then starts with what is there.
 constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
 constexpr std::chrono::milliseconds turn_patience(250);
-constexpr std::chrono::milliseconds glance(50);  // how often who is in a hurry is asked
+constexpr std::chrono::milliseconds glance(50);  // how often the caller is asked whether it is in a hurry
 
 std::size_t frames_that_wait(const FilmedScene& scene, const FilmOptions& options) {
     if (!options.take_turns) return waiting_frames;
-    std::int64_t moments = 1;  // that a picture is exposed over
+    std::int64_t moments = 1;  // number of moments that a picture is exposed over
     for (const FilmSegment& segment : scene.film.segments)
         if (segment.exposure > 0) moments = std::max<std::int64_t>(moments, segment.exposures);
     const std::int64_t fit =
         turn_bytes / (bytes_a_grain * moments * std::max<std::int64_t>(1, scene.grains()));
     return static_cast<std::size_t>(std::clamp<std::int64_t>(fit, waiting_frames, longest_turn));
 }
-// Those in the queue, the one being drawn, the one being encoded, and the last one, kept for the poster.
+// Counted are the pictures in the queue, the one being drawn, the one being encoded, and the last one, which
+// is kept for the poster.
 constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 
 struct Order {
     Frames frames;
     std::string playback;
-    std::int64_t more;  // times that the film shows the picture again
-    bool drawn;         // else remembered alone
+    std::int64_t more;  // how many more times the film shows the picture
+    bool drawn;         // false: the frames are only remembered
 };
 struct Drawn {
     DrawnFrame frame;
@@ -129,7 +132,7 @@ struct FilmMaker::Impl {
         encode_seconds += seconds_since(start);
     }
 
-    // Until the film has ended, one way or the other.
+    // Waits until the film has ended, with success or without.
     void wait_for_end(const std::function<bool()>& in_a_hurry) {
         std::unique_lock lock(end_mutex);
         const auto has_ended = [this] { return ended; };
@@ -181,21 +184,21 @@ struct FilmMaker::Impl {
         if (!failure.empty()) throw RunError(failure);
     }
 
-    CaptionHolds holds;  // of who calls take()
-    PictureFiles files;  // the encoding thread's, once that runs
+    CaptionHolds holds;  // used by the thread that calls take()
+    PictureFiles files;  // used by the encoding thread alone, once it runs
     DrawerMaker make;
     BoundedQueue<Order> frames;
     BoundedQueue<Drawn> pictures{waiting_pictures};
     BoundedQueue<Picture> spare{pictures_in_all};
-    std::atomic<bool> complete = false;  // finish() was called: the film is to be closed, not abandoned
+    std::atomic<bool> complete = false;  // finish() was called: the film is closed, not abandoned
     std::mutex end_mutex;
     std::condition_variable end_told;
-    bool ended = false;  // the encoding thread has done all it will
+    bool ended = false;  // the encoding thread has done its work
     std::mutex failure_mutex;
-    std::string failure;                     // of the stage that failed first; empty when none did
-    std::atomic<bool> drawer_known = false;  // it is made, or something failed
-    std::string gl, note;                    // of the drawer: read once it is known
-    // From here on: written by one thread, read after join().
+    std::string failure;                     // words of the stage that failed first; empty when none did
+    std::atomic<bool> drawer_known = false;  // the drawer is made, or something failed
+    std::string gl, note;                    // words of the drawer; to be read once drawer_known is set
+    // The members from here on are written by one thread and read after join().
     std::string last_note;  // of the drawer
     double draw_seconds = 0, encode_seconds = 0, waited_seconds = 0;
     std::thread drawing, encoding;
@@ -256,7 +259,7 @@ std::int64_t FilmMaker::frames_done() const {
     return impl_->files.frames();
 }
 
-// The only place where the production line meets OpenGL.
+// This is the only place where the production line meets OpenGL.
 
 namespace {
 
@@ -284,7 +287,7 @@ class RendererDrawer final : public Drawer {
 
     Renderer renderer_;
     const double rate_;
-    std::int64_t drawn_;  // of the film, with the parts before this one
+    std::int64_t drawn_;  // pictures drawn of the film, with the parts before this one
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The film's production line: frames go in on the engine's thread and pass a bounded queue, a drawing thread,
-// another bounded queue and an encoding thread. None is dropped, and their order stays.
+// another bounded queue and an encoding thread. No frame is dropped, and their order stays.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace grainreel {
 
-// What a film has that is not drawn in one go by itself.
+// What a part of a film needs to know when the film is not drawn in one go.
 struct FilmExtent {
-    // A part of a film: s, simulated, of the whole film's pictures that come before its first one; rising.
+    // Simulated times (s, rising) of the whole film's pictures that come before this part's first one.
     std::vector<double> earlier;
-    bool poster = true;  // it has the picture that stands for the whole film
-    // Frames from which on the encoder begins anew, counted from the film's first; rising.
+    bool poster = true;  // whether this part has the picture that stands for the whole film
+    // Numbers of the frames at which the encoder begins anew; counted from the film's first frame, rising.
     std::vector<std::int64_t> groups;
 };
 
@@ -30,46 +30,49 @@ struct FilmOptions {
     std::filesystem::path folder;  // movie.mp4 (or .webm, ...), poster.png, sheet.png and frames/ go here
     bool film = true;              // the film, in its scene's format, and the pictures that stand for it
     bool frames = false;           // frames/000000.png ...; always with the format png
-    bool page_copy = false;        // a small copy of the film too, where a page may need one
+    bool page_copy = false;        // makes a small copy of the film too, where a page may need one
     bool to_stdout = false;        // the film goes to stdout in place of the folder: y4m only
     int raster_threads = 1;
     int encoder_threads = 1;
-    bool take_turns = false;  // with who calls take(), which then waits while queued pictures are made
+    bool take_turns = false;  // with the caller of take(), which then waits while queued pictures are made
     gl::Provider gl = gl::Provider::automatic;
-    FramePtr start;             // from which start heights are counted; null: the first picture's frame
-    std::int64_t pictures = 0;  // planned, of the whole film; an orbit may last as long
+    FramePtr start;             // frame from which start heights are counted; null: the first picture's frame
+    std::int64_t pictures = 0;  // planned number of the whole film's pictures; an orbit may last as long
     FilmExtent extent;
-    // Called before a file is made in the folder or replaced there; throws RunError when that may not be.
+    // Called before a file is made or replaced in the folder; throws RunError when that is not allowed.
     std::function<void()> check_folder = [] {};
 };
 
 struct FilmReport {
-    bool complete = false;                        // not left as it was
+    bool complete = false;                        // the film was closed, not abandoned
     std::int64_t frames = 0;                      // in the film
     double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
-    double waited_seconds = 0;                    // the engine's, for a place in the queue
+    double waited_seconds = 0;                    // how long the engine waited for a place in the queue
     std::string gl;                               // context description
     std::string file;                             // "movie.mp4"; empty without one
-    bool pictures = false;                        // frames/ is there
+    bool pictures = false;                        // whether frames/ is there
     bool poster = false, sheet = false;           // poster.png, sheet.png are there
     std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty as above
     std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
 };
 
-// The frames that one picture shows: one, or one a panel, of the same moment.
+// The frames that one picture shows: a single one, or one for each panel, all of the same moment.
 using Frames = std::vector<FramePtr>;
 
-// What turns frames into a picture: the Renderer, or a test's own. Made, used and destroyed on one thread.
+// Turns frames into a picture. It is the Renderer, or a test's own drawer. It is made, used and destroyed on
+// one thread.
 class Drawer {
   public:
     virtual ~Drawer() = default;
-    // Into an empty picture, or one that it has drawn before.
+    // Draws into an empty picture, or one that this drawer has drawn before.
     virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
-    // Takes frames from before all that is drawn, for what leaves marks on later pictures.
+    // Takes frames that come before the first drawn one. Trails of them may show on later pictures.
     virtual void remember(const Frames&) {}
     virtual std::string description() const = 0;
-    virtual std::string note() const { return {}; }       // what its user should know about it
-    virtual std::string last_note() const { return {}; }  // and about all that it has drawn
+    virtual std::string note() const { return {}; }  // what its user should know about it
+    virtual std::string last_note() const {
+        return {};
+    }  // what its user should know about all that it has drawn
 };
 using DrawerMaker = std::function<std::unique_ptr<Drawer>()>;
 
@@ -78,27 +81,27 @@ class FilmMaker {
     // Creates the film's file and folder. Throws RunError when they cannot be written.
     FilmMaker(const FilmedScene& scene, const FilmOptions& options);  // draws with the Renderer
     FilmMaker(const FilmedScene& scene, const FilmOptions& options, DrawerMaker make_drawer);
-    ~FilmMaker();  // abandons what is queued; the film on disk still plays
+    ~FilmMaker();  // drops what is queued; the film on disk still plays
 
     // Waits until the drawer is made and says what it is. Throws RunError when it cannot be made.
     std::string drawer();
 
-    // Takes one picture's frames with their caption, which the film shows once, or for as long as a caption
-    // of the scene that begins with it holds it (held_frames() more). Waits while the queue is full. Throws
-    // RunError when drawing or encoding failed (disk full), with the first failure's words.
+    // Takes one picture's frames with their caption. The film shows the picture once, or held_frames() more
+    // times when a caption of the scene begins with it. Waits while the queue is full. Throws RunError with
+    // the words of the first failure when drawing or encoding failed (disk full, say).
     void take(Frames frames, std::string playback);
     void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
 
-    // Takes a picture's frames that come before the first one of this part of a film: trails show them, and
-    // nothing is drawn. Throws RunError as above.
+    // Takes a frame that comes before the first picture of this part of a film. Nothing is drawn, but trails
+    // show it. Throws RunError as above.
     void remember(FramePtr frame);
 
     // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError as above.
-    // Neither take() nor finish() may follow. in_a_hurry: asked now and then; once it is true what is queued
-    // is thrown away and the film left as it grew, which plays.
+    // Neither take() nor finish() may follow. in_a_hurry is called now and then. Once it returns true, what
+    // is queued is thrown away and the film is left as it was written; it plays.
     FilmReport finish(const std::function<bool()>& in_a_hurry = {});
 
-    std::int64_t frames_done() const;  // encoded so far
+    std::int64_t frames_done() const;  // frames encoded so far
 
   private:
     struct Impl;

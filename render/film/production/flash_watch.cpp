@@ -10,11 +10,11 @@ namespace grainreel {
 namespace {
 
 constexpr double kChange = 0.1, kBright = 0.8;  // of relative luminance
-constexpr std::size_t kMostTurns = 7;           // three pairs, and half of one
-constexpr int kEvery = 4;                       // pixels: a mean wants no more
-constexpr double kTogether = 0.05;              // s, within which changes are one
+constexpr std::size_t kMostTurns = 7;           // three pairs of changes, and half of one
+constexpr int kEvery = 4;                       // every fourth pixel is enough for a mean
+constexpr double kTogether = 0.05;              // s, within which changes count as one
 
-// Each colour's part of the relative luminance, by its byte.
+// For each colour: its part of the relative luminance, by the byte's value.
 using Parts = std::array<std::array<float, 256>, 3>;
 const Parts& parts_of_luminance() {
     static const Parts parts = [] {
@@ -36,7 +36,7 @@ void FlashWatch::add(const Picture& picture) {
     const double now = static_cast<double>(frames_++) / rate_;
     const Parts& parts = parts_of_luminance();
     std::array<double, kAcross * kDown> sum{}, count{};
-    // The first pixel looked at of the place to the right of `place`, or the row's end.
+    // The first pixel of the place to the right of `place` that is looked at, or the row's end.
     const auto end_of = [&](int place) {
         const int first = ((place + 1) * picture.width + kAcross - 1) / kAcross;
         return std::min((first + kEvery - 1) / kEvery * kEvery, picture.width);
@@ -68,7 +68,7 @@ void FlashWatch::add(const Picture& picture) {
         }
 }
 
-// 1 or -1 where a quarter of the window has just become brighter or darker.
+// Returns 1 or -1 when a quarter of the window has just become brighter or darker, else 0.
 int FlashWatch::turning(int column, int row, double now) const {
     int up = 0, down = 0;
     for (int y = row; y < row + kHigh; ++y)
@@ -81,7 +81,8 @@ int FlashWatch::turning(int column, int row, double now) const {
     return !enough ? 0 : up > down ? 1 : -1;
 }
 
-// A change is noted once it is large enough, and extends as long as it goes on in its direction.
+// Takes the luminance of a place. A change is noted once it is large enough, and grows as long as it goes on
+// in its direction.
 void FlashWatch::take(Place& place, double luminance, double now) const {
     if (frames_ == 1) place.low = place.high = luminance;
     const auto turned = [&](int direction) {

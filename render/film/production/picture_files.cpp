@@ -16,7 +16,8 @@ namespace grainreel {
 
 namespace {
 
-// A poster for whoever kills the run: of the first frame, and again each time the film has doubled.
+// Whether a poster is written in passing, so that a killed run has one: at the first frame, and again each
+// time the film has doubled.
 bool poster_in_passing(std::int64_t count) {
     return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
 }
@@ -74,7 +75,7 @@ PictureFiles::PictureFiles(const FilmedScene& scene, const FilmOptions& options)
     if (scene.film.sheet[0] > 0) sheet_ = std::make_unique<ContactSheet>(scene.film);
 }
 
-// What an earlier film left goes in any case.
+// Opens the page's copy. What an earlier film left is removed in any case.
 void PictureFiles::open_copy(const FilmedScene& scene, const FilmOptions& options) {
     std::error_code ignored;
     std::filesystem::remove(folder_ / kPageCopy, ignored);
@@ -82,7 +83,7 @@ void PictureFiles::open_copy(const FilmedScene& scene, const FilmOptions& option
     try {
         copy_ = std::make_unique<PageCopy>(scene, folder_, options.encoder_threads);
     } catch (const RunError&) {
-        // The page makes one, or says that it could not.
+        // The page then makes the copy itself, or says that it could not.
     }
 }
 
@@ -208,7 +209,7 @@ EncoderSettings settings_of_copy(const FilmedScene& scene, const fs::path& path,
     settings.height = even(std::min(lines_of_copy, height) - 0.5);
     settings.width = even(static_cast<double>(width) * settings.height / height);
     settings.rate = scene.film.rate;
-    settings.quality = least_legible;  // its digits still read
+    settings.quality = least_legible;  // digits can still be read
     settings.threads = threads;
     settings.title = scene.film.title;
     return settings;

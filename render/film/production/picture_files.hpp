@@ -1,5 +1,5 @@
-// What the encoding thread does with a drawn picture: it goes into the film and its copy for the page,
-// numbered PNG files, the poster and the contact sheet.
+// What the encoding thread does with drawn pictures: it puts them into the film and its copy for the page,
+// into numbered PNG files, the poster and the contact sheet.
 #pragma once
 
 #include <atomic>
@@ -33,8 +33,8 @@ inline constexpr std::size_t kMostFilmOnPage = 6'000'000;  // bytes
 // Whether browsers play films of that format.
 bool plays_in_browsers(FilmFormat format);
 
-// Whether a film of so many pictures may need a copy: one that browsers do not play, or larger than a page
-// takes.
+// Whether a film of so many pictures may need a copy, because browsers do not play it or it may be larger
+// than a page takes.
 bool may_need_copy(const Film& film, std::int64_t pictures);
 
 // Settings for a copy of the film with that height.
@@ -43,15 +43,15 @@ EncoderSettings settings_of_copy(const FilmedScene& scene, const std::filesystem
 
 class PageCopy {
   public:
-    // Creates the file under a name for work. Throws RunError.
+    // Creates the file under a temporary name. Throws RunError.
     PageCopy(const FilmedScene& scene, const std::filesystem::path& folder, int threads);
-    // Without finish(): the file goes.
+    // Removes the file when finish() was not called.
     ~PageCopy();
     PageCopy(const PageCopy&) = delete;
     PageCopy& operator=(const PageCopy&) = delete;
 
     void add(const Picture& picture);
-    // Under its own name; removed where the film beside it will do. Throws RunError.
+    // Gives the copy its final name, or removes it where the film beside it will do. Throws RunError.
     void finish(const std::filesystem::path& film);
 
   private:
@@ -81,16 +81,16 @@ class PictureFiles {
     // Takes the next picture and gives a picture back whose buffer may be drawn over. Throws RunError.
     Picture add(DrawnFrame drawn);
 
-    // The poster, if it is still to come. Throws RunError.
+    // Writes the poster if that was not done yet. Throws RunError.
     void close_poster();
     // Completes the film and the contact sheet, after close_poster(). Throws RunError.
     void finish();
-    // In place of finish(): the film is closed as it grew.
+    // Is called in place of finish(): the film is closed as it was written.
     void leave();
 
     std::int64_t frames() const { return count_; }  // taken so far; may be asked by another thread
     bool complete() const { return complete_; }
-    std::string film_file() const { return film_file_; }  // its name; empty without one
+    std::string film_file() const { return film_file_; }  // name of the film's file; empty without one
     bool has_frames() const { return frames_wanted_; }
     bool has_poster() const { return poster_written_; }
     bool has_sheet() const { return complete_ && sheet_ != nullptr && count_ > 0; }
@@ -99,7 +99,7 @@ class PictureFiles {
 
   private:
     void open_copy(const FilmedScene& scene, const FilmOptions& options);
-    // Does something to the copy. One that fails goes, and the film goes on.
+    // Does something with the copy. When that fails the copy is removed, and the film goes on.
     void with_copy(const std::function<void(PageCopy&)>& act);
     void consider_poster(const DrawnFrame& drawn);
     void write(const std::filesystem::path& path, const DrawnFrame& drawn) const;
@@ -110,16 +110,17 @@ class PictureFiles {
     std::string name_, title_;
     bool frames_wanted_, transparent_;
     double poster_time_;              // s after the first frame
-    double first_time_ = 0;           // of the whole film
-    const bool is_first_;             // nothing of the film comes before
-    const std::int64_t first_frame_;  // of the whole film, that is taken here
+    double first_time_ = 0;           // s, time of the whole film's first picture
+    const bool is_first_;             // no other part of the film comes before
+    const std::int64_t first_frame_;  // number in the whole film of the first frame taken here
     const std::vector<std::int64_t> groups_;
     std::size_t next_group_ = 0;
     std::atomic<std::int64_t> count_ = 0;
     bool poster_done_, poster_written_ = false, complete_ = false;
     FlashWatch flashes_;
     std::string flash_remedy_;
-    DrawnFrame last_;  // kept because it is the poster when the next one comes too late
+    DrawnFrame
+        last_;  // kept because it becomes the poster when the next picture comes after the poster's time
     std::unique_ptr<FilmWriter> film_;
     std::unique_ptr<PageCopy> copy_;
     std::string film_file_, left_file_, left_encoder_;
