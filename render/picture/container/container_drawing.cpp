@@ -165,8 +165,7 @@ void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const 
 
 namespace {
 
-constexpr double begins_at =
-    0.5;  // share of the way from the floor to where grains leave; the fade begins there
+constexpr double begins_at = 0.5;  // share of the way out, from the floor on; there the fade begins
 constexpr double least_rows = 4;
 
 // Pixels from the top: the lowest point that the floor's plate reaches in the course of the film.

@@ -16,8 +16,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kLeastRise =
-    0.25;  // sine of the key light's height above the horizon; below it shadows would be too long
+constexpr double kLeastRise = 0.25;  // sine of the key light's least elevation
 
 double floor_reach(const Container& container) {
     const double half_depth =

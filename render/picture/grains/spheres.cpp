@@ -63,8 +63,7 @@ Lamp lamp_of(const FilmLook& look, bool colours_are_read) {
         lamp.rim = 0.85f;
         lamp.shine = 0.20f;
     }
-    if (colours_are_read &&
-        look.style != FilmLook::Style::flat) {  // the light changes the map's colours half as much
+    if (colours_are_read && look.style != FilmLook::Style::flat) {  // changes colours half as much
         lamp.key = 0.45f;
         lamp.sky = 0.50f;
         lamp.ground = 0.35f;

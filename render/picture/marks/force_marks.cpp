@@ -17,8 +17,7 @@ namespace {
 constexpr double longest = 0.14;         // share of the smaller side of the port
 constexpr double shortest = 9;           // pens
 constexpr double thin = 1.6, thick = 3;  // pens, of shafts
-constexpr double along_sight =
-    0.25;  // least share of the length in space that is seen; below it the arrow is a circle
+constexpr double along_sight = 0.25;     // seen share of the length in space; below it arrows are circles
 
 constexpr double room = 10;  // pens: least distance from a grain's centre to the ends of arrows
 

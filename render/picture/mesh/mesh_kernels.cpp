@@ -1,4 +1,4 @@
-// The hot loops of drawing meshes (mesh_kernels.hpp), compiled for each instruction set. Time it after a
+// The hot loops of drawing meshes (mesh_kernels.hpp), compiled for each instruction set. Time them after a
 // change.
 #include "render/picture/mesh/mesh_kernels.hpp"
 
@@ -82,7 +82,7 @@ HWY_INLINE void keep_pixels(Mask which, Pixels pixels, std::uint32_t* at) {
     hn::StoreU(hn::IfThenElse(hn::RebindMask(d, which.bits), pixels, hn::LoadU(d, at)), d, at);
 }
 
-// Keeps depths where they are nearer than what is there. Returns these lanes.
+// Stores the nearnesses that exceed those at `at`. Returns the lanes that were stored.
 HWY_INLINE Mask keep_nearer(Mask inside, F near, float* at) {
     const F before = load_any(at);
     const Mask nearer = inside & (near > before);

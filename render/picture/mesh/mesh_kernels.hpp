@@ -8,8 +8,8 @@
 
 namespace grainreel {
 
-// The samples in a pixel for what is solid, from its middle. They are a square turned by 27 degrees, so that
-// edges along rows and columns have five steps.
+// The places of a pixel's samples for solid triangles, from the middle of the pixel. They form a square
+// turned by 27 degrees, so that edges along rows and columns have five steps.
 constexpr int kMeshSamples = 4;
 constexpr float kSampleX[kMeshSamples] = {-0.125f, 0.375f, -0.375f, 0.125f};
 constexpr float kSampleY[kMeshSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
@@ -31,27 +31,27 @@ struct ScreenTriangle {
         float least;
     };
     Edge edge[3];
-    float x = 0, y = 0;  // of one corner, from which the planes count
+    float x = 0, y = 0;  // one corner, from which the planes count
     ScreenPlane near, shade;
-    float colour[3], brighter[3];        // 0 to 255: at shade 0, and what is added at shade 1
-    float tint = 0;                      // of glass: thickness, in panes seen straight
+    float colour[3], brighter[3];        // 0 to 255: colour at shade 0, and what shade 1 adds to it
+    float tint = 0;                      // thickness of glass, in panes seen straight on
     std::uint32_t number = 0;            // of the triangle's plane in MeshProjection, from 1 on
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels that it may touch; high ends excluded
 };
 
 // Rows of a band, `stride` numbers each. Up to 15 pixels past the end of a row may be read and written.
 struct MeshRows {
-    float* near[kMeshSamples];            // at the samples, of what is nearest so far
+    float* near[kMeshSamples];            // nearness at the samples of what is nearest so far
     std::uint32_t* colour[kMeshSamples];  // opaque
-    float* near_middle;                   // in the middle of the pixel
-    std::uint32_t* number;                // of what is seen there
+    float* near_middle;                   // nearness in the middle of the pixel
+    std::uint32_t* number;                // triangle that is seen there
     std::size_t stride;
     int first_row;  // of the picture
 };
 
 struct GlassRows {
-    const float* away;  // m, z of what is seen behind
-    float* thickness;   // of all glass before that
+    const float* away;  // m, z of what is seen behind the glass
+    float* thickness;   // panes of all glass before that
     std::size_t away_stride, stride;
     int first_row;
     bool orthographic;
@@ -62,9 +62,9 @@ struct MeshKernels {
     void (*solid)(const ScreenTriangle&, const MeshRows&, int y0, int y1);
     void (*glass)(const ScreenTriangle&, const GlassRows&, int y0, int y1);
     // Takes the mean of the samples of a row: colours multiplied by alpha, and z of the pixel's middle, which
-    // is infinite where there is nothing. Bits, 64 to a word, are set where samples differ: not all are
-    // covered, or their depths differ by more than `apart` times the nearest depth (orthographic: by more
-    // than `apart` m).
+    // is infinite where there is nothing. Bits, 64 to a word, are set where samples differ. Samples differ
+    // where not all are covered, or where their depths differ by more than `apart` times the nearest depth
+    // (orthographic: by more than `apart` m).
     void (*gather)(const MeshRows&, int row, int x0, int x1, bool orthographic, float apart,
                    std::uint32_t* colours, float* away, std::uint64_t* differ);
     // Lays glass of one colour (0 to 255 each) over a row of pixels.

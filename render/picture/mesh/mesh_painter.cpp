@@ -1,5 +1,5 @@
-// Paints meshes in bands of rows: what is solid, glass, lines, and pixels that meshes share with grains. Hot
-// code.
+// Paints meshes in bands of rows: solid triangles, glass, lines, and pixels that meshes share with grains.
+// Hot code.
 #include "render/picture/mesh/mesh_painter.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace grainreel {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-constexpr int kPad = 64;     // numbers after a row, which kernels may write
+constexpr int kPad = 64;     // numbers after a row that kernels may write to
 constexpr float kApart = 3;  // pixels, of depth: samples that lie farther apart may have grains between them
-constexpr float kOnThePlane = 1;  // pixels, by which a line may lie behind a plane and be seen as on it
+constexpr float kOnThePlane = 1;  // pixels by which a line may lie behind a plane and still count as on it
 
 float depth_of(const Sight& sight, float near) {
     return sight.orthographic ? -near : 1 / near;
@@ -35,7 +35,7 @@ std::uint32_t sum_of(std::uint32_t a, std::uint32_t b) {
     return sum;
 }
 
-// A share of a pixel, as it looks in the rest of the pixel when `taken` of 255 is taken away.
+// The colour of a pixel's rest when the share `taken` of 255 has been taken away from the pixel.
 std::uint32_t in_the_rest(std::uint32_t pixel, std::uint32_t taken) {
     if (taken >= 255) return 0;
     std::uint32_t out = 0;
@@ -221,7 +221,7 @@ bool MeshPainter::hidden_by_solid(const Eigen::Vector3f& at, int x, int y, const
     return plane.normal.dot(at) - plane.distance < -kOnThePlane * pixel;
 }
 
-// A line is round at its ends, so that lines that meet look like one.
+// Draws a line. It is round at its ends, so that lines that meet look like one.
 void MeshPainter::draw_line(const ScreenLine& line, int y0, int y1, const Job& job, Worker& worker) const {
     const float reach = line.half_width + 0.5f;
     const Eigen::Vector2f from = line.from.head<2>(), along = line.to.head<2>() - from;
@@ -260,7 +260,7 @@ void MeshPainter::draw_line(const ScreenLine& line, int y0, int y1, const Job& j
     }
 }
 
-// Where the outline of a grain is drawn over something solid that is nearer, the solid is laid over it again.
+// Lays solid pixels again over the outlines of grains that were drawn over them though the solid is nearer.
 void MeshPainter::bring_forward(int y, const Job& job, Worker& worker, const Columns& columns) {
     if (columns.empty()) return;
     const Visibility& seen = job.seen;
@@ -316,8 +316,8 @@ void MeshPainter::draw_rest_band(int band, const Job& job, Worker& worker) {
     }
 }
 
-// The part of the pixel that is nearer than the grain goes before it. The rest of the pixel shows what is
-// behind.
+// Splits a mixed pixel: the part that is nearer than the grain goes into the layer before the grains, and the
+// rest goes behind them.
 void MeshPainter::split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker) {
     const float grain = grain_depth(seen, pixel.x, pixel.y);
     if (grain == kNothing || pixel.near_away >= grain) return;

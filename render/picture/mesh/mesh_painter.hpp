@@ -1,11 +1,11 @@
-// Two layers of meshes, one that is laid under the grains and one over them, so that each pixel has the right
-// order.
+// Draws two layers of meshes: one is laid under the grains and one over them, so that each pixel has the
+// right order.
 //
-// What is solid is drawn first, with four samples a pixel. Grains behind it are not drawn at all, since
-// Visibility takes its depth. Where the outlines of a grain and of something solid meet, the share of the
-// pixel that stands before the grain goes into the layer over the grains. Then glass is thinly laid over
-// whatever is behind it, and lines are drawn along edges unless a solid plane is before them. Threads work on
-// bands of rows; the picture does not depend on the team's size.
+// Solid triangles are drawn first, with four samples a pixel. Grains behind them are not drawn at all, since
+// Visibility takes the depth of the solid triangles. Where the outlines of a grain and of a solid triangle
+// meet, the share of the pixel that stands before the grain goes into the layer over the grains. Then glass
+// is thinly laid over whatever is behind it, and lines are drawn along edges where no solid plane is before
+// them. Threads work on bands of rows; the picture does not depend on the team's size.
 #pragma once
 
 #include <algorithm>
@@ -29,11 +29,11 @@ class MeshPainter {
         std::array<float, 3> glass{}, line{};
     };
 
-    // Draws what is solid. draw_rest() comes after it.
+    // Draws the solid triangles. Call draw_rest() after it.
     void draw_solid(const MeshProjection& meshes, const Sight& sight, Team& team);
-    // m: z of what is solid in the middle of each pixel.
+    // m: z of the solid triangle in the middle of each pixel.
     SolidDepth depth() const { return {away_.data(), stride_}; }
-    // Draws what depends on the grains. seen: was made with depth().
+    // Draws what depends on the grains. seen: grains that were drawn with depth().
     void draw_rest(const MeshProjection& meshes, const Sight& sight, const Visibility& seen, const Inks& inks,
                    Team& team);
 
@@ -42,13 +42,14 @@ class MeshPainter {
 
   private:
     static constexpr int kBand = MeshProjection::kBand;
-    // A pixel whose samples are not alike: those that are nearer, and those that are farther away by a step.
+    // A pixel whose samples are not alike. Some of them are nearer, and the others are farther away by a
+    // step.
     struct Mixed {
         int x, y;
         std::uint32_t near, far;    // colours, multiplied by the share of the samples
         float near_away, far_away;  // m, z
     };
-    // The columns that something is drawn in; the high end is excluded.
+    // The columns in which something is drawn; the high end is excluded.
     struct Columns {
         int x0 = 0, x1 = 0;
         bool empty() const { return x0 >= x1; }
@@ -57,7 +58,7 @@ class MeshPainter {
         }
     };
     struct BandState {
-        Columns solid, over;  // as last drawn
+        Columns solid, over;  // columns that were drawn last
         std::vector<Mixed> mixed;
     };
     // Rows of a band, of one thread.
@@ -100,7 +101,7 @@ class MeshPainter {
     const std::size_t stride_;
     Layer behind_, before_;
     std::vector<float> away_;            // rows of `stride_`
-    std::vector<std::uint32_t> number_;  // of the solid triangle seen in the pixel's middle, or 0
+    std::vector<std::uint32_t> number_;  // number of the solid triangle seen in the pixel's middle, or 0
     std::vector<BandState> states_;
     std::vector<Worker> workers_;
 };

@@ -12,15 +12,15 @@ namespace {
 
 constexpr float kKeyShare = 0.62f;  // of the light on walls; the sky gives the rest
 
-// The share of its strength that a colour keeps when it is turned away from the light, since it must still be
-// found on the colour bar.
+// The share of its strength that a colour keeps where the surface is turned away from the light. The colour
+// must still be found on the colour bar.
 constexpr float kDarkColour = 0.7f;
 
-// Widths of lines, as shares of a main line's, and their strengths.
+// Widths of lines, as shares of a main line's width, and their strengths.
 constexpr float kFeatureWidth = 0.8f, kOutlineWidth = 1;
 constexpr float kSolidLine = 0.85f, kGlassLine = 0.42f, kOutline = 0.7f;
-// An edge becomes one of glass while its last solid face turns edge-on. This is the sine of the angle that it
-// takes.
+// An edge becomes an edge of glass while its last solid face turns edge-on. This is the sine of the angle
+// over which it changes.
 constexpr float kFade = 0.14f;
 
 // A pane that is seen at a slant is thicker to the eye.
@@ -34,7 +34,7 @@ float smooth(float share) {
     return s * s * (3 - 2 * s);
 }
 
-// How near the points of a plane are, as a plane over the pixels from (0, 0) on.
+// The nearness of a plane's points, as a linear function of the pixel's place from (0, 0) on.
 ScreenPlane nearness_of(const Sight& sight, const Eigen::Vector3f& normal, float distance) {
     const float per_pixel = 1 / sight.focal;
     const float x = normal.x() * per_pixel, y = -normal.y() * per_pixel;
@@ -88,7 +88,7 @@ MeshProjection::Seen MeshProjection::look_at(const MeshShape& shape, std::size_t
         (vertices_[static_cast<std::size_t>(a)] + vertices_[static_cast<std::size_t>(b)] +
          vertices_[static_cast<std::size_t>(c)]) /
         3;
-    // This goes by a corner, so that the side changes just where the triangle is edge-on.
+    // A corner decides the side, so that it changes just where the triangle is edge-on.
     const float height =
         sight_.orthographic ? normal.z() : normal.dot(vertices_[static_cast<std::size_t>(a)]);
     const float length = sight_.orthographic ? 1 : std::max(middle.norm(), 1e-30f);
@@ -173,7 +173,7 @@ void MeshProjection::add_section_line(int half, const std::array<Eigen::Vector3f
             {line.from.x(), line.from.y(), line.to.x(), line.to.y()});
 }
 
-// Adds the sections. They are seen from the side that is taken away.
+// Adds the sections. They are seen from the side that the cut takes away.
 void MeshProjection::add_sections(std::vector<Share>& shares) {
     for (int i = sight_.orthographic ? 0 : 1; i < space_.count; ++i) {
         MeshSection section;
@@ -231,7 +231,7 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
     }
 }
 
-// Is larger than 0 where the front of the smooth surface turns to the eye.
+// A number above 0 where the front of the smooth surface turns to the eye.
 float MeshProjection::towards_eye(const MeshShape& shape, std::int32_t triangle, std::size_t corner) const {
     const auto t = static_cast<std::size_t>(triangle);
     const Eigen::Vector3f normal = turn_ * shape.corners[t][corner];
@@ -256,7 +256,7 @@ void MeshProjection::add_edge(const MeshShape& shape, const MeshShape::Edge& edg
     const Seen* right = edge.right >= 0 ? &seen_[static_cast<std::size_t>(edge.right)] : nullptr;
     if (left.face == Face::unseen && (!right || right->face == Face::unseen)) return;
     if (!edge.feature && !is_outline(shape, edge)) return;
-    float turned = 0;  // of the solid face that turns to the eye most
+    float turned = 0;  // cosine of the solid face that turns to the eye most
     bool glass = true;
     for (const Seen* one : {&left, right}) {
         if (!one || one->face != Face::solid) continue;

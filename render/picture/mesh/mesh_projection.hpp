@@ -17,15 +17,15 @@ namespace grainreel {
 struct DrawnMesh {
     std::shared_ptr<const MeshShape> shape;
     BodyPose pose;
-    // sRGB, 0 to 255, of each triangle that shows a quantity. Where it is below 0, or null, triangles look as
-    // walls do. Glass stays glass.
+    // sRGB, 0 to 255: the colour of each triangle that shows a quantity. Triangles with numbers below 0 look
+    // as plain walls do, and so do all triangles when this is null. Glass stays glass.
     const std::vector<std::array<float, 3>>* colours = nullptr;
 };
 
 // sRGB, 0 to 255.
 struct MeshPaints {
-    std::array<float, 3> dark, lit;  // of solid walls, turned away from the light and towards it
-    std::array<float, 3> section;    // of material that is cut open
+    std::array<float, 3> dark, lit;  // solid walls that are turned away from the light and towards it
+    std::array<float, 3> section;    // material that is cut open
     Vec3 up{0, 0, 1};                // unit, where the light of the sky comes from
     float pen = 1;                   // pixels, the width of a main line
 };
@@ -36,8 +36,8 @@ struct MeshSection {
         float x0, y0, x1, y1;  // pixels
     };
     std::vector<Edge> edges;
-    ScreenPlane near;                    // from (0, 0) on
-    std::uint32_t number = 0;            // as of a triangle
+    ScreenPlane near;                    // counts from pixel (0, 0)
+    std::uint32_t number = 0;            // as ScreenTriangle::number
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels; high ends excluded
 };
 
@@ -55,7 +55,7 @@ class MeshProjection {
         float distance;
     };
     const Plane& plane(std::uint32_t number) const { return planes_[number - 1]; }
-    // What there is in each band of rows, by rising number.
+    // Numbers of what lies in each band of rows, rising.
     struct Band {
         std::vector<std::uint32_t> solid, glass, lines;
     };
@@ -75,7 +75,7 @@ class MeshProjection {
         bool front;
         float cosine;  // of the angle between its normal and the line of sight, > 0
     };
-    // What one thread makes of a mesh.
+    // The part of a mesh that one thread projects.
     struct Share {
         std::vector<ScreenTriangle> solid, glass;
         std::vector<Plane> planes;
@@ -97,15 +97,15 @@ class MeshProjection {
     Seen look_at(const MeshShape& shape, std::size_t t) const;
     float lit(const Eigen::Vector3f& normal) const;
 
-    // The moment that is taken.
+    // The moment that was given last.
     Sight sight_;
     DrawnSpace space_;
     PortSize port_{1, 1};
     MeshPaints paints_;
-    Eigen::Matrix3f turn_;  // of the mesh at hand, from rest into the view
+    Eigen::Matrix3f turn_;  // turns the mesh at hand from rest into the view
     Eigen::Vector3f up_;    // where the light of the sky comes from, in the view
     std::vector<Eigen::Vector3f> vertices_;
-    std::vector<char> whole_;  // a vertex: within the drawn space
+    std::vector<char> whole_;  // for each vertex: whether it is within the drawn space
     std::vector<Seen> seen_;
 
     std::vector<ScreenTriangle> solid_, glass_;

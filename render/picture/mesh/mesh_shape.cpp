@@ -1,4 +1,4 @@
-// Finds the edges of a mesh that are drawn and the normals at its corners, once a mesh.
+// Finds the edges of a mesh that are drawn and the normals at its corners. This is done once for each mesh.
 #include "render/picture/mesh/mesh_shape.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::uint8_t third_corner(const TriangleMesh::Triangle& triangle, std::int32_t f
 double fold_at(const Surface& surface, std::int32_t t, int e) {
     const Neighbour& beyond = surface.neighbour(t, e);
     if (beyond.triangle < 0) return 0;
-    double height = 0;  // of the neighbour's third corner over the triangle
+    double height = 0;  // m: height of the neighbour's third corner over the triangle
     for (int k = 0; k < 3; ++k) {
         const double one = surface.normal(t).dot(surface.corner(beyond.triangle, k) - surface.corner(t, e));
         if (std::abs(one) > std::abs(height)) height = one;
@@ -55,11 +55,11 @@ bool flag_at(const EdgeFlags& flags, std::int32_t t, int e) {
     return flags[static_cast<std::size_t>(t)][static_cast<std::size_t>(e)];
 }
 
-// Adds the normals of the triangles around a corner, each by its angle there, from `start` across edge `e` on
-// until a feature edge or `start` again. Returns whether it came round.
+// Adds the normals of the triangles around a corner, each weighted by its angle there. It goes from `start`
+// across edge `e` until it meets a feature edge or `start` again. Returns whether it came back to `start`.
 bool go_round(const Surface& surface, const EdgeFlags& features, std::int32_t start, int corner, int e,
               Vec3& sum) {
-    constexpr int kMost = 1000;  // more are around a vertex only where a mesh is no surface
+    constexpr int kMost = 1000;  // more triangles meet at a vertex only where a mesh is no surface
     const TriangleMesh& mesh = surface.mesh();
     const std::int32_t vertex =
         mesh.triangles[static_cast<std::size_t>(start)][static_cast<std::size_t>(corner)];
@@ -104,7 +104,7 @@ EdgeFlags feature_edges(const Surface& surface, double edge_angle) {
     return features;
 }
 
-// For each triangle: whether it stands for a part of a twisted surface.
+// Says for each triangle whether it stands for a part of a twisted surface.
 std::vector<char> rippled_triangles(const Surface& surface) {
     std::vector<char> rippled(static_cast<std::size_t>(surface.size()), 0);
     for (std::int32_t t = 0; t < surface.size(); ++t)

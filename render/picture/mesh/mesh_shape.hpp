@@ -1,5 +1,5 @@
-// What is drawn of a mesh, which is found once: its vertices, normals at corners and edges (mesh_shape.cpp),
-// and which of its sides are solid and which are glass (mesh_sides.cpp).
+// The shape of a mesh as it is drawn, found once for each mesh: its vertices, normals at corners and edges
+// (mesh_shape.cpp), and which of its sides are solid and which are glass (mesh_sides.cpp).
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 namespace grainreel {
 
 // A vessel shows its inner side solid and is glass from outside. An insert is solid from both sides.
-// automatic: decides by how much of the surface encloses something.
+// automatic: the share of the surface that encloses something decides.
 enum class MeshLook { automatic, vessel, solid, glass };
 
 struct MeshShape {
     struct Edge {
         std::int32_t from, to;                   // vertices
         std::int32_t left, right;                // triangles; right is -1 at an open edge
-        std::uint8_t left_corner, right_corner;  // of each, the corner that is not on the edge
+        std::uint8_t left_corner, right_corner;  // for each triangle, its corner that is not on the edge
         bool feature;  // drawn wherever it is seen; other edges only as part of an outline
         bool rippled;  // its triangle stands for a part of a twisted surface
     };
@@ -33,24 +33,24 @@ struct MeshShape {
 
     std::vector<Vec3> vertices;  // m, at rest
     std::vector<TriangleMesh::Triangle> triangles;
-    std::vector<Vec3> normals;                            // unit, a triangle
-    std::vector<std::array<Eigen::Vector3f, 3>> corners;  // unit normals, smooth but across feature edges
+    std::vector<Vec3> normals;                            // unit, one for each triangle
+    std::vector<std::array<Eigen::Vector3f, 3>> corners;  // unit normals, smooth except across feature edges
     std::vector<Edge> edges;
-    std::vector<Sides> sides;  // a triangle
+    std::vector<Sides> sides;  // one for each triangle
 };
 
 // edge_angle: rad; edges whose faces turn more are feature edges.
 std::shared_ptr<const MeshShape> mesh_shape(const Surface& surface, double edge_angle, MeshLook look);
 
-// Numbers the patches of triangles that hang together without a feature edge between them: the number of each
-// triangle's patch, from 0 on.
+// Numbers the patches of triangles that are connected without a feature edge between them. Returns the number
+// of each triangle's patch, from 0 on.
 std::vector<std::int32_t> smooth_patches(const Surface& surface, double edge_angle);
 
 // rad: the angle between the planes of a triangle and its neighbour across an edge.
 double turn_of(const Surface& surface, std::int32_t triangle, const Neighbour& neighbour);
 
 // The sides of each triangle: which of them look into something that the mesh encloses, and which look out. A
-// few rays from each patch tell how much of what a side sees is surface again.
+// few rays from each patch tell which share of a side's view is surface of the mesh.
 std::vector<MeshShape::Sides> find_sides(const Surface& surface, double edge_angle, MeshLook look);
 
 }  // namespace grainreel

@@ -15,8 +15,8 @@
 namespace grainreel {
 namespace {
 
-constexpr int kRays = 12;              // to each side of a place
-constexpr std::size_t kPlaces = 4000;  // that are asked, at most
+constexpr int kRays = 12;              // rays to each side of a place
+constexpr std::size_t kPlaces = 4000;  // places that rays start from, at most
 constexpr std::size_t kPlacesOfPatch = 8;
 
 // A side looks into a room when at least this share of what it sees is surface. The second share is for
@@ -25,10 +25,10 @@ constexpr double kEnclosed = 0.5, kSurelyEnclosed = 0.6;
 // How much more one side of an open sheet must see than the other.
 constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
 constexpr double kHoldsRoom = 0.5,
-                 kInRoom = 0.9;       // of a closed part: the room is within it, or all around it
-constexpr double kShellShare = 0.15;  // of the area of walls with a thickness, that looks into the room
+                 kInRoom = 0.9;       // shares of a closed part: the room is within it, or around it
+constexpr double kShellShare = 0.15;  // share of the area of thick walls that looks into the room
 
-// Directions around z, spread as a matt surface takes its light.
+// Directions around z, weighted by the cosine, as a matt surface takes its light.
 std::array<Vec3, kRays> make_directions() {
     std::array<Vec3, kRays> directions;
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -40,12 +40,12 @@ std::array<Vec3, kRays> make_directions() {
     return directions;
 }
 
-// What was seen from the places asked, of one patch or of a part that hangs together.
+// What the rays from one patch, or from one connected part, have seen.
 struct Seen {
-    double area = 0;                       // m2, of all
-    double weight = 0;                     // of the places asked
-    double front = 0, back = 0;            // times the share that is surface
-    double room_front = 0, room_back = 0;  // weights of the places beside which the vessel's room is
+    double area = 0;                       // m2, of all triangles
+    double weight = 0;                     // sum of the weights of the places
+    double front = 0, back = 0;            // sums of weight times the share that is surface
+    double room_front = 0, room_back = 0;  // weights of the places that the vessel's room lies beside
     double front_share() const { return weight > 0 ? front / weight : 0; }
     double back_share() const { return weight > 0 ? back / weight : 0; }
     void add(const Seen& other) {
@@ -91,7 +91,7 @@ class SideFinder {
   private:
     using Face = MeshShape::Face;
 
-    // Finds the parts that hang together, and the triangles of each patch.
+    // Finds the connected parts, and the triangles of each patch.
     void find_parts() {
         const std::vector<std::int32_t> part = smooth_patches(surface_, std::numbers::pi);
         const auto count = [](const std::vector<std::int32_t>& numbers) {
@@ -167,7 +167,8 @@ class SideFinder {
         seen.room_back += room_->holds(middle(t) - small_ * normal) ? weight : 0;
     }
 
-    // From the side of a closed part that can be seen, a ray crosses surfaces an even number of times.
+    // Finds on which side of a closed part its material is: a ray from the side that can be seen crosses
+    // surfaces an even number of times.
     void look_for_material(std::size_t part, std::int32_t t) {
         const Vec3 normal = surface_.normal(t);
         std::vector<Surface::Hit> hits;
@@ -187,9 +188,9 @@ class SideFinder {
         return visible_share(patch_seen_[patch], part_of_patch_[patch]) >= kEnclosed;
     }
 
-    // Settles a closed part of a vessel that has the room on one of its sides. It is a sheet around the room,
-    // whatever its bars and dents see of each other from outside, or a body in the room. Returns whether the
-    // part is one of these.
+    // Settles a closed part of a vessel that has the room on one of its sides. Such a part is a sheet around
+    // the room, even if bars and dents on its outer side see each other, or a body in the room. Returns
+    // whether the part is one of these.
     bool settle_beside_room(std::size_t part) {
         const Seen& seen = part_seen_[part];
         const bool in_front = seen.room_front > seen.room_back;
@@ -239,7 +240,7 @@ class SideFinder {
         });
     }
 
-    // Whether, from most places of the patch, a straight way through the wall comes out in the room.
+    // Whether straight ways through the wall come out in the room from most places of the patch.
     bool is_backed(std::size_t patch) const {
         const std::vector<std::int32_t>& all = members_[patch];
         const std::size_t places = std::min(all.size(), kPlacesOfPatch);
@@ -266,13 +267,14 @@ class SideFinder {
     const double small_;  // m, off the surface
     const std::vector<std::int32_t> patch_;
     std::vector<MeshShape::Sides> sides_;
-    std::vector<std::vector<std::int32_t>> members_;  // a patch: its triangles
-    std::vector<std::vector<std::size_t>> patches_;   // a part: its patches
+    std::vector<std::vector<std::int32_t>> members_;  // the triangles of each patch
+    std::vector<std::vector<std::size_t>> patches_;   // the patches of each part
     std::vector<std::size_t> part_of_patch_;
     std::vector<Seen> patch_seen_, part_seen_;
     std::vector<char> part_closed_, visible_front_;
-    std::vector<int> around_front_, around_back_;  // of a part: how many closed parts are around each side
-    std::optional<EnclosedRoom> room_;             // of a vessel with closed parts
+    std::vector<int> around_front_,
+        around_back_;                   // for each part: how many closed parts are around each side
+    std::optional<EnclosedRoom> room_;  // room of a vessel with closed parts
 };
 
 }  // namespace

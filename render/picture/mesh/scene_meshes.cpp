@@ -135,8 +135,8 @@ std::vector<Vec3> mesh_reach(const FilmedScene& scene) {
 
 namespace {
 
-constexpr double kPatches = 6000;        // of one mesh, about
-constexpr double kVesselOpacity = 0.12;  // of each wall that light passes
+constexpr double kPatches = 6000;        // patches of one mesh, about
+constexpr double kVesselOpacity = 0.12;  // share of the light that each wall takes
 constexpr int kMostAlong = 64;           // patches along the side of one triangle
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The meshes of a scene: ready to be drawn where a frame has them, with their looks, paints and colours; how
-// far they reach in the course of a run; and what they take of the light that falls on the ground.
+// The meshes of a scene, ready to be drawn where a frame has them, with their looks, paints and colours. Also
+// here: how far they reach in the course of a run, and how much light they take from the ground.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@
 
 namespace grainreel {
 
-// How a mesh looks: as film.walls says; otherwise as a vessel where grains are in it, or else by its shape.
+// How a mesh looks. film.walls decides; without it a mesh with grains in it is a vessel, and the shape
+// decides for all others.
 MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh);
 
 class SceneMeshes {
@@ -34,9 +35,9 @@ class SceneMeshes {
 
   private:
     std::vector<DrawnMesh> drawn_;
-    std::optional<ColourScale> scale_;  // where they have colours
+    std::optional<ColourScale> scale_;  // set where meshes have colours
     bool by_pressure_ = false;
-    std::vector<std::size_t> mesh_;  // of the scene
+    std::vector<std::size_t> mesh_;  // numbers of the scene's meshes
     std::vector<std::vector<std::array<float, 3>>> colours_;
     ClippedCount clipped_;
     std::vector<std::size_t> body_;  // numbers

@@ -1,5 +1,5 @@
-// Clips triangles and lines and sets them up in pixels. Hot code: edges must be the same, to the bit, for
-// both triangles at them.
+// Clips triangles and lines and sets them up in pixels. Hot code: an edge must be the same, to the bit, in
+// both triangles that share it.
 #include "render/picture/mesh/screen_setup.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-constexpr float kOwnsItsEdge = -1e-37f;  // as `least`: points on the edge are inside
+constexpr float kOwnsItsEdge = -1e-37f;  // value of `least` with which points on the edge are inside
 
 // Edges are written with the lower end first, so that both triangles at an edge get the same numbers.
 bool lower(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {

@@ -18,7 +18,7 @@ struct LitCorner {
 };
 
 // The part of space that is drawn: what lies in all these half-spaces x . p >= d. In perspective the first
-// keeps what is before the eye; the others are those of a cut.
+// half-space keeps what is before the eye; the others belong to a cut.
 struct DrawnSpace {
     struct Half {
         Eigen::Vector3f normal;
@@ -40,9 +40,9 @@ struct Piece {
     std::array<LitCorner, 8> corner;
     int count = 0;
 };
-// Keeps what lies in one half-space. section: if not null, gets the two points where the border of the
-// half-space is crossed; returns whether there are two. A point on an edge is the same, to the bit, for both
-// its triangles.
+// Keeps what lies in one half-space. section: if not null, gets the two points where the piece crosses the
+// border of the half-space. Returns whether there are two such points. A point on an edge is the same, to the
+// bit, for both its triangles.
 bool clip(const DrawnSpace::Half& half, Piece& piece, std::array<Eigen::Vector3f, 2>* section);
 
 struct PortSize {
@@ -62,7 +62,7 @@ struct ScreenLine {
     Eigen::Vector3f view_from, view_to;  // m
     float half_width;                    // pixels
     float strength;                      // 0 to 1
-    bool glass;                          // of glass alone
+    bool glass;                          // edge of glass alone
 };
 // Cuts a line off at the borders of the space, except for the border in_border that it lies in (-1: none).
 // Returns false where nothing is left.

@@ -14,8 +14,8 @@ namespace grainreel {
 namespace {
 
 constexpr int page_width = 1920, gap = 16;  // pixels
-// So many tiles are kept for each one shown. Their times on the page are then even to an eighth of their
-// distance.
+// Number of tiles kept for each tile shown. Times on the page are then evenly spaced to within an eighth of
+// their distance.
 constexpr std::size_t kept_for_one = 8;
 
 using Canvas = std::shared_ptr<cairo_surface_t>;
@@ -118,7 +118,7 @@ std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const 
     for (std::size_t i = 0; i < wanted; ++i) {
         const double share = wanted == 1 ? 1 : static_cast<double>(i) / static_cast<double>(wanted - 1);
         const double time = first + share * (end - first);
-        const std::size_t most = tiles.size() - (wanted - i);  // as many are still to come
+        const std::size_t most = tiles.size() - (wanted - i);  // this many tiles are still to come
         while (next < most && std::abs(tiles[next + 1].time - time) <= std::abs(tiles[next].time - time))
             ++next;
         result.push_back(tiles[next++]);
@@ -132,8 +132,8 @@ Picture ContactSheet::draw(const Picture& last) const {
     set_colour(on.get(), background_);
     cairo_paint(on.get());
     const std::vector<Tile> tiles = chosen(last);
-    // So many decimals that the times of neighbours differ, by two figures where they lie at the mean
-    // distance.
+    // There are enough decimals for the times of neighbours to differ; at the mean distance they differ in
+    // two figures.
     double between = tiles.size() > 1
                          ? (tiles.back().time - tiles.front().time) / static_cast<double>(tiles.size() - 1)
                          : 1;

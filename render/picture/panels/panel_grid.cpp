@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_unlike = 3;  // scales of the panels, beyond which each has its own
+constexpr double most_unlike = 3;  // ratio of the panels' scales beyond which each has its own
 
 // The plots of one panel: in rows under its port, or in a column beside it where panels are wide.
 enum class PlotsAt { none, below, beside };
@@ -34,7 +34,8 @@ double least_wide(double minor) {
 
 // There are no plots where they would be too small or leave too little room for the grains.
 PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width, int height, PlotsAt at) {
-    constexpr double usual_height = 0.2, usual_width = 0.3, most = 0.45;  // of a panel: one plot, all of them
+    constexpr double usual_height = 0.2, usual_width = 0.3,
+                     most = 0.45;  // shares of a panel: of one plot, of all plots
     std::size_t most_plots = 0;
     for (const Panel& panel : panels) most_plots = std::max(most_plots, panel.scene.film.shows.plots.size());
     const auto count = static_cast<int>(most_plots);
@@ -43,8 +44,8 @@ PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width
     PlotGrid grid{at, 1, count, 0, 0};
     if (at == PlotsAt::beside) {
         grid.width = static_cast<int>(std::max(least_wide(minor), usual_width * width));
-        // Beside the port there is height to spare. So there the curves alone are as upright as a plot may
-        // be, and the words come on top.
+        // Beside the port there is height to spare. So the height of words does not count against
+        // most_upright there.
         grid.taller = static_cast<int>(words_high * minor);
         return grid.width <= most * width ? grid : PlotGrid();
     }
@@ -96,7 +97,7 @@ int around_port(const WordHeights& words, const PlotGrid& grid) {
     return static_cast<int>(height);
 }
 
-// A grid with so many columns.
+// A layout that has been tried.
 struct Planned {
     PanelLayout layout;
     PlotGrid plots;
@@ -121,7 +122,7 @@ Planned grid(const std::vector<Panel>& panels, const Film& film, const WordHeigh
         const FilmedScene& scene = panels[static_cast<std::size_t>(i)].scene;
         const int row = i / columns, in_row = std::min(columns, count - row * columns);
         PanelLayout::Place place;
-        // The last row may be shorter, and then stands in the middle.
+        // The last row may be shorter; then it stands in the middle.
         const int x = (film.width - in_row * width - (in_row - 1) * margin / 2) / 2 +
                       (i % columns) * (width + margin / 2);
         place.zoom = scene.film.camera.zoom;
@@ -140,7 +141,7 @@ double own_scale(const Panel& panel, const PanelLayout::Place& place) {
     return framed_scale(scene, bare_layout(scene.film));
 }
 
-// Gives all panels one scale where they can have one. Returns the scale, by which grids are compared.
+// Gives all panels one scale where they can have one. Returns the scale, since grids are compared by it.
 double set_scales(const std::vector<Panel>& panels, PanelLayout& layout) {
     if (layout.places.empty()) return 0;
     layout.scale = 0;
@@ -201,7 +202,7 @@ void close_up(const std::vector<Panel>& panels, const Film& film, const WordHeig
     set_scales(panels, layout);
 }
 
-// The columns, rows and place of plots with which the grains become as large as can be.
+// The columns, rows and place of plots that make the grains as large as possible.
 Planned best_grid(const std::vector<Panel>& panels, const Film& film, const WordHeights& words,
                   const std::vector<PlotsAt>& plots) {
     Planned best;
@@ -209,11 +210,12 @@ Planned best_grid(const std::vector<Panel>& panels, const Film& film, const Word
     for (int columns = static_cast<int>(panels.size()); columns >= 1; --columns)
         for (const PlotsAt at : plots) {
             Planned planned = grid(panels, film, words, columns, at);
-            // Gaps in the grid cost a little: four panels stand two by two unless a row makes them larger.
+            // Gaps in the grid lower its value a little: four panels stand two by two unless a row makes them
+            // larger.
             const auto count = static_cast<double>(panels.size());
             const double full = count / (columns * std::ceil(count / columns));
             const double value = set_scales(panels, planned.layout) * std::pow(full, 0.25);
-            if (value <= 1.02 * best_value) continue;  // of equal grids the one with fewer rows is kept
+            if (value <= 1.02 * best_value) continue;  // among equal grids the one with fewer rows is kept
             best_value = value;
             best = std::move(planned);
         }
@@ -223,7 +225,7 @@ Planned best_grid(const std::vector<Panel>& panels, const Film& film, const Word
 }  // namespace
 
 TypeScale panel_type(const Film& film) {
-    constexpr double tallest = 1.25;  // over its width
+    constexpr double tallest = 1.25;  // height over width
     Film less = film;
     less.height = std::min(film.height, static_cast<int>(tallest * film.width));
     return type_scale(less);

@@ -1,4 +1,4 @@
-// The words and plots around panels: blocks that hold for all panels, and those of single panels.
+// The words and plots around panels: blocks that hold for all panels, and blocks of single panels.
 #include "render/picture/panels/panel_words.hpp"
 
 #include <algorithm>
@@ -17,13 +17,13 @@ namespace {
 constexpr double longest_bar = 0.14, common_colour_bar = 0.2, common_marks = 0.17;
 constexpr int pace_lines = 4;
 
-// Writes of the drive only what holds for all panels; the rest is in their captions. frame: null to measure
-// the longest lines.
+// Writes what holds of the drive in all panels; the rest is in their captions. frame: null to measure the
+// longest lines.
 TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Common& common,
                       const Frame* frame, double x, double y) {
     if (!scene.film.word_kinds.drive) return {};
     Frame shown = frame ? *frame : Frame();
-    if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives that grow in times of their own
+    if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives may grow at different rates
     std::vector<std::string> lines = frame ? drive_lines(scene, shown) : longest_drive_lines(scene);
     const bool levels = scene.gravity.norm() > 0;
     const auto keep = [&](std::size_t from_end, bool wanted) {
@@ -50,8 +50,8 @@ WordBlock dial(const Writer& measure, const Drive& drive) {
             }};
 }
 
-// The marks that mean the same in all panels, and the others. scale: pixels a metre; 0 where panels have
-// scales of their own.
+// The kinds of marks that mean the same in all panels. scale: pixels a metre; 0 where panels have scales of
+// their own.
 MarkKinds common_marks_of(const Common& common, double scale) {
     MarkKinds kinds = common.marks;
     kinds.arrows = kinds.arrows && scale > 0;
@@ -75,7 +75,7 @@ WordBlock playback_block(const Writer& measure, const Film& film) {
         }};
 }
 
-// The captions that all scenes have, in a row of their own.
+// The captions that all scenes share, in a row of their own.
 WordBlock captions_block(const Writer& measure, const Film& film, double width) {
     constexpr int lines = 3;
     const double inner = width - 2 * measure.type.margin;
@@ -270,13 +270,14 @@ void draw_foot(const Writer& writer, const Panel& panel, const Common& common, d
 
 namespace {
 
-// The same text for plots whose values can be compared.
+// A text that is the same for plots whose values can be compared.
 std::string quantity_of(const FilmPlot& plot) {
     return plot.is_profile() ? std::to_string(static_cast<int>(plot.profile)) + (plot.period ? "p" : "")
                              : plot.column;
 }
 
-// SI: the largest value that any panel expects, so that all of them tell the quantity in one unit.
+// SI: the largest value that any panel expects. It decides the unit, so that all panels show the quantity in
+// one unit.
 double expected_of(const std::vector<Panel>& panels, const std::string& quantity) {
     double largest = 0;
     for (const Panel& panel : panels)

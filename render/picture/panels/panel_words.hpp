@@ -35,22 +35,22 @@ double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width)
 // The height of the live words under panels of this width; 0 for none.
 double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width);
 
-// The height of what is said of time over each panel; 0 where that is common.
+// The height of the caption of time over each panel; 0 where all panels share one.
 double pace_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
                    double width);
-// Writes what is said of time over one panel.
+// Writes the caption of time over one panel.
 TextSize pace_block(const Writer& writer, const std::string& words, double width);
-// Writes a panel's caption: a strong first line, and the others below it.
+// Writes a panel's caption: a bold first line, and the other lines below it.
 TextSize caption_block(const Writer& writer, const std::string& caption, double width);
 // Writes a text whose lines stand in the middle of the width.
 TextSize write_in_middle(const Writer& writer, const std::string& text, const TextStyle& style,
                          const Colour& colour, double width, int lines);
 
-// The height of legend, scale bar, colour bar and the meaning of marks where they belong to one panel alone.
-// scales: whether each panel has a scale bar.
+// The height of a panel's foot: legend, scale bar, colour bar and the meaning of marks, where these belong to
+// one panel alone. scales: whether each panel has a scale bar.
 double foot_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common, bool scales,
                    double width);
-// Writes these. scale: pixels a metre in the panel. bar: whether there is a scale bar.
+// Writes the foot. scale: pixels a metre in the panel. bar: whether there is a scale bar.
 void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, bool bar,
                double width);
 
@@ -67,7 +67,7 @@ class PanelPlots {
     struct Placed {
         std::unique_ptr<SidePlot> plot;
         std::string quantity;
-        Rectangle place;    // in the picture
+        Rectangle place;    // pixels of the whole picture
         std::size_t panel;  // number of the panel that it belongs to
     };
     std::vector<Placed>& all() { return plots_; }

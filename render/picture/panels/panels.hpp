@@ -11,9 +11,9 @@
 namespace grainreel {
 
 struct Panel {
-    FilmedScene scene;  // of its film only the camera and what it shows count
+    FilmedScene scene;  // only the camera and `shows` of its film count
     std::string caption;
-    std::vector<std::string> playback = {};  // what is said of time in each segment of the film
+    std::vector<std::string> playback = {};  // caption of time in each segment of the film
 };
 
 // The kinds of marks over the grains, which have to be explained.
@@ -21,26 +21,26 @@ struct MarkKinds {
     bool arrows = true, streamlines = true, wall_forces = true;
     bool trails = true, chains = true, rings = true;
 };
-// The scene with these kinds of marks alone.
+// A copy of the scene in which only these kinds of marks are shown.
 FilmedScene marked_by(FilmedScene scene, const MarkKinds& kinds);
 
 // What is the same in all panels and is therefore said once.
 struct Common {
-    bool clock = true;  // one frequency, phase and ramp, so that one dial shows all cycles
-    bool frequency = true, g_level = true, amplitude = true;  // all have drives that agree in this
+    bool clock = true;  // frequency, phase and ramp are equal, so that one dial shows all cycles
+    bool frequency = true, g_level = true, amplitude = true;  // all drives agree in this
     bool species = true;
     bool exaggerated = true;  // by one factor
     bool colours = true;      // one colour bar, or none
-    MarkKinds marks;          // kinds that mean the same everywhere; arrows also want one scale
+    MarkKinds marks;          // kinds that mean the same everywhere; arrows also need one scale
     bool playback = true;
-    bool captions = true;  // of time (film.caption), with at least one
+    bool captions = true;  // all have the same captions (film.caption), at least one
 };
 Common common_of(const std::vector<Panel>& panels);
 
-// The panels without captions of time that are common and so are not written in each panel.
+// The panels without their common captions (film.caption), which are not written in each panel.
 std::vector<Panel> without_common(std::vector<Panel> panels, const Common& common);
 
-// Words that tell the scenes apart. They are the shortest of these that differ: frequency, g level or
+// Words that tell the scenes apart. They are the shortest of the following that differ: frequency, g level or
 // amplitude of the drives; the titles, with the drives where these differ too; the names.
 std::vector<std::string> captions_of(const std::vector<FilmedScene>& scenes);
 
@@ -48,31 +48,31 @@ std::vector<std::string> captions_of(const std::vector<FilmedScene>& scenes);
 // means the same in all of them. It does nothing where a scene has a range of its own.
 void share_colours(std::vector<Panel>& panels);
 
-// Gives cameras that frame what the grains reach one height, the highest of all. Containers of the same size
-// are then drawn at the same size, with their floors at the same height except for their strokes.
+// Gives one height, the highest of all, to the cameras that frame what the grains reach. Containers of the
+// same size are then drawn at the same size, with their floors at the same height except for their strokes.
 void share_reach(std::vector<Panel>& panels);
 
 struct PanelLayout {
     struct Place {
-        Rectangle caption, pace, port, note;  // pace: what is said of time; note: live words
+        Rectangle caption, pace, port, note;  // pace: caption of time; note: live words
         std::vector<Rectangle> plots;
-        Rectangle foot;   // has no height when everything is said below the panels
+        Rectangle foot;   // has height 0 when everything is written below the panels
         double zoom = 1;  // of the panel's camera
         int row = 0;
     };
     std::vector<Place> places;  // in rows from the top; empty when the picture is too small for them
-    Rectangle top, bottom;      // title; clock, legend, scale
+    Rectangle top, bottom;      // top: title; bottom: clock, legend, scale
     double scale = 0;           // pixels a metre in the middle of every panel; 0: panels differ
-    bool plots_fit = true;      // whether plots have room; else they are left out
+    bool plots_fit = true;      // whether plots have room; without it they are left out
 };
 
 constexpr int least_panel = 64;  // pixels, width and height
 
-// Pixels: the heights of what is written at these places.
+// Pixels: the heights of the words at these places.
 struct WordHeights {
     double top = 0, bottom = 0, caption = 0, pace = 0, note = 0, foot = 0;
 };
-TypeScale panel_type(const Film& film);  // upright pictures have smaller words than those of one scene
+TypeScale panel_type(const Film& film);  // in upright pictures words are smaller than with one scene
 // Chooses columns and rows so that the grains become as large as can be. Where a container would be too small
 // to see at the scale of the others, each has a scale of its own. Plots stand under the ports or beside them
 // if they leave room for the grains.

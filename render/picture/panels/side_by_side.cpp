@@ -1,5 +1,5 @@
-// Draws panels side by side: the layout of panels and words, which depend on each other, and what changes
-// with each frame.
+// Draws panels side by side: finds the layout of panels and words, which depend on each other, and draws what
+// changes with each frame.
 #include "render/picture/panels/side_by_side.hpp"
 
 #include <fmt/format.h>
@@ -91,7 +91,7 @@ PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film) {
 struct SideBySide::Impl {
     Impl(const std::vector<Panel>& panels, const Film& film, int raster_threads, gl::Provider provider);
 
-    // Draws a part of the picture anew: it is blank except for what write(Writer) puts there.
+    // Draws a part of the picture anew: it is made blank, and then write(Writer) fills it.
     template <class Write>
     void renew(const Rectangle& part, const Write& write);
     void write_still_words(const std::vector<Panel>& panels, const Film& film);
@@ -101,7 +101,7 @@ struct SideBySide::Impl {
     void write_pace(std::size_t panel, const std::string& words);
     void draw_plots(const std::vector<FramePtr>& frames);
 
-    const bool clear;  // no background
+    const bool clear;  // whether the background is transparent
     Palette palette;
     TypeScale type;
     Common common;
@@ -110,8 +110,8 @@ struct SideBySide::Impl {
     std::vector<WordBlock> blocks;
     PanelPlots plots;
     std::vector<FilmedScene> scenes;                 // of the panels
-    std::vector<std::vector<std::string>> playback;  // of each panel in each segment
-    std::vector<std::string> notes, paces;           // that are in the picture now
+    std::vector<std::vector<std::string>> playback;  // captions of time of each panel in each segment
+    std::vector<std::string> notes, paces;           // words that are in the picture now
     bool plots_drawn = false;
     Picture picture;
 };

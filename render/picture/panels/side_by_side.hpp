@@ -27,7 +27,7 @@ class SideBySide {
     ~SideBySide();
 
     // frames: one for each panel, in their order. clock: which of them the clock shows. segment: number of
-    // the film's segment, which decides what the panels say of time. film_time: s since the film's first
+    // the film's segment, which decides the panels' captions of time. film_time: s since the film's first
     // frame, for cameras that move.
     const Picture& draw(const std::vector<FramePtr>& frames, std::size_t segment = 0, std::size_t clock = 0,
                         double film_time = 0);
