@@ -11,7 +11,7 @@ struct ContactView {
     std::int32_t first;      // index of a grain
     std::int32_t second;     // index of a grain, or -1 - face; meshes are numbered behind the faces
     std::int32_t glued;      // which glued grain of that face; -1 for the face itself and for a grain
-    std::int32_t triangle;   // of a mesh: where it is touched; else -1
+    std::int32_t triangle;   // triangle of a mesh that is touched; -1 for all other bodies
     Vec3 normal;             // unit, from first to second
     double overlap;          // m
     double smaller_radius;   // m
@@ -19,9 +19,10 @@ struct ContactView {
     Vec3 tangential;         // N, on second
     Vec3 torque_on_first;    // N m
     Vec3 torque_on_second;   // N m; unset for a wall
-    double stored_energy;    // J, that unloading would give back
+    double stored_energy;    // J, energy that unloading would give back
     double sideways_energy;  // J, the part of it in tangential and rolling springs
-    double latched_energy;   // J, that latching has taken since the bodies met, if they were unloaded now
+    double latched_energy;   // J, energy that latching would have taken since the bodies met, if they were
+                             // unloaded now
     double damping_power;    // W, into the normal dashpot
     double rubbing_power;    // W, that slip and rolling put into springs, friction, tangential dashpots
     Vec3 point;              // m

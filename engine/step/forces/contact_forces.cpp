@@ -33,8 +33,9 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
 
 }  // namespace
 
-// Contacts go through geometry, law and loads a chunk at a time, so that a chunk stays in the cache. Those at
-// walls come before those of pairs, and of one law those that began since the last refresh come first.
+// Contacts go through geometry, law and loads a chunk at a time, so that a chunk stays in the cache. Contacts
+// at walls come before contacts of pairs. Within a law, the contacts that began since the last refresh come
+// first.
 void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
                         Vanguard& vanguard, CostClock& clock) {
     for (std::size_t g = contacts.tables.size(); g-- > 0;) {
@@ -53,9 +54,9 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
             const LawInput law = law_input(in, group, chunk, rounded, memory);
             table.note_touching(c, memory.touch.touching);
             // From here to the formula: step_chunk() loads a register of contacts and ContactLaw::force()
-            // joins the two laws (both in engine/laws/contact_law-inl.hpp). Their force() is the formula:
-            // SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force() (linear_spring-inl.hpp)
-            // and so on.
+            // joins the two laws (both in engine/laws/contact_law-inl.hpp). The force() of a law is the
+            // formula: SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force()
+            // (linear_spring-inl.hpp) and so on.
             const auto step = are_of_one_kind(group, law) ? group.law->step_one_kind : group.law->step;
             void* history = table.histories().of_block(c);
             step(law, history, memory.force);
@@ -80,8 +81,8 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
 
 namespace {
 
-// Keeps the fault of the earliest step, and in it that of the lowest id. Those of this step have no number
-// yet.
+// Keeps the fault of the earliest step, and within a step the fault of the grain with the lowest id. Faults
+// of this step have no step number yet.
 void note(const MeshFault& fault, std::optional<MeshFault>& first) {
     if (!first || (first->step < 0 && fault.grain < first->grain)) first = fault;
 }
@@ -117,7 +118,8 @@ void find_patches(const ForceInput& in, std::size_t g, ThreadContacts& contacts,
     for (MeshTouch& touch : lists.touch) touch.distance = MeshTouch::kApart;
     lists.touch.resize(MeshLists::places_for(table.size()));
     for (MeshNear& near : lists.near) {
-        // Rising numbers: patches come by rising triangle, and new ones take the lowest that is free.
+        // The numbers of new patches rise: patches come by rising triangle, and each new one takes the lowest
+        // free number.
         for (const MatchedPatch& patch : matcher.match(in, in.meshes, group, near, lists, table)) {
             std::int32_t c = near.contact[patch.number];
             if (c == MeshNear::kNone) {
@@ -155,7 +157,7 @@ void admit_all(const ForceInput& in, std::size_t g, ThreadContacts& contacts, st
     }
 }
 
-// Lists the candidates of one stretch that are closer than `gap` (m).
+// Lists those candidates of one stretch that are closer than `gap` (m).
 void list_soon(const ForceInput& in, const ContactTable& table, const FoundPairs& candidates, SoonList& soon,
                double gap) {
     soon.begin(in.times.moved, gap);
@@ -185,8 +187,8 @@ void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts, c
     }
 }
 
-// For pairs of a small bed. A large bed looks at all candidates: this brings their places to the cache, and
-// contacts need them soon after. (With lists, contacts took 1.15 times as long there.)
+// This serves the pairs of a small bed. A large bed looks at all candidates, which brings their places to the
+// cache, where contacts need them soon after. (With lists, contacts took 1.15 times as long there.)
 //
 // kShare is a compromise. A small gap holds few pairs; a large gap makes a list last longer.
 void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts) {
@@ -213,7 +215,7 @@ void add_new_contacts(const ForceInput& in, std::size_t g, ThreadContacts& conta
 
 namespace {
 
-// The wall that a second body is or belongs to.
+// Number of the wall that a second body is, or belongs to.
 std::int32_t wall_of(const ForceInput& in, const ContactGroup& group, std::int32_t second) {
     if (group.of_mesh) return static_cast<std::int32_t>(in.walls.faces.size()) + mesh_of(second);
     return group.of_glued ? in.glued.face[second] : second;
@@ -246,7 +248,7 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     v.latched_energy = energy.latched[at];
     v.damping_power = energy.damping[at];
     v.rubbing_power = energy.rubbing[at];
-    // On a mesh it is the point of the surface, elsewhere the middle of the overlap.
+    // On a mesh the contact point is the point of the surface, elsewhere the middle of the overlap.
     v.point = one.position + v.normal * (one.radius - (group.of_mesh ? 1.0 : 0.5) * v.overlap);
     return v;
 }
@@ -282,7 +284,8 @@ void see_alone(const ForceInput& in, const ContactGroup& group, std::int32_t one
               first_own, memory, see);
 }
 
-// Positions may have moved on since the forces. So some candidates may touch that have no contact yet.
+// Grains may have moved since the forces were computed, so some candidates may touch that are no contacts
+// yet.
 template <class See>
 void see_candidates(const ForceInput& in, std::size_t g, const ThreadContacts& contacts, ChunkMemory& memory,
                     const See& see) {
@@ -298,7 +301,7 @@ void see_candidates(const ForceInput& in, std::size_t g, const ThreadContacts& c
     }
 }
 
-// Where the contacts with meshes touch now. Shows what touches without a contact.
+// Finds where the contacts with meshes touch now. Shows the patches that are touched but have no contact yet.
 template <class See>
 std::vector<MeshTouch> see_new_patches(const ForceInput& in, std::size_t g, const ThreadContacts& contacts,
                                        ChunkMemory& memory, const See& see) {

@@ -28,9 +28,9 @@ namespace grainreel {
 // the step").
 struct Vanguard {
     std::int32_t next = 0,
-                 end = 0;  // the grains [next, end) may begin their next step; none of an empty range
+                 end = 0;  // the grains [next, end) may begin their next step; the range may be empty
     KickInput kicks;
-    Vec3 fastest{0, 0, 0};  // m/s, largest components of the velocities of those that have begun it
+    Vec3 fastest{0, 0, 0};  // m/s, largest velocity components of the grains that have begun it
 };
 
 // Lets the grains below `complete` begin their next step. Up to kTogether - 1 of them stay back, so that
@@ -43,25 +43,25 @@ inline void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
     vanguard.next = end;
 }
 
-// Adds the forces of walls, then those of pairs, to the loads of the thread's own grains, and the work of
-// moving walls to their accounts. `grains` are those of `in`. Grains of `vanguard` begin their next step as
-// soon as their loads are complete.
+// Adds the forces of walls, then the forces of pairs, to the loads of the thread's own grains. Adds the work
+// of moving walls to the grains' accounts. `grains` are those of `in`. Grains of `vanguard` begin their next
+// step as soon as their loads are complete.
 void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
                         Vanguard& vanguard, CostClock& clock);
 
-// For contacts with meshes it takes the place of add_new_contacts() for a group of meshes: finds the patches
-// that grains touch, begins their contacts at the end of the table, and sets MeshLists::touch. Notes the
-// first fault.
+// This takes the place of add_new_contacts() for a group of contacts with meshes. It finds the patches that
+// grains touch, begins their contacts at the end of the table, and sets MeshLists::touch. It notes the first
+// fault.
 void find_patches(const ForceInput& in, std::size_t group, ThreadContacts& contacts, PatchMatcher& matcher);
 
-// After the law of a chunk that begins at contact c: its contacts remember their patches.
+// Stores the patches in the histories of the chunk that begins at contact c. Call it after the chunk's law.
 void remember_patches(const ContactGroup& group, const MeshTouch* touch, const ChunkMemory& memory,
                       std::int32_t c, int count, Histories& histories);
 
-// Once a step: candidates of a group that touch become contacts, at the end of its table.
+// Makes contacts of the candidates of a group that touch, at the end of its table. Call it once a step.
 void add_new_contacts(const ForceInput& in, std::size_t group, ThreadContacts& contacts);
 
-// One bit for each of `count` candidates, at most kChunk: whether its bodies touch.
+// Returns one bit for each of `count` candidates (at most kChunk), which says whether its bodies touch.
 inline std::uint64_t which_touch(const ForceInput& in, const ContactGroup& group, const Halo::Bodies& bodies,
                                  int count) {
     const auto touching = [&] {
@@ -75,9 +75,9 @@ inline std::uint64_t which_touch(const ForceInput& in, const ContactGroup& group
     return touching() & bits_of_first(count);
 }
 
-// Shows observers every touching contact of a group under an own grain of the thread. Late contacts began
-// since the last refresh; the others come by rising first and second body. Which contacts are late does not
-// depend on the threads.
+// Shows observers every touching contact of a group whose first body is one of the thread's own grains.
+// Contacts that began since the last refresh go to `late`. The others go to `in_order`, by rising first and
+// second body. Which contacts are late does not depend on the threads.
 void view_contacts(const ForceInput& in, std::size_t group, const ThreadContacts& contacts,
                    const std::function<void(const ContactView&)>& in_order,
                    const std::function<void(const ContactView&)>& late);

@@ -72,7 +72,7 @@ int count_of(const std::vector<Patch>& patches) {
     return static_cast<int>(std::min<std::size_t>(patches.size(), kMostPatches));
 }
 
-// at: m, in the body's frame; normals: in that of the scene.
+// `at` is in m, in the body's frame; the normals are in the frame of the scene.
 void set_touch(const WallPose& pose, std::int32_t triangle, double distance, const Vec3& at,
                const Vec3& normal, const Vec3& before, MeshTouch& touch) {
     touch.normal = normal;
@@ -142,8 +142,8 @@ const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
     return matched_;
 }
 
-// The case of most grains at rest on a mesh: one plane within reach, and one contact, which goes on. It
-// answers what the general way would, and says whether it could.
+// Handles the case of most grains at rest on a mesh: one plane is within reach, and the only contact goes on.
+// The result is the same as in the general way. Returns false in all other cases.
 bool PatchMatcher::find_lone(const ContactGroup& group, const MeshNear& near, const MeshLists& lists,
                              const ContactTable& table, const Asked& asked) {
     if (!(asked.gone < near.stays)) return false;
@@ -183,7 +183,7 @@ void PatchMatcher::find_before(const ContactGroup& group, const MeshNear& near, 
     }
 }
 
-// The patch that a contact goes on with; -1 for none.
+// Number of the patch that a contact goes on with, or -1.
 int PatchMatcher::patch_of(const Before& before) const {
     const int holder = patches_.holder_of(before.triangle);
     if (holder >= 0 && normals_[holder].dot(before.normal) > kSameNormal) return holder;
@@ -205,8 +205,9 @@ void PatchMatcher::find_owners() {
     }
 }
 
-// A centre has come through the surface if it now sees it on the other side, and nearer than it can have come
-// in any other way. Such a grain ends the run. While grains settle or grow, it is pushed back, as by a plane.
+// A centre has come through the surface if it now lies on the other side, and nearer to the surface than it
+// can have come in any other way. Such a grain ends the run. While grains settle or grow, it is pushed back,
+// as by a plane.
 void PatchMatcher::look_for_crossings(const ForceInput& in, const MeshNear& near, const WallPose& pose) {
     using Kind = MeshFault::Kind;
     constexpr double kOpposite = -0.5, kDeep = 0.5;  // cosine; of the radius

@@ -20,14 +20,15 @@
 
 namespace grainreel {
 
-// Times of the forces of one step. All zero: the forces as they stand, for observers.
+// Times that belong to the forces of one step. For observers all are zero: the forces as they stand.
 struct ForceTimes {
-    double since = 0;    // s, time since the last forces
-    double ahead = 0;    // steps, from the time of the known velocity to the time of these forces
-    double acts = 0;     // s, how long these forces will act
-    double turns = 0;    // s: `since`, or 0 where positions and velocities belong to one time
-    double moved = 0;    // m; no grain has moved farther since the last refresh
-    bool drags = false;  // grains settle or grow: those whose centres come through a mesh are pushed back
+    double since = 0;  // s, time since the last forces
+    double ahead = 0;  // steps, from the time of the known velocity to the time of these forces
+    double acts = 0;   // s, how long these forces will act
+    double turns = 0;  // s: `since`, or 0 where positions and velocities belong to one time
+    double moved = 0;  // m; no grain has moved farther since the last refresh
+    bool drags =
+        false;  // true while grains settle or grow: a grain whose centre comes through a mesh is pushed back
 };
 
 struct ForceInput {
@@ -41,26 +42,26 @@ struct ForceInput {
 
 // Which patch of a mesh goes on with which contact of the step before.
 //
-// A contact goes on with the patch that has its triangle, unless the normal has jumped; else with the patch
-// whose normal is nearest to its own. Where two contacts would go on with one patch, the one with the larger
-// force does. What is left over are new contacts; each takes the lowest number that is free. All this depends
-// on the grain alone, and not on threads, nor on the order of the table.
+// A contact goes on with the patch that has its triangle. If the normal has jumped, it goes on with the patch
+// whose normal is nearest to its own. Where two contacts would go on with one patch, the contact with the
+// larger force does. The patches that are left over become new contacts, and each takes the lowest free
+// number. The result depends on the grain alone, not on the threads or on the order of the table.
 
 // A patch that a grain touches now.
 struct MatchedPatch {
-    std::int32_t number;  // of the grain's patches of this mesh, below kMostPatches
-    bool goes_on;         // with the contact of this number
+    std::int32_t number;  // number among the grain's patches of this mesh, below kMostPatches
+    bool goes_on;         // whether the contact of this number goes on with it
     MeshTouch touch;
 };
 
 class PatchMatcher {
   public:
-    // Finds all patches that a grain touches, and their contacts. Mostly it is none, or one face of one
-    // triangle, whose contact goes on: these cost little. Valid until the next call.
+    // Finds all patches that a grain touches, and their contacts. Most grains touch none, or one face of one
+    // triangle, whose contact goes on; these cases cost little. The result is valid until the next call.
     const std::vector<MatchedPatch>& match(const ForceInput& in, const std::vector<MeshWall>& meshes,
                                            const ContactGroup& group, const MeshNear& near,
                                            const MeshLists& lists, const ContactTable& table);
-    // What is wrong with the grain that was asked for last, if anything is.
+    // The fault of the grain that match() was last called for, if it has one.
     const std::optional<MeshFault>& fault() const { return fault_; }
 
   private:
@@ -74,8 +75,9 @@ class PatchMatcher {
     struct Asked {
         const Surface& surface;
         const WallPose& pose;
-        Vec3 centre;                 // m
-        double radius, gone, reach;  // m; gone: since the refresh; reach: of triangles as they were then
+        Vec3 centre;  // m
+        double radius, gone,
+            reach;  // m; gone: way since the refresh; reach: for triangles as they were listed then
     };
     bool find_lone(const ContactGroup& group, const MeshNear& near, const MeshLists& lists,
                    const ContactTable& table, const Asked& asked);
@@ -89,17 +91,18 @@ class PatchMatcher {
     std::vector<Vec3> normals_;      // of the patches, in the frame of the scene
     std::vector<double> distances_;  // of the patches, m; negative for a centre that is to be pushed back
     std::vector<Before> before_;
-    std::array<int, kMostPatches> owner_{};  // of each patch: which of before_; -1 for none
+    std::array<int, kMostPatches> owner_{};  // for each patch, the place of its contact in before_, or -1
     std::vector<MatchedPatch> matched_;
     std::optional<MeshFault> fault_;
 };
 
 // Some contacts, at most kChunk, that stand side by side in arrays.
 struct Chunk {
-    const std::int32_t *first, *second;        // the two bodies; at a wall: grain and face
-    const std::int32_t *first_at, *second_at;  // where to read them; of other threads' grains: the copies
+    const std::int32_t *first, *second;  // the two bodies; at a wall: grain and face
+    const std::int32_t *first_at,
+        *second_at;  // where to read the bodies; for other threads' grains the copies
     int count;
-    const MeshTouch* mesh = nullptr;  // of contacts with meshes: where they touch
+    const MeshTouch* mesh = nullptr;  // where the contacts touch; for contacts with meshes only
 };
 
 // Memory for a chunk on its way through geometry, law and loads.
@@ -107,8 +110,8 @@ struct ChunkMemory {
     TouchChunk touch;
     ForceChunk force;
     RollingChunk rolling;
-    std::int32_t kind[kChunk] = {};  // of the chunk's contacts, where there are several
-    std::int32_t face[kChunk] = {};  // of glued grains: on which they stand
+    std::int32_t kind[kChunk] = {};  // kinds of the chunk's contacts, where the group has several kinds
+    std::int32_t face[kChunk] = {};  // faces on which the glued grains stand
     Ahead ahead;
     PatchMatcher matcher;
 };

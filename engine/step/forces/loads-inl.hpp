@@ -1,4 +1,4 @@
-// From registers of forces to the loads of grains, one after the other.
+// Takes registers of forces apart, to add them to the loads of grains one after the other.
 #if defined(GRAINREEL_STEP_LOADS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_LOADS_INL
 #undef GRAINREEL_STEP_LOADS_INL
@@ -19,9 +19,9 @@ HWY_INLINE double* numbers(Load& one) {
     return reinterpret_cast<double*>(&one);
 }
 
-// Force and torque on one body of each contact, contact by contact. Without friction it is the force alone.
-// They stay in registers. Storing them in one shape and loading them in another would make the processor
-// wait.
+// Force and torque on one body of each contact, contact by contact. Without friction there is the force
+// alone. Both stay in registers. Storing them in one shape and loading them in another would make the
+// processor wait.
 template <bool rubs>
 HWY_INLINE auto by_contact(const Triple<Lanes>& force, const Triple<Lanes>& torque) {
     const auto four = [](const Triple<Lanes>& t) HWY_ATTR {

@@ -11,8 +11,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Forces and torques of L::count contacts. The second body gains `force`, and the first body loses it. In the
-// same way the first body loses the torque `first_loses`, and the second gains `second_gains`.
+// Forces and torques of L::count contacts. The second body gains `force`, and the first body loses it. The
+// first body loses the torque `first_loses`, and the second gains the torque `second_gains`.
 template <class L>
 struct Pushes {
     Triple<L> force, first_loses, second_gains;

@@ -1,4 +1,4 @@
-// Adds forces and torques to the grains, from what a law has computed.
+// Adds the forces and torques that a law has computed to the loads of the grains.
 #pragma once
 
 #include <cstdint>
@@ -34,12 +34,12 @@ struct WallForces {
 // Adds the forces of walls to the grains' loads, and the work of moving walls to Grains::wall_work.
 void add_walls(const WallForces& forces);
 
-// As add_walls(), for walls whose points move in different ways: meshes, and faces where one turns. The
-// contacts' second bodies are faces, or patches of meshes.
+// Does what add_walls() does, for walls whose points move in different ways: meshes, and faces where one of
+// them turns. The contacts' second bodies are faces, or patches of meshes.
 void add_at_points(const WallForces& forces, bool of_meshes);
 // Adds the load of contact c alone, which must touch.
 void add_at_point(const WallForces& forces, bool of_meshes, int c);
-// As add_at_points() for patches of meshes, a register at a time and with the same bits.
+// Does what add_at_points() does for patches of meshes, a register at a time and with the same bits.
 void add_at_meshes(const WallForces& forces);
 
 }  // namespace grainreel

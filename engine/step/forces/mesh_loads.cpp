@@ -1,4 +1,4 @@
-// Loads of meshes as point_loads.cpp adds them, for a register of contacts at once.
+// Adds the loads of meshes as point_loads.cpp does, for a register of contacts at once.
 #include <algorithm>
 
 #include "engine/step/forces/loads.hpp"
@@ -19,7 +19,7 @@ HWY_INLINE Triple<Lanes> all_lanes(const Vec3& v) {
     return {Lanes(v.x()), Lanes(v.y()), Lanes(v.z())};
 }
 
-// Rows of doubles or floats, as doubles.
+// Loads numbers of a row as doubles, whether the row holds doubles or floats.
 template <class Number>
 HWY_INLINE Lanes wide_row(const Row& row, int c) {
     if constexpr (std::is_same_v<Number, float>) {
@@ -34,7 +34,7 @@ HWY_INLINE Triple<Lanes> wide_triple(const Row* rows, int c) {
     return {wide_row<Number>(rows[0], c), wide_row<Number>(rows[1], c), wide_row<Number>(rows[2], c)};
 }
 
-// Contacts c to c + kLanes, all with one mesh.
+// Adds the forces of kLanes contacts from c on, all with one mesh.
 template <class Number, bool rubs>
 HWY_INLINE void add_register(const WallForces& in, const WallPose& pose, int c) {
     const ChunkOfContacts& chunk = in.contacts;
@@ -96,7 +96,7 @@ namespace grainreel {
 
 HWY_EXPORT(add_to_meshes);
 
-// A tally wants each force anyway.
+// A tally needs each force by itself, so the contacts are then taken one by one.
 void add_at_meshes(const WallForces& forces) {
     if (forces.walls.tally) return add_at_points(forces, true);
     HWY_DYNAMIC_DISPATCH(add_to_meshes)(forces);

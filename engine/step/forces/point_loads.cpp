@@ -13,8 +13,7 @@ Vec3 vector_of(const Row* rows, int c, std::size_t size) {
 
 }  // namespace
 
-// The wall feels the force at the point of its surface, and beside it the torque of the resistance to
-// rolling.
+// The force acts on the wall at the point of its surface. The torque of the resistance to rolling is added.
 void add_at_point(const WallForces& in, bool of_meshes, int c) {
     const ChunkOfContacts& chunk = in.contacts;
     const std::size_t size = chunk.rounded ? sizeof(float) : sizeof(double);

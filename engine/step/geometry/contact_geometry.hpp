@@ -13,7 +13,7 @@
 
 namespace grainreel {
 
-// What a law reads of the motion. Each word includes those before it.
+// Which parts of the motion a law reads. Each value includes the values before it.
 enum class Wants { overlap, velocity, spin, rolling };
 inline Wants wants_of(const LawKernel& law) {
     return law.rubs ? Wants::spin : law.uses_velocity ? Wants::velocity : Wants::overlap;
@@ -32,43 +32,44 @@ struct GeometryInput {
     bool rounded = false;               // rows hold floats, and velocities come from Grains::rounded
 };
 
-// One bit for each pair: whether the surfaces are closer than `gap` (m). With a gap of 0: whether they
-// overlap. There are at most kChunk pairs, and the arrays can be read up to a multiple of kBlock.
+// Returns one bit for each pair, which says whether the surfaces are closer than `gap` (m). A gap of 0 asks
+// whether they overlap. There are at most kChunk pairs, and the arrays can be read up to a multiple of
+// kBlock.
 // period: of x, in m; 0 for none.
 std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                          int count, double period, double gap);
-// One bit for each grain and face: whether they overlap.
+// Returns one bit for each grain and face, which says whether they overlap.
 std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                              int count, const WallState& walls);
 
-// Fill the rows that `in` asks for. Of contacts that do not touch, only the overlap need be set.
+// These functions fill the rows that `in` asks for. Contacts that do not touch need only their overlap set.
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out);
 void touch_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
 // Contacts of grains with grains that are glued to walls. Scenes without glued grains have no such contacts,
 // and the kernels of pairs and of walls know nothing of them.
 
-// Glued grains where their walls are. period: of x, in m; 0 for none.
+// Glued grains, and the state of the walls that carry them. `period` is the period of x in m, or 0.
 struct GluedState {
     const GluedGrains& glued;
     const WallState& walls;
     double period;
 };
 
-// The face of each of `count` glued grains, and of those that fill their last block.
+// Finds the faces of `count` glued grains and of the copies that fill their last block.
 void find_faces(const GluedGrains& glued, const std::int32_t* second, int count, std::int32_t* face);
 
-// As touching_walls() and touch_walls(); `second` are numbers of glued grains, and `face` what find_faces()
-// gives.
+// These are touching_walls() and touch_walls() for glued grains. `second` holds numbers of glued grains, and
+// `face` the result of find_faces().
 std::uint64_t touching_glued(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                              int count, const GluedState& state);
 void touch_glued(const GeometryInput& in, const GluedState& state, const std::int32_t* face, TouchChunk& out);
 
-// Contacts with walls of which some end at edges, as those of a container with an open outlet do. Scenes
-// without such walls take the way of touch_walls() in wall_geometry.cpp, which calls these where they are
-// needed.
+// Contacts with walls of which some end at edges, for example the walls of a container with an open outlet.
+// In scenes without such walls, touch_walls() in wall_geometry.cpp does the work; it calls these functions
+// where a wall ends.
 
-// As touching_walls() and touch_walls().
+// These are touching_walls() and touch_walls() for walls that end.
 std::uint64_t touching_plates(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                               int count, const WallState& walls);
 void touch_plates(const GeometryInput& in, const WallState& walls, TouchChunk& out);

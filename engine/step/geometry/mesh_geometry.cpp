@@ -1,5 +1,5 @@
-// The geometry of contacts between a grain and a mesh, which touch where PatchMatcher (forces/law_input.hpp)
-// says. The numbers are those of touch_point() to the bit: nothing is fused.
+// The geometry of contacts between a grain and a mesh. PatchMatcher (forces/law_input.hpp) says where they
+// touch. The numbers are those of touch_point() to the bit: nothing is fused.
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/geometry/wall_point.hpp"
 
@@ -27,7 +27,7 @@ HWY_INLINE Triple<Lanes> as_held(const Triple<Lanes>& t) {
     return {as_held<Number>(t.x), as_held<Number>(t.y), as_held<Number>(t.z)};
 }
 
-// As of touch_point().
+// The vector turn_of() of wall_point.cpp, for a register of contacts.
 HWY_INLINE Triple<Lanes> turn_between(const Triple<Lanes>& before, const Triple<Lanes>& k, Lanes twist) {
     const Triple<Lanes> across = plain_cross(before, k), b = k * twist;
     const Lanes whole = Lanes(1.0) + plain_dot(before, k);
@@ -70,7 +70,8 @@ void meshes_chunk(const GeometryInput& in, const MeshTouch* at, TouchChunk& out)
                                 of_wall = triple(part(12));
             const LanesMask is_new = (kept.x == zero) & (kept.y == zero) & (kept.z == zero);
             const Triple<Lanes> before = in.step == 0 ? k : select(is_new, k, as_held<Number>(kept));
-            // From k to the normal of the step's middle, where velocities lag behind positions.
+            // `change` leads from k to the normal at the step's middle, where velocities lag behind
+            // positions.
             const Triple<Lanes> change =
                 in.turns_for > 0 ? (before - k) * half : Triple<Lanes>{zero, zero, zero};
             put<Number>(turn_between(before, k, twist_share * plain_dot(spin + of_wall, k)), out.turn, c);

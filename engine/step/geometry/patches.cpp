@@ -9,13 +9,13 @@ namespace grainreel {
 
 namespace {
 
-// Squared distances that differ by less are those of one point, but for rounding.
+// Relative difference below which two squared distances count as the distance of one point.
 constexpr double kSame = 1e-10;
 bool is_nearer(double one, double other) {
     return one < other * (1 - kSame);
 }
 
-// 0 on a face, 1 on an edge, 2 at a corner.
+// Returns 0 on a face, 1 on an edge, 2 at a corner.
 int rank(Feature feature) {
     return feature == Feature::face ? 0 : feature < Feature::corner0 ? 1 : 2;
 }
@@ -40,7 +40,7 @@ void Patches::begin(const Surface& surface, const Vec3& centre, double radius) {
     patches_.clear();
 }
 
-// On a face the distance from the plane is the exact one, and it changes evenly as the grain moves.
+// On a face the distance from the plane is taken. It is exact, and it changes evenly as the grain moves.
 void Patches::add(std::int32_t triangle) {
     NearestPoint nearest = surface_->nearest(triangle, centre_);
     const double plane = surface_->normal(triangle).dot(centre_ - surface_->corner(triangle, 0));
@@ -69,7 +69,7 @@ void Patches::find() {
         if (is_minimum(best)) add_patch(0, best);
         return;
     }
-    for (int t = 0; t < count; ++t) is_minimum(t);  // joins those that meet in their nearest point
+    for (int t = 0; t < count; ++t) is_minimum(t);  // joins triangles that meet in their nearest point
     least_.assign(touching_.size(), std::numeric_limits<double>::infinity());
     best_.assign(touching_.size(), -1);
     for (int t = 0; t < count; ++t) {
@@ -91,7 +91,7 @@ int Patches::holder_of(std::int32_t triangle) const {
     return t < 0 ? -1 : touching_[t].patch;
 }
 
-// Where a triangle stands among those that touch; -1 for nowhere.
+// Place of a triangle among the triangles that touch, or -1.
 int Patches::place_of(std::int32_t triangle) const {
     const auto at =
         std::lower_bound(touching_.begin(), touching_.end(), triangle,
@@ -118,13 +118,14 @@ bool Patches::are_one_group() {
 void Patches::join_over_edges(int t) {
     for (int edge = 0; edge < 3; ++edge) {
         const std::int32_t next = surface_->neighbour(touching_[t].triangle, edge).triangle;
-        if (next <= touching_[t].triangle) continue;  // none, or it has been asked already
+        if (next <= touching_[t].triangle) continue;  // no neighbour, or one that has been asked already
         if (const int other = place_of(next); other >= 0 && is_one_patch_over(t, edge, other)) join(t, other);
     }
 }
 
-// The centre's side is that of the triangle which is nearer: the other may be seen from its edge. Where both
-// have the same nearest point, it is that of the plane from which the centre is farther away.
+// The nearer triangle decides on which side the centre lies, because the centre may see the other triangle
+// from its edge. Where both have the same nearest point, the triangle decides from whose plane the centre is
+// farther away.
 bool Patches::is_one_patch_over(int t, int edge, int other) const {
     using Turn = Neighbour::Turn;
     const Touching &one = touching_[t], &two = touching_[other];
@@ -176,7 +177,7 @@ bool Patches::is_minimum(int t) {
     return minimum;
 }
 
-// least: m2, of their group.
+// `least` is the least squared distance in their group, in m2.
 bool Patches::comes_before(const Touching& one, const Touching& other, double least) const {
     constexpr double kEqual = 1e-12;
     const bool near = one.nearest.squared <= least * (1 + kEqual);

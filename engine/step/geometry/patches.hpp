@@ -1,13 +1,15 @@
-// Where a grain touches a mesh: once for each patch of surface that hangs together within its reach, whatever
-// the triangles.
+// Where a grain touches a mesh. There is one contact for each connected patch of surface within its reach,
+// however the surface is cut into triangles.
 //
 // A triangle touches when its nearest point is closer to the grain's centre than the radius. Touching
-// triangles are of one patch if they meet in an edge that is flat, smooth or convex, seen from the centre, or
-// in their nearest point. The patch is touched at its nearest point, if that is a local minimum of the
-// distance to the surface: on a face always; on an edge or corner, if no triangle that meets there is nearer.
-// So a ball in a groove has two contacts, and a ball on one wall of it has none with the groove's edge.
+// triangles belong to one patch if they meet in their nearest point, or in an edge that is flat, smooth or
+// convex as seen from the centre. The patch is touched at its nearest point, if that is a local minimum of
+// the distance to the surface. On a face it always is; on an edge or corner it is one if no triangle that
+// meets there is nearer. So a ball in a groove has two contacts, and a ball on one wall of the groove does
+// not touch the groove's edge.
 //
-// All is in the body's frame and in doubles. The answer does not depend on the order of the triangles.
+// All values are in the body's frame and in doubles. The answer does not depend on the order of the
+// triangles.
 #pragma once
 
 #include <cstdint>
@@ -33,15 +35,15 @@ class Patches {
     void add(std::int32_t triangle);
     void find();
 
-    // By rising triangle.
+    // The patches, by rising triangle.
     const std::vector<Patch>& all() const { return patches_; }
-    // The number of the patch that a triangle is of; -1: it does not touch, or its patch does not.
+    // Number of the patch that a triangle belongs to; -1 if the triangle or its patch does not touch.
     int holder_of(std::int32_t triangle) const;
 
   private:
     struct Touching {
         std::int32_t triangle;
-        int group;     // another of its group, or itself
+        int group;     // another triangle of its group, or itself
         double plane;  // m, of the centre from the triangle's plane, positive on the normal's side
         NearestPoint nearest;
         int patch = -1;
@@ -60,8 +62,8 @@ class Patches {
     Vec3 centre_{0, 0, 0};
     double squared_reach_ = 0;        // m2
     std::vector<Touching> touching_;  // by rising triangle, once they are found
-    std::vector<int> best_;           // of each group, by its first member
-    std::vector<double> least_;       // m2, as above
+    std::vector<int> best_;      // nearest triangle of each group, at the place of the group's first member
+    std::vector<double> least_;  // m2, least squared distance of each group, at the same place
     std::vector<Patch> patches_;
 };
 

@@ -93,7 +93,7 @@ void plates_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& o
         if (in.wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? at.distance : at.radius;
             const Triple<Lanes> rate = triple(load_bundles(motion + 4, 8, i));
-            // The part of the motion across k by which v turns.
+            // Only this part of the motion across k turns v.
             const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
             const Lanes along_edge = at.around.dot(velocity);
             const Triple<Lanes> upright = velocity.less(k, closing).less(at.around, along_edge);

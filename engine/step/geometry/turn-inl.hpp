@@ -1,4 +1,4 @@
-// What pairs and walls share in the geometry of their contacts: how surfaces move, and how contacts turn.
+// Geometry that contacts of pairs and of walls share: how surfaces move, and how contacts turn.
 #if defined(GRAINREEL_STEP_TURN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_TURN_INL
 #undef GRAINREEL_STEP_TURN_INL
@@ -13,10 +13,10 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 // Velocity of i's surface against j's surface, from the velocity of the centres and the spins times arms.
-// These two belong to the middle of the step, but the normal k belongs to its end. The normal of the middle
-// is k + change. So the velocity is computed with k + change, and its normal part is then laid along k.
-// Without this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al.,
-// Comput. Phys. Commun. 310, 109524: time levels).
+// Both belong to the middle of the step, but the normal k belongs to its end. The normal of the middle is k +
+// change. So the velocity is computed with k + change, and its normal part is then laid along k. Without
+// this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al., Comput.
+// Phys. Commun. 310, 109524: time levels).
 template <class L>
 HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spins, const Triple<L>& k,
                                  const Triple<L>& change) {
@@ -34,8 +34,8 @@ HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist)
     return back.cross(k).plus(k + back, twist);
 }
 
-// The number of contacts together with the copies that fill the last block. Laws may read these copies, so it
-// is computed for them too whether they touch.
+// The number of contacts together with the copies that fill the last block. Laws may read these copies, so
+// whether they touch is computed for them too.
 HWY_INLINE int whole_blocks(int count) {
     return (count + kBlock - 1) / kBlock * kBlock;
 }

@@ -21,7 +21,7 @@ std::size_t number_size(const GeometryInput& in) {
     return in.rounded ? sizeof(float) : sizeof(double);
 }
 
-// As the rows hold it: two normals that are alike there have no turn between them.
+// Rounds a vector as the rows do. Two normals that are alike in the rows have no turn between them.
 Vec3 as_held(const GeometryInput& in, const Vec3& v) {
     return in.rounded ? Vec3(v.cast<float>().cast<double>()) : v;
 }
@@ -59,7 +59,7 @@ void touch_point(const GeometryInput& in, int c, const WallPoint& point, TouchCh
         const double arm = in.arms == LeverArms::contact_plane ? point.distance : radius;
         const bool is_new = point.normal_before.isZero(0) || in.step == 0;
         const Vec3 before = is_new ? k : as_held(in, point.normal_before);
-        // From k to the normal of the step's middle, where velocities lag behind positions.
+        // `change` leads from k to the normal at the step's middle, where velocities lag behind positions.
         const Vec3 change = in.turns_for > 0 ? Vec3(0.5 * (before - k)) : Vec3(0, 0, 0);
         const double twist = 0.25 * in.step * (motion.spin + point.spin).dot(k);
         rows.set(out.turn, turn_of(before, k, twist));

@@ -2,9 +2,9 @@
 // that turn. They are computed one by one, in doubles. Walls whose points all move alike take the vector code
 // of wall_geometry.cpp.
 //
-// What a law reads is at the time levels of turn-inl.hpp: overlap and normal of the step's end, velocities
-// and turn over the step. The wall's velocity is the way of its material point in the step over the step, and
-// the old normal is known. So a grain that turns with its wall as one body does not slip.
+// The time levels are those of turn-inl.hpp: overlap and normal belong to the step's end, velocities and turn
+// to the whole step. The wall's velocity is the displacement of its material point in the step, divided by
+// the step. The old normal is known. So a grain that turns with its wall as one body does not slip.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct WallPoint {
     Vec3 normal_before{0, 0, 0};  // a step ago; zero where they did not touch then
     double distance = 0;          // m, of the centre
     Vec3 velocity{0, 0, 0};       // m/s, of the wall's point, mean over the step
-    Vec3 spin{0, 0, 0};           // rad/s, of the wall, as above
+    Vec3 spin{0, 0, 0};           // rad/s, of the wall, mean over the step
 };
 
 // Fills the rows of contact c that `in` asks for, and sets its bit where it touches. Before the first contact
@@ -27,7 +27,7 @@ struct WallPoint {
 void touch_point(const GeometryInput& in, int c, const WallPoint& point, TouchChunk& out);
 void set_apart(const GeometryInput& in, int c, TouchChunk& out);
 
-// As touch_walls(), where a face's body turns. No face ends there.
+// Does what touch_walls() does, where the body of a face turns. No face may end.
 void touch_turning_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
 // A place at which a grain touches a mesh, as found in this step. Registers load it four numbers at a time.
@@ -40,12 +40,12 @@ struct alignas(64) MeshTouch {
     double triangle = 0;          // its number
     Vec3 velocity{0, 0, 0};       // m/s, of the surface there, mean over the step
     double unused_one = 0;
-    Vec3 spin{0, 0, 0};  // rad/s, of the surface, as above
+    Vec3 spin{0, 0, 0};  // rad/s, of the surface, mean over the step
     double unused_two = 0;
 };
 
-// As touch_walls(); `at` are the places of the contacts, up to a multiple of kBlock. Their second bodies are
-// not read.
+// Does what touch_walls() does for meshes. `at` holds the places of the contacts, up to a multiple of kBlock.
+// The second bodies of `in` are not read.
 void touch_meshes(const GeometryInput& in, const MeshTouch* at, TouchChunk& out);
 
 }  // namespace grainreel

@@ -1,8 +1,8 @@
-// What grains do to each face and mesh, summed over all steps: force, moment, and how the pressure spreads
-// over height.
+// The force and moment of the grains on each face and mesh, and their pressure by height, summed over all
+// steps.
 //
 // The sums are the same bits at any number of threads, in whatever order contacts are computed, and however a
-// run is cut into pieces: they are sums of whole numbers. A force is rounded once, to a multiple of a
+// run is cut into pieces, because they are sums of whole numbers. A force is rounded once, to a multiple of a
 // quantum; that rounding is unbiased and below 1e-14 of what a wall's spring would give over a grain's
 // radius.
 #pragma once
@@ -21,7 +21,7 @@ namespace grainreel {
 
 __extension__ typedef __int128 WideInt;
 
-// What a count is worth, and how height is divided.
+// The units of the counts, and the slices of height.
 struct WallScale {
     double force = 1;   // N; a power of two
     double length = 1;  // m; a moment counts in force times length; a power of two
@@ -30,21 +30,23 @@ struct WallScale {
     double period = 0;  // m, of x; 0 for none
 };
 
-// Over the evaluations of the forces, each with the share of a step that its forces act.
+// Sums over the evaluations of the forces. Each evaluation counts by the share of a step for which its forces
+// act.
 struct FaceSums {
-    std::array<WideInt, 3> force{}, moment{};            // of all evaluations before the last
+    std::array<WideInt, 3> force{}, moment{};            // sums of all evaluations before the last
     std::array<WideInt, 3> last_force{}, last_moment{};  // of the last
     bool operator==(const FaceSums&) const = default;
 };
 
 struct WallSums {
     WallScale scale;
-    double felt = 0;              // of the last forces: the share that the grains have felt
-    std::vector<FaceSums> faces;  // in the order of the surroundings': of faces, then of meshes
-    std::vector<WideInt> slices;  // face after face: normal forces by height, the last among them
+    double felt = 0;              // share of the last forces that the grains have felt
+    std::vector<FaceSums> faces;  // faces, then meshes, in the order of the surroundings
+    std::vector<WideInt>
+        slices;  // normal forces by height, face after face, with those of the last evaluation
 };
 
-// Whether sums that were read can have been counted: of so many faces, and no larger than any run makes them.
+// Whether sums from a file could have been counted: they have `faces` faces, and no run makes them larger.
 bool is_sound(const WallSums& sums, std::size_t faces, const WallScale& scale);
 bool are_sound(const std::vector<FaceSums>& faces);
 bool are_sound(const std::vector<WideInt>& slices);
@@ -52,7 +54,7 @@ bool are_sound(const std::vector<WideInt>& slices);
 // The sums of one thread.
 class WallTally {
   public:
-    // bases: m, the height of each wall's point at rest; of the faces, then of the meshes.
+    // `bases` holds the height of each wall's point at rest (m), of the faces, then of the meshes.
     void begin(const std::vector<double>& bases, const WallScale& scale) {
         scale_ = scale;
         now_.assign(bases.size(), {});
@@ -73,7 +75,8 @@ class WallTally {
         slices_.assign(slices_.size(), {});
     }
 
-    // Before the forces of an evaluation; share: of a step, that they act.
+    // Call this before the forces of an evaluation. `share` is the share of a step for which these forces
+    // act.
     void begin_evaluation(double share) {
         for (std::size_t f = 0; f < now_.size(); ++f)
             for (int a = 0; a < 3; ++a) {
@@ -84,8 +87,8 @@ class WallTally {
         set_share(share);
     }
 
-    // A contact. force: N, on the face; normal: N; arm: m, from the face's point to the contact; couple: N m,
-    // on the face beside the force.
+    // Adds a contact. `force` (N) acts on the face, and `normal` (N) is its normal part. `arm` (m) leads from
+    // the face's point to the contact. `couple` (N m) is a further torque on the face.
     void add(std::int32_t face, const Vec3& force, double normal, Vec3 arm,
              const Vec3& couple = Vec3(0, 0, 0)) {
         const auto f = static_cast<std::size_t>(face);
@@ -105,7 +108,7 @@ class WallTally {
     const WallScale& scale() const { return scale_; }
     // Adds this thread's counts to those of all.
     void add_to(WallSums& all) const;
-    // Takes what was counted before, in place of nothing.
+    // Begins with the sums of an earlier tally instead of zeros.
     void take(const WallSums& before);
 
   private:
@@ -117,8 +120,8 @@ class WallTally {
         per_moment_ = per_force_ / scale_.length;
         per_slice_ = scale_.slice > 0 ? 1 / scale_.slice : 0;
     }
-    // Two thousand contacts at the bound still fit. It is 16 times what a wall gives a grain that is in it
-    // up to its centre, which stops the run.
+    // Two thousand contacts at the bound kMost still fit. The bound is 16 times the force on a grain that is
+    // in the wall up to its centre, and such a grain stops the run.
     static std::int64_t count(double x) {
         constexpr double kMost = 0x1p52;
         return std::llrint(std::clamp(x, -kMost, kMost));

@@ -12,7 +12,7 @@ FaceEnd end_of(const Face& face, const Vec3& offset) {
     return {face.along, face.along.dot(face.edge + offset), out_x, out_y, face.gap, face.ends ? 1.0 : 0.0};
 }
 
-// The record of a face with this normal, which goes through `point` now.
+// Record of a face that has this normal and goes through `point` now.
 FaceRecord record_of(const Face& face, const Vec3& its_normal, const Vec3& point) {
     const bool plane = face.kind == Face::Kind::plane;
     const Vec3 normal = plane ? its_normal : Vec3::Zero();
