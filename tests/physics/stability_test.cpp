@@ -1,4 +1,5 @@
-// Where methods fail: limits against their formulas, and the health check that stops a run beyond them.
+// Tests of conditions under which methods fail: limits against their formulas, and the health check that
+// stops a run beyond them.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,8 +47,8 @@ TEST(StabilityChart, EveryExperimentHasItsOwnNameAndFitsATable) {
     EXPECT_GE(names.size(), 40u);
 }
 
-// Verlet 2 / omega, Gear's four values sqrt 2 / omega, Omelyan's scheme where its amplification matrix says;
-// the soft plates add a hundredth of K to the 2 K of a pair.
+// The limit is 2 / omega for Verlet, sqrt 2 / omega for Gear's four values, and given by the amplification
+// matrix for Omelyan's scheme. The soft plates add a hundredth of K to the 2 K of a pair.
 TEST(StabilityChart, APairsLongestStepIsThatOfItsIntegrator) {
     const double softened = std::sqrt(2 + 0.01);
     for (const char* name : {"velocity-verlet", "leapfrog", "position-verlet"})
@@ -68,7 +69,7 @@ TEST(StabilityChart, SpringsInARowAndACrystalAllowLess) {
     EXPECT_NEAR(found("step: chain of 20").measured, 1 / std::cos(std::numbers::pi / 42), 1e-3);
     EXPECT_NEAR(found("step: pair that unloads (e = 0.5)").measured, 2 / std::sqrt(8.01), 1e-3);
     EXPECT_NEAR(found("step: tangential spring (K0 = 0.8 K)").measured, 2 / std::sqrt(3.5 * 0.8), 3e-3);
-    // An endless crystal: 2 / sqrt 8; a block of seven layers has no mode that is quite as fast.
+    // An endless crystal has 2 / sqrt 8; a block of seven layers has no mode that is quite as fast.
     const double bed = found("step: dense bed (smooth)").measured;
     EXPECT_GT(bed, 2 / std::sqrt(8.0));
     EXPECT_LT(bed, 1.08 * 2 / std::sqrt(8.0));
@@ -101,7 +102,7 @@ TEST(StabilityChart, ObliqueImpactsNeverGainEnergy) {
     EXPECT_LE(found("friction 0 to 1e6").measured, 1);
     for (const char* place : {"grazing at a wall", "grazing in a corner"}) {
         EXPECT_LE(found(std::string(place) + " (e = 0.9)").measured, 1) << place;
-        // Elastic ones within twice the error of the restitution.
+        // Elastic impacts are within twice the error of the restitution.
         EXPECT_LE(found(std::string(place) + " (e = 1)").measured, 1 + 2 * 0.001) << place;
     }
     // cos[sqrt(3.5 K0/K1) (pi/2) (1 + e)]
@@ -127,7 +128,7 @@ TEST(StabilityChart, ClosedLoopsOfEachLaw) {
     for (const CurvePoint& p : slip.curve) EXPECT_NEAR(p.value, p.theory, 1e-4) << p.x;
 }
 
-// The slip that is counted too much is the integral of overlap x angle: pi/2 x overlap x swing here.
+// Too much slip is counted: the integral of overlap x angle, which is pi/2 x overlap x swing here.
 TEST(StabilityChart, EachKindOfArmsRatchetsOnOneKindOfCycle) {
     EXPECT_LT(found("ratcheting of a swinging pair (arms to the plane)").measured, 1e-4);
     EXPECT_NEAR(found("ratcheting of a swinging pair (arms of the radius)").measured, std::numbers::pi / 2,
@@ -168,7 +169,7 @@ TEST(StabilityChart, RoundingReachesTheForceWhereItReachesTheOverlap) {
 
 // ---- the health check, in runs of scenes ----
 
-// What it says of a run; "" when it runs to its end.
+// The message of the health check for a run; "" if the run reaches its end.
 std::string complaint(const std::string& text, const std::vector<std::string>& sets = {}) {
     const Scene scene = read_scene_text(text, "test.toml", with_tested_precision(sets));
     const Plan plan = make_plan(scene);
@@ -212,7 +213,7 @@ const std::string plane = "[[wall]]\npoint = [\"3 mm\", 0, 0]\nnormal = [-1, 0, 
 TEST(StabilityHealth, StopsAPairWhoseStepIsTooLong) {
     const std::string pair = shot(0.02, other_ball);
     EXPECT_EQ(complaint(pair), "");
-    for (const double speed : {0.020, 0.0203, 0.0207, 0.021})  // a step's error is no alarm
+    for (const double speed : {0.020, 0.0203, 0.0207, 0.021})  // an error of the step is no alarm
         EXPECT_EQ(
             complaint(shot(speed, other_ball),
                       {"contact.restitution=1", "run.contact_corrections=false", "run.steps_per_contact=12"}),
@@ -221,7 +222,7 @@ TEST(StabilityHealth, StopsAPairWhoseStepIsTooLong) {
     EXPECT_THAT(complaint(pair, {step_of(1.1 * std::sqrt(2.0))}),
                 AllOf(HasSubstr("step "), HasSubstr("the grains gained"), HasSubstr("(ball) at ("),
                       HasSubstr("take a smaller run.step")));
-    // Also of a run that ends before the first regular look.
+    // This also holds for a run that ends before the first regular look.
     EXPECT_THAT(complaint(pair, {step_of(1.1 * std::sqrt(2.0)),
                                  fmt::format("run.duration={}", 100 * 1.1 * std::sqrt(2.0) * unit())}),
                 HasSubstr("step 100"));
@@ -243,8 +244,8 @@ duration = 1
 
 TEST(StabilityHealth, StopsAColumnWhoseStepIsTooLong) {
     EXPECT_EQ(complaint(column()), "");
-    // From 0.80 on some columns gain energy, by their rounding: of twelve a tenth of a micrometre apart none
-    // at 0.80, three or four at 0.805, all at 0.82.
+    // From 0.80 on some columns gain energy by their rounding. Of twelve columns, a tenth of a micrometre
+    // apart, none does at 0.80, three or four at 0.805, and all at 0.82.
     EXPECT_EQ(complaint(column(), {step_of(0.79)}), "");
     EXPECT_THAT(complaint(column(), {step_of(1.1)}),
                 AllOf(HasSubstr("step "), HasSubstr("(ball) at ("), HasSubstr("take a smaller run.step")));
@@ -268,7 +269,7 @@ height = "60 mm"
 duration = 0.2
 )";
 
-// Loose and with losses, it holds out a little longer than a crystal's 0.7 sqrt(m/K).
+// A loose bed with losses stays stable a little longer than a crystal's 0.7 sqrt(m/K).
 TEST(StabilityHealth, StopsABedWhoseStepIsTooLong) {
     EXPECT_EQ(complaint(box_of_grains), "");
     EXPECT_THAT(complaint(box_of_grains, {fmt::format("run.step={}", 1.2 * std::sqrt(sphere_mass() / 2000)),
@@ -279,7 +280,8 @@ TEST(StabilityHealth, StopsABedWhoseStepIsTooLong) {
 TEST(StabilityHealth, StopsGrainsThatGoThroughEachOther) {
     const double crossing = 2 * kRadius * std::sqrt(2 * kSoft / sphere_mass());
     EXPECT_EQ(complaint(shot(0.1 * crossing, other_ball)), "") << "an overlap of a tenth of the diameter";
-    // However short the meeting: from an overlap of a third of a radius up to one that lies within a step.
+    // The run is stopped however short the contact is: from an overlap of a third of a radius to one that
+    // begins and ends within a step.
     for (const double speed : {0.25, 0.5, 0.9, 1.1, 1.5})
         EXPECT_THAT(complaint(shot(speed * crossing, other_ball)),
                     AllOf(HasSubstr("grain 0 (ball) at ("), HasSubstr("overlaps grain 1"),
@@ -300,14 +302,15 @@ TEST(StabilityHealth, StopsGrainsThatGoThroughAWall) {
                       HasSubstr("take a larger contact.wall.stiffness or a smaller run.step")));
 }
 
-// The largest stiffness that a scene may have. (Numbers that are none: HealthCheck.)
+// The scene has the largest stiffness that is allowed. (Values that are no numbers are tested in
+// HealthCheck.)
 TEST(StabilityHealth, StopsWhatFliesApart) {
     EXPECT_THAT(
         complaint(shot(0.02, other_ball), {"contact.stiffness=1e30", "run.step=1e-3"}),
         AllOf(HasSubstr("(ball)"), HasSubstr("pass each other"), HasSubstr("; take a smaller run.step")));
 }
 
-// Looks cost time: at the speeds that the plan expects they are as rare as can be.
+// Looks cost time: at the speeds that the plan expects they are as rare as possible.
 TEST(StabilityHealth, LooksOftenOnlyWhereGrainsAreTooFast) {
     const Scene scene = read_scene_text(box_of_grains, "test.toml",
                                         {"contact.stiffness=1e4", "drive.frequency=20", "drive.g_level=3"});

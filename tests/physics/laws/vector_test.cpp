@@ -42,7 +42,7 @@ bool fuses() {
     return used == HWY_AVX2 || used == HWY_AVX3;
 }
 
-// Collects the numbers of a history. For a kind of contact, it takes them from the table of parameters.
+// Push collects the numbers of a history, and Take reads those of one kind from the table of parameters.
 template <class R>
 struct Push {
     std::vector<NumberOf<R>>& to;

@@ -1,4 +1,4 @@
-// A box with grains that a test puts there, and what observers say of it.
+// A box with grains that a test puts there, and the answers of observers about it.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace grainreel::test {
 
-// A row every 125 steps, a period of 1000.
+// There is a row every 125 steps, and a period has 1000 steps.
 struct BedByHand {
     Scene scene;
     Plan plan;
@@ -21,7 +21,7 @@ struct BedByHand {
     double period = 0;  // m, of x
     Vec3 gravity{0, 0, -10};
     std::optional<WallSums> walls;
-    std::vector<std::int64_t> given;  // by feeds
+    std::vector<std::int64_t> given;  // number of grains that each feed has given
     std::function<void(const std::function<void(const ContactView&)>&)> contacts = [](const auto&) {};
 
     explicit BedByHand(const std::string& instrument = "") {
@@ -42,7 +42,7 @@ struct BedByHand {
     void add(std::int32_t species, const Vec3& place, double radius, double density = 1) {
         grains.add(static_cast<std::int32_t>(grains.size()), species, place, radius, density);
     }
-    // Stacks of grains of diameter 1, whose topmost ones end at top(y).
+    // Adds stacks of grains of diameter 1, whose topmost grains end at top(y).
     void fill(const std::function<double(double y)>& top) {
         grains = {};
         for (int j = 0; j < 40; ++j)
@@ -72,7 +72,7 @@ struct BedByHand {
     }
 
   private:
-    // Made when they are first asked, by what the test has set until then.
+    // The observers are made when they are first asked for, from what the test has set until then.
     Observers& observers() {
         if (!observers_) observers_ = std::make_unique<Observers>(all_observers(), scene, plan);
         return *observers_;

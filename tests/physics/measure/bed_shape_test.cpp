@@ -1,4 +1,4 @@
-// Solid fraction, side walls and intruder on beds whose numbers are plain.
+// Tests of solid fraction, side walls and intruder on beds with simple numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ Scene box_scene(double width, double depth, double height) {
     return scene;
 }
 
-// Grains of diameter 1 on sites of a cubic lattice, which fill a box from the height `floor` up.
+// Grains of diameter 1 on sites of a cubic lattice, which fill a box from the height `floor` upwards.
 Grains cubic_bed(int width, int depth, int height, double floor) {
     Grains grains;
     for (int k = 0; k < height; ++k)
@@ -34,7 +34,7 @@ Grains cubic_bed(int width, int depth, int height, double floor) {
     return grains;
 }
 
-// pi/6 of a cubic lattice, also where the middle of a layer is the limit.
+// A cubic lattice has pi/6, also if the middle of a layer is the limit.
 TEST(SolidFraction, OfACubicLatticeIsPiOverSix) {
     const Scene scene = box_scene(5, 5, 9);
     const Grains grains = cubic_bed(5, 5, 5, 0.7);
@@ -43,7 +43,7 @@ TEST(SolidFraction, OfACubicLatticeIsPiOverSix) {
     EXPECT_NEAR(solid_fraction(scene.container, grains, 0.7, 0.7 + 8), 5.0 / 8 * std::numbers::pi / 6, 1e-12);
 }
 
-// A cap of height h of a sphere of radius r: pi h^2 (3 r - h) / 3, here of r = 1/2 and h = 1/4.
+// A cap of height h of a sphere of radius r has the volume pi h^2 (3 r - h) / 3; here r = 1/2 and h = 1/4.
 TEST(SolidFraction, CountsACapBelowTheTop) {
     const Scene scene = box_scene(1, 1, 9);
     const Grains grain = cubic_bed(1, 1, 1, 0);
@@ -51,8 +51,8 @@ TEST(SolidFraction, CountsACapBelowTheTop) {
     EXPECT_NEAR(solid_fraction(scene.container, grain, 0, 0.25), cap / 0.25, 1e-12);
 }
 
-// A ball of radius 1 in a cylinder of radius 3, and in a wedge between slants of 45 degrees from a floor of
-// half-width 2, whose area up to the height h is 4 h + h^2.
+// A ball of radius 1 lies in a cylinder of radius 3, and in a wedge between slants of 45 degrees. The wedge
+// has a floor of half-width 2 and the area 4 h + h^2 up to the height h.
 TEST(SolidFraction, IsOverTheRoomOfTheContainersShape) {
     Scene scene = box_scene(6, 5, 9);
     scene.container.shape = Container::Shape::cylinder;
@@ -81,14 +81,13 @@ TEST(SolidFraction, IsUndefinedInEmptySpaceAndUnderTheFloor) {
     EXPECT_TRUE(std::isnan(solid_fraction(scene.container, grains, 0, 1)));
 }
 
-// The smallest mean diameter is 1: a grain of radius 2 lies beside a wall that is nearer to its centre
-// than 3.
+// The smallest mean diameter is 1: a grain of radius 2 is beside a wall that is nearer to its centre than 3.
 TEST(SideWalls, AreLeftAndRightButNotFrontAndBack) {
     const SideWalls walls(box_scene(20, 4, 20));
     EXPECT_EQ(walls.side_of({{0, -7.1, 5}, 2}, {}), Side::left);
     EXPECT_EQ(walls.side_of({{0, 7.1, 5}, 2}, {}), Side::right);
     EXPECT_EQ(walls.side_of({{0, 6.9, 5}, 2}, {}), Side::none);
-    EXPECT_EQ(walls.side_of({{1.5, 0, 2}, 2}, {}), Side::none);  // beside front and floor
+    EXPECT_EQ(walls.side_of({{1.5, 0, 2}, 2}, {}), Side::none);  // it is beside front and floor
 }
 
 TEST(SideWalls, MoveWithTheContainer) {
@@ -99,8 +98,8 @@ TEST(SideWalls, MoveWithTheContainer) {
     EXPECT_EQ(walls.side_of({{0, 8.1, 5}, 2}, {{0, 1, 0}, {0, 0, 0}, 0}), Side::right);
 }
 
-// At the height z a slant of 45 degrees from the edge of a floor of half-width w is (w + z - |y|) cos 45
-// away.
+// At the height z, a slant of 45 degrees from the edge of a floor of half-width w has the distance (w + z -
+// |y|) cos 45.
 TEST(SideWalls, AreSlantsOfAWedge) {
     Scene scene = box_scene(20, 4, 20);
     scene.container.shape = Container::Shape::wedge;
@@ -121,7 +120,7 @@ TEST(SideWalls, OfACylinderGoRound) {
     EXPECT_EQ(walls.side_of({{6.9, 0.1, 5}, 2}, {}), Side::none);
 }
 
-// A bed of ten layers, and a grain of radius 3/2 whose top is at a known height; floor at 0.25.
+// A bed of ten layers has a grain of radius 3/2 whose top is at a known height; the floor is at 0.25.
 TEST(Intruder, IsAsHighAsItsTopOverTheSurface) {
     const Scene scene = box_scene(12, 12, 40);
     Grains grains = cubic_bed(12, 12, 10, 0.25);
@@ -135,7 +134,7 @@ TEST(Intruder, IsAsHighAsItsTopOverTheSurface) {
     }
 }
 
-// The surface is that of the place: the bed is six layers high where the intruder is, and ten elsewhere.
+// The surface around the intruder counts: the bed is six layers high there, and ten elsewhere.
 TEST(Intruder, GoesByTheSurfaceAroundIt) {
     const Scene scene = box_scene(30, 12, 40);
     Grains grains;
@@ -146,7 +145,8 @@ TEST(Intruder, GoesByTheSurfaceAroundIt) {
     EXPECT_NEAR(intruder_height(scene, grains, grains.size() - 1, 0), 1, 1e-12);
 }
 
-// A bed that is six layers high in its middle and ten elsewhere along x, and the same moved by half a period.
+// A bed is six layers high in its middle and ten elsewhere along x; the second bed is the same, moved by half
+// a period.
 TEST(Intruder, SeesTheSurfaceAcrossAPeriodicDepth) {
     Scene scene = box_scene(12, 12, 40);
     scene.container.periodic_depth = true;

@@ -1,4 +1,4 @@
-// Columns that are made anew for each row, on states whose numbers are plain.
+// Tests of columns that are computed anew for each row, on states with simple numbers.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -30,7 +30,7 @@ ContactView touch(std::int32_t second, const Vec3& normal, double force) {
     return contact;
 }
 
-// Walls have no say, nor grains that touch without a force, nor what was there in the row before.
+// Contacts with walls do not count, nor do grains that touch without a force, nor contacts in the row before.
 TEST(FabricColumns, AreOfPairsThatPushEachOtherNow) {
     BedByHand bed;
     Vec3 pair = Vec3::UnitY();
@@ -55,7 +55,8 @@ TEST(FloorPosition, IsTheWayAlongTheDrivesDirection) {
     }
 }
 
-// 20 Hz at 2 g, from 0.1 s on 45 Hz at 4 g, from 0.4 s on rest, and from 0.6 s on taps of 1 / 30 s at 5 g.
+// The drive has 20 Hz at 2 g, from 0.1 s on 45 Hz at 4 g, rest from 0.4 s on, and from 0.6 s on taps of 1 /
+// 30 s at 5 g.
 TEST(DriveColumns, AreThoseOfTheStageThatIsOn) {
     BedByHand bed;
     bed.scene = read_scene_text(std::string(test::small_scene_text) +
@@ -80,7 +81,7 @@ TEST(DriveColumns, AreThoseOfTheStageThatIsOn) {
     EXPECT_NEAR(at(0.9, "drive_g_level"), 5, 1e-9);
 }
 
-// While the drive grows over four periods: s(u) = 10 u^3 - 15 u^4 + 6 u^5 of it.
+// While the drive grows over four periods, it has the share s(u) = 10 u^3 - 15 u^4 + 6 u^5.
 TEST(DriveColumns, GrowWithTheDrive) {
     BedByHand bed;
     bed.scene = read_scene_text(std::string(test::small_scene_text), "ramp.toml",
@@ -98,7 +99,7 @@ TEST(DriveColumns, GrowWithTheDrive) {
     EXPECT_NEAR(at(4), 3, 1e-9);
 }
 
-// A light grain that is at 1 in one period and at 3 in the next one, and a heavy one at rest.
+// A light grain is at 1 in one period and at 3 in the next one, and a heavy grain rests.
 struct TwoHeights : BedByHand {
     TwoHeights(double light, double heavy) {
         add(0, {0, 0, 1}, 0.5, light);
@@ -119,7 +120,7 @@ TEST(BedPeriodsColumns, GoByTheCentreOfMass) {
     EXPECT_EQ(bed.look(20000, "bed_periods"), 1);
 }
 
-// 99 grains of 1 and one of 101 have a mean of 2; the mean of the species is 51. The centre moves by 1.
+// 99 grains of 1 and one of 101 have the mean 2; the mean of the species is 51. The centre moves by 1.
 TEST(BedPeriodsColumns, AreMeasuredByTheMeanGrain) {
     TwoHeights bed(1, 1);
     bed.scene.species[0].count = 99;

@@ -1,4 +1,4 @@
-// What turns: how far, how the bed lies in it, and what it gives the grains.
+// Tests of containers that turn: how far they turn, how the bed lies in them, and what they give the grains.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ BodyTurn turn_about(const Vec3& axis, double rate, const Vec3& through = {0, 0, 
     return turn;
 }
 
-// Stacks that stand close, whose tops are at top(y) exactly.
+// Stacks that stand close together, with tops exactly at top(y).
 Grains stacks(const std::function<double(double)>& top) {
     Grains grains;
     for (int j = 0; j <= 400; ++j)
@@ -31,20 +31,20 @@ Grains stacks(const std::function<double(double)>& top) {
     return grains;
 }
 
-// Straight in the middle third alone: the slope there counts.
+// The surface is straight only in the middle third, whose slope counts.
 TEST(DrumSurface, IsTheSlopeOfTheMiddleThird) {
     const Grains grains = stacks([](double y) { return 14 + 0.5 * std::clamp(y, -8.0, 8.0); });
     const auto angle = [&](const Vec3& axis, double rate) {
         const auto axes = drum_axes(turn_about(axis, rate), {0, 0, -10});
         return angle_of_repose(grains.place, *axes, 1);
     };
-    constexpr double hair = 0.005;  // the tops of a bin lie up to a grain's spacing off its middle
+    constexpr double hair = 0.005;  // the tops in a bin are up to a grain's spacing away from its middle
     EXPECT_NEAR(angle({1, 0, 0}, 2), std::atan(0.5), hair);
     EXPECT_NEAR(angle({1, 0, 0}, -2), -std::atan(0.5), hair);
     EXPECT_NEAR(angle({-1, 0, 0}, 2), -std::atan(0.5), hair);
 }
 
-// Where the lowest part of the drum goes, the bed is carried up: at rate w about x it moves along +y.
+// The bed is carried up where the lowest part of the drum goes: at the rate w about x it moves along +y.
 TEST(DrumSurface, RisesWhereTheDrumGoes) {
     const BodyTurn turn = turn_about({1, 0, 0}, 2);
     const auto axes = drum_axes(turn, {0, 0, -10});
@@ -95,7 +95,7 @@ TEST(TurningBody, HasTheRadiusOfItsFarthestPoint) {
     EXPECT_FALSE(turns_over(scene));
 }
 
-// A mesh alone in space, on which the grains have a force and a moment that stay.
+// A mesh alone in space, on which the grains act with a constant force and moment.
 struct MeshInSpace {
     Bed bed{"walls"};
     explicit MeshInSpace(const SceneMesh& mesh) {
@@ -106,7 +106,7 @@ struct MeshInSpace {
         bed.walls->faces.resize(1);
         bed.start();
     }
-    // The mean of all steps since the start.
+    // The mean over all steps since the start.
     double after(std::int64_t steps, const std::array<int, 3>& force, const std::array<int, 3>& moment,
                  const char* column) {
         for (std::size_t a = 0; a < 3; ++a) {
@@ -125,15 +125,16 @@ SceneMesh turning(const BodyTurn& turn) {
     return mesh;
 }
 
-// The grains brake a drum that turns at 2 rad/s with 3 N m; it gives them 6 W.
+// The grains brake a drum, which turns at 2 rad/s, with 3 N m; it gives them 6 W.
 TEST(WallPower, OfADrumIsTorqueTimesRate) {
     MeshInSpace drum(turning(turn_about({0, 1, 0}, 2, {1, 2, 3})));
     EXPECT_NEAR(drum.after(125, {5, 0, 0}, {7, -3, 0}, "drum_torque_N.m"), -3, 1e-12);
     EXPECT_NEAR(drum.bed.look(125, "drum_power_W"), 6, 1e-9);
-    EXPECT_NEAR(drum.bed.look(125, "drum_moment_x_N.m"), 7, 1e-12);  // about a point of the axis as it is
+    EXPECT_NEAR(drum.bed.look(125, "drum_moment_x_N.m"), 7,
+                1e-12);  // about a point of the axis, whichever point
 }
 
-// While it starts the mean rate counts: half of the last one, for the ramp is symmetric.
+// While the drum starts its mean rate counts: half of the last rate, because the ramp is symmetric.
 TEST(WallPower, OfADrumThatStartsGoesByItsAngle) {
     BodyTurn turn = turn_about({0, 1, 0}, 2);
     turn.over = 0.125;
@@ -148,7 +149,7 @@ TEST(WallPower, OfAMeshThatMovesIsForceTimesVelocity) {
     EXPECT_NEAR(drum.after(125, {-4, 1, 0}, {0, 0, 9}, "drum_power_W"), 2, 1e-9);
 }
 
-// Since the row before, not since the start.
+// The power is the mean since the row before, not since the start.
 TEST(WallPower, IsThatOfTheLastRow) {
     MeshInSpace drum(turning(turn_about({0, 1, 0}, 2)));
     drum.after(125, {0, 0, 0}, {0, -3, 0}, "drum_power_W");

@@ -1,4 +1,4 @@
-// The fabric tensor of contacts whose directions are known.
+// Tests of the fabric tensor of contacts with known directions.
 #include "engine/measure/bed/bed_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Fabric, OfRothenburgsDistributionHasItsAnisotropy) {
             fabric.add({0, std::cos(t), std::sin(t)});
         }
         EXPECT_NEAR(fabric.vertical(), 0.5 * (1 - 0.5 * a), 1e-6);
-        EXPECT_NEAR(fabric.anisotropy(), 0.5 * (1 + 0.5 * std::abs(a)), 1e-6);  // none is along x
+        EXPECT_NEAR(fabric.anisotropy(), 0.5 * (1 + 0.5 * std::abs(a)), 1e-6);  // no contact is along x
     }
 }
 

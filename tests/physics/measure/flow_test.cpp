@@ -1,4 +1,5 @@
-// Fields that turn by known amounts, and grains that drift by known ways.
+// Tests of circulation, stream function and drift on fields with known rotations and grains with known
+// displacements.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Cells of width a and height b; u = (right, up) at their middles.
+// Cells have the width a and the height b. u = (right, up) at their middles.
 VelocityGrid field(std::size_t across, std::size_t high, double a, double b,
                    const std::function<std::pair<double, double>(double y, double z)>& u) {
     VelocityGrid grid{across, high, -0.5 * a * static_cast<double>(across), 0, a, b, {}, {}, {}};
@@ -32,7 +33,8 @@ std::pair<double, double> rotation(double y, double z) {
     return {-kSpin * (z - 2), kSpin * (y + 1)};
 }
 
-// 2 w times the area, whatever the shape of what is filled and the middle of the rotation.
+// The circulation is 2 w times the area, whatever the shape of the filled cells and the middle of the
+// rotation.
 TEST(Circulation, OfARigidRotationIsTwiceItsRateTimesTheArea) {
     VelocityGrid grid = field(9, 7, 0.5, 0.3, rotation);
     Circulation all = circulation(grid, -10, 10);
@@ -59,8 +61,8 @@ TEST(Circulation, OfAFlowThatDoesNotTurnIsZero) {
     EXPECT_TRUE(std::isnan(circulation(field(1, 7, 0.5, 0.3, saddle), -10, 10).speed()));
 }
 
-// Two rolls, up in the middle: psi = -sin(2 pi y / W) sin(pi z / H), and the mean of up = -d psi / dy over a
-// cell is the difference of psi between its sides over its width.
+// Two rolls go up in the middle: psi = -sin(2 pi y / W) sin(pi z / H). The mean of up = -d psi / dy over a
+// cell is the difference of psi between its sides divided by its width.
 constexpr double kWidth = 4, kHeight = 3;
 double two_rolls(double y, double z) {
     return -std::sin(2 * pi * y / kWidth) * std::sin(pi * z / kHeight);
@@ -73,7 +75,7 @@ VelocityGrid rolls(double offset) {
 }
 
 TEST(StreamFunction, IsWhatTheFlowWasMadeFrom) {
-    for (const double offset : {0.0, 0.4}) {  // what flows up everywhere is taken off
+    for (const double offset : {0.0, 0.4}) {  // a flow that goes up everywhere is subtracted
         const VelocityGrid grid = rolls(offset);
         const std::vector<double> psi = stream_function(grid);
         for (std::size_t k = 0; k < grid.high; ++k)
@@ -82,7 +84,7 @@ TEST(StreamFunction, IsWhatTheFlowWasMadeFrom) {
     }
 }
 
-// Two filled cells of weights 1 and 3 with flows 3 up and 1 down, in a row of two: as much up as down.
+// Two filled cells in a row have the weights 1 and 3 and flows 3 up and 1 down: as much goes up as down.
 TEST(StreamFunction, WeighsCellsByWhatIsInThem) {
     VelocityGrid grid = field(2, 1, 0.5, 1, [](double y, double) {
         return std::pair{0.0, y < 0 ? 3.0 : -1.0};
@@ -128,7 +130,8 @@ struct Bed {
                 grains.add(static_cast<std::int32_t>(grains.size()), 0, {0, 2 * j - 10.0, 2 * k + 1.0}, 0.5,
                            1);
     }
-    // Moves each by a small way u a period in four periods, half of it before and half after its place.
+    // Moves each grain by a small displacement u a period for four periods, half of it before and half after
+    // its place.
     void drift(const std::function<std::pair<double, double>(double y, double z)>& u, int half) {
         for (std::size_t i = 0; i < grains.size(); ++i) {
             const double y = 2.0 * (grains.id[i] % 11) - 10, z = 2.0 * (grains.id[i] / 11) + 1;
@@ -139,7 +142,7 @@ struct Bed {
 };
 
 // Both halves turn about their own middles with the rate w: up in the middle of the box where w > 0. Only
-// squares of the halves' own cells count, which begin and end at the middle cell.
+// squares of the halves' own cells count. These cells begin and end at the middle cell.
 std::function<std::pair<double, double>(double, double)> two_wheels(double w) {
     return [w](double y, double z) {
         const double sense = y < 0 ? w : -w;
@@ -155,12 +158,13 @@ TEST(Drift, OfTwoWheelsHasTheirCirculation) {
     for (int window = 0; window < 4; ++window) {
         const auto u = two_wheels(rates[window]);
         bed.drift(u, -1);
-        drift.note(100 * window, bed.grains, {});  // not the end of the window before: begins anew
+        drift.note(100 * window, bed.grains,
+                   {});  // this is not the end of the window before, so the drift begins anew
         EXPECT_TRUE(std::isnan(drift.roll(Side::left).mean));
         bed.drift(u, 1);
         drift.note(100 * window + 4, bed.grains, {});
-        // Squares of the half reach from y = -10 to 0 and from z = 1 to 11; at y = 0 the flow has the wheel's
-        // upward part, and its part to the right is 0 in place of -w (z - 6), which sums to nothing there.
+        // Squares of the half reach from y = -10 to 0 and from z = 1 to 11. At y = 0 the flow has the upward
+        // part of the wheel. Its part to the right is 0 in place of -w (z - 6), which sums to nothing there.
         const double area = 10 * 10, edge = 2 * (10 + 10);
         const double wheel = 2 * rates[window] * area / edge;
         const double missing = rates[window] * 1 * (5 + 5) / edge;  // half a cell at the lower and upper end
@@ -172,8 +176,8 @@ TEST(Drift, OfTwoWheelsHasTheirCirculation) {
     }
 }
 
-// The middle third ends at 11 / 3. Grains whose ways have their middle there rise, those at -2, 0 and 2. The
-// others do not: not those at -4, nor those that come from 4.6 to 3.
+// The middle third ends at 11 / 3. Grains rise whose displacements have their middle there: those at -2, 0
+// and 2. The others do not: neither those at -4, nor those that come from 4.6 to 3.
 TEST(Drift, GoesByTheMiddleOfAWay) {
     Bed bed;
     Drift drift(bed.scene);
@@ -189,8 +193,8 @@ TEST(Drift, GoesByTheMiddleOfAWay) {
     EXPECT_NEAR(drift.rise(Drift::in_middle).mean, 1e-3 * (1 - 3.0 / 11), 1e-12);
 }
 
-// In the lowest row 22 grains turn one way in the first window and 11 of them the other way in the second
-// one: a third of the first is left. In the row above all turn by a fifth of it.
+// In the lowest row 22 grains turn one way in the first window, and 11 of them turn the other way in the
+// second one: a third of the first remains. In the row above all turn by a fifth of it.
 TEST(Drift, CentreIsThatOfAllGrainsOfTheWindows) {
     Bed bed;
     Drift drift(bed.scene);
@@ -215,7 +219,8 @@ TEST(Drift, CentreIsThatOfAllGrainsOfTheWindows) {
     EXPECT_NEAR(drift.centre(Side::left).z, 1, 1e-12);
 }
 
-// Four windows without a gap: mean and standard error of what they had. A fifth takes the first one's place.
+// Four windows without a gap give the mean and standard error of their values. A fifth window replaces the
+// first one.
 TEST(Drift, HasErrorsOverItsWindows) {
     Bed bed;
     Drift drift(bed.scene);
@@ -224,7 +229,7 @@ TEST(Drift, HasErrorsOverItsWindows) {
     double height = 0;
     for (int window = 0; window < 5; ++window) {
         height += 4e-3 * rises[window];
-        for (std::size_t i = 0; i < bed.grains.size(); ++i)  // at the left wall alone
+        for (std::size_t i = 0; i < bed.grains.size(); ++i)  // only at the left wall
             if (bed.grains.id[i] % 11 == 0)
                 bed.grains.place[i].position.z() = 2 * (bed.grains.id[i] / 11) + 1 + height;
         drift.note(4 * (window + 1), bed.grains, {});
@@ -238,7 +243,7 @@ TEST(Drift, HasErrorsOverItsWindows) {
     EXPECT_NEAR(drift.rise(Drift::in_middle).mean, -mean / 11, 1e-12);
 }
 
-// The container stands three diameters to the right; the grains beside its left wall rise.
+// The container stands three diameters to the right, and the grains beside its left wall rise.
 TEST(Drift, IsThatAgainstTheContainer) {
     Bed bed;
     Drift drift(bed.scene);
@@ -252,7 +257,7 @@ TEST(Drift, IsThatAgainstTheContainer) {
     EXPECT_NEAR(drift.rise(Drift::at_right_wall).mean, -1e-3 / 11, 1e-12);
 }
 
-// Grains that come by a feed: the window before they are there is none.
+// Grains come by a feed. The window before they are there does not count.
 TEST(Drift, BeginsWhenThereAreGrains) {
     Bed bed;
     Drift drift(bed.scene);

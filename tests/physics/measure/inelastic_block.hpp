@@ -1,5 +1,5 @@
-// A block without restitution on a plate that moves as a sin(2 pi t), t in periods: where it leaves and
-// lands.
+// A block without restitution on a plate that moves as a sin(2 pi t), where t is in periods: when it leaves
+// and when it lands.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace grainreel {
 
-// Gamma = a (2 pi)^2 / g. It leaves at sin(2 pi t) = 1 / Gamma with the plate's velocity, and is hit when the
-// plate is there again.
+// Gamma = a (2 pi)^2 / g. The block leaves at sin(2 pi t) = 1 / Gamma with the plate's velocity, and lands
+// when the plate is at its place again.
 struct InelasticBlock {
     double gamma, leaves, lands;  // turns; within a period of each other
 
@@ -19,14 +19,14 @@ struct InelasticBlock {
         for (int i = 0; i < 60; ++i) (above_plate(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
         lands = low;
     }
-    // The share of its weight that the plate carries.
+    // Share of the block's weight that the plate carries.
     double carried(double turns) const {
         const double t = turns - std::floor(turns - leaves);  // since the last take-off
         return t < lands ? 0 : std::max(0.0, 1 - gamma * std::sin(2 * std::numbers::pi * t));
     }
 
   private:
-    // Over g times the period squared, at t behind the take-off.
+    // Height above the plate at a time t after the take-off, divided by g times the period squared.
     double above_plate(double t) const {
         constexpr double turn = 2 * std::numbers::pi;
         const double a = gamma / (turn * turn), late = t - leaves;

@@ -1,4 +1,4 @@
-// Instruments that gather: on states by hand, in a run, and through a checkpoint.
+// Tests of instruments that gather values: on states made by hand, in a run, and through a checkpoint.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 using Bed = test::BedByHand;
 
-// Waves at f/2 from row to row: known from the eighth period on.
+// Waves at f/2 are compared from row to row, and are known from the eighth period on.
 TEST(SurfaceInstrument, TellsWavesThatComeEverySecondPeriod) {
     Bed bed("surface");
     const auto wave = [&](int row) {
@@ -40,9 +40,9 @@ TEST(SurfaceInstrument, TellsWavesThatComeEverySecondPeriod) {
     EXPECT_TRUE(std::isnan(bed.look(7001, "surface_half")));  // no row was at that phase
 }
 
-// 20 bins of 2, ten of them on either side. On two levels the bins are 2 above or below their mean. With the
-// middle half 2 higher than the rest, each half rises by sum y h / sum y^2 = 50 / 330 in straight lines. The
-// container stands 5 to the right.
+// There are 20 bins of 2, ten of them on either side. On two levels the bins are 2 above or below their mean.
+// If the middle half is 2 higher than the rest, a straight line through each half rises by sum y h / sum y^2
+// = 50 / 330. The container stands 5 to the right.
 TEST(SurfaceInstrument, HasTheShapeOfSteps) {
     Bed bed("surface");
     bed.pose.offset = {0, 5, 0};
@@ -77,10 +77,10 @@ TEST(IntruderInstrument, NotesWhenItCameUp) {
     EXPECT_NEAR(bed.look(375, "rise_time_s"), 0.25, 1e-12);
     EXPECT_NEAR(bed.look(375, "intruder_level"), 0.6, 1e-12);
     place(11), bed.gather(500);
-    EXPECT_NEAR(bed.look(500, "rise_time_s"), 0.25, 1e-12);  // it has been up before
+    EXPECT_NEAR(bed.look(500, "rise_time_s"), 0.25, 1e-12);  // it has been that high before
 }
 
-// 3 kg of big and 1 kg of small grains, which leave one after the other.
+// 3 kg of big grains and 1 kg of small ones leave one after the other.
 TEST(OutflowInstrument, WeighsWhatHasLeft) {
     Bed bed("outflow");
     const auto keep = [&](double small, double big) {
@@ -105,19 +105,19 @@ TEST(OutflowInstrument, WeighsWhatHasLeft) {
     bed.gather(625);
     EXPECT_NEAR(bed.look(625, "emptied_s"), 0.5, 1e-12);
     EXPECT_NEAR(bed.look(625, "outflow_rate"), 0, 1e-9);
-    bed.traffic.came = 1;  // of no feed
+    bed.traffic.came = 1;  // this grain is of no feed
     EXPECT_TRUE(std::isnan(bed.look(625, "outflow_kg")));
 }
 
-// A hundred grains from a feed, of sizes that differ, and one that was there before. What of them is inside
-// tells what is out, to the last grain.
+// A hundred grains of different sizes come from a feed, and one was there before. The number outside follows
+// from the grains inside, to the last grain.
 TEST(OutflowInstrument, CountsWhatAFeedHasGiven) {
     Bed bed("outflow");
     bed.scene.feeds.resize(1);
     bed.scene.feeds[0].species = 1;
     bed.scene.species[1].diameter = {SizeSpread::Kind::uniform, 0.5, 1.5, 1, 0};
     bed.scene.species[1].density = 2;
-    std::vector<double> mass{1};  // kg, of each; the first is small
+    std::vector<double> mass{1};  // kg, of each grain; the first one is small
     bed.add(0, {0, 0, 1}, 0.5, 6 / std::numbers::pi);
     const auto inside = [&](std::size_t from, std::int64_t given) {
         bed.given = {given};
@@ -163,7 +163,7 @@ TEST(OutflowInstrument, GrainsInTheTrayAreOut) {
     EXPECT_NEAR(bed.look(125, "outflow_kg"), 0, 1e-12);
 }
 
-// Two windows of four periods in which grains rise by ways of their own; drifts are tested in flow_test.cpp.
+// In two windows of four periods grains rise by different displacements. Drifts are tested in flow_test.cpp.
 TEST(ConvectionInstrument, GivesTheDriftOfItsWindows) {
     Bed bed("convection");
     Drift drift(bed.scene);
@@ -194,8 +194,8 @@ TEST(ConvectionInstrument, GivesTheDriftOfItsWindows) {
     }
 }
 
-// A bed of two grains, each half of the weight. Looks are seven steps apart; in between the floor carries so
-// many weights in the mean: less than a tenth from step 21 on, and more than half from step 35 on.
+// The bed has two grains, each with half of the weight. Looks are seven steps apart. Between looks the floor
+// carries so many weights in the mean: less than a tenth from step 21 on, and more than half from step 35 on.
 TEST(BedInstrument, FliesWhileTheFloorCarriesLittleOfTheWeight) {
     Bed bed("bed");
     for (const double y : {-1.0, 1.0}) bed.add(0, {0, y, 1}, 0.5, 0.5 * 6 / std::numbers::pi);
@@ -248,8 +248,8 @@ Scene shaken(std::vector<std::string> sets = {}) {
     return read_scene_text(test::small_scene_text, "fifty.toml", with_tested_precision(sets), measurable_in);
 }
 
-// Two grains side by side that hardly bounce fly as a block does. A tenth of the weight is carried until
-// sin = 0.9 / Gamma, and forces are means over a 128th of a turn.
+// Two grains side by side that hardly bounce fly as a block does. A tenth of the weight is carried until sin
+// = 0.9 / Gamma, and forces are means over 1/128 of a turn.
 TEST(BedInstrument, FindsTheFlightOfABlock) {
     const Scene scene = shaken({"species.small.count=1", "species.big.count=1", "drive.ramp=0",
                                 "contact.law=spring-dashpot", "contact.restitution=0.05"});
@@ -266,7 +266,7 @@ TEST(BedInstrument, FindsTheFlightOfABlock) {
     EXPECT_NEAR(run.measure("flight_periods"), landing - takeoff, 1e-9);
 }
 
-// Broken off in the middle of a window and of a flight, and taken up: every column has the same bits.
+// The run is stopped in the middle of a window and of a flight, and resumed: every column has the same bits.
 TEST(Instruments, GoOnFromACheckpointBitByBit) {
     const test::TemporaryFolder here;
     const Scene scene = shaken({"run.duration=0.7 s"});

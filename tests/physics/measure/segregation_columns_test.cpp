@@ -1,4 +1,4 @@
-// Columns of segregation of three species, on a container that is not where it is at rest.
+// Tests of columns of segregation of three species, in a container that is not at its place of rest.
 #include <gtest/gtest.h>
 
 #include "engine/mesh/room.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 enum : std::int32_t { small, big, middle };
 
-// Diameters 1, 3 and 2. The floor is at 1 and the middle of the container at y = 2.
+// The diameters are 1, 3 and 2. The floor is at 1 and the middle of the container is at y = 2.
 struct Bed : test::BedByHand {
     Bed() {
         scene.species.resize(3);
@@ -22,7 +22,8 @@ struct Bed : test::BedByHand {
     }
 };
 
-// 21 grains: 95 % of the ranks 0 to 20 is 19. So the bed is 12 high, a quarter of it 3 and a third 4.
+// There are 21 grains: 95 % of the ranks 0 to 20 is 19. So the bed is 12 high, a quarter of it is 3 and a
+// third is 4.
 TEST(SegregationColumns, QuartersAreThoseOfTheBedsHeight) {
     Bed bed;
     for (int i = 1; i <= 14; ++i) bed.add(small, {0, 0, 1 + 0.3 * i}, 0.5);
@@ -38,7 +39,7 @@ TEST(SegregationColumns, QuartersAreThoseOfTheBedsHeight) {
     EXPECT_NEAR(bed.look(0, "height_difference"), (6 - mean_small) / 12, 1e-12);
 }
 
-// The same bed in a vessel whose file has its floor at z = -20: heights count from there, and their
+// The same bed lies in a vessel whose file has its floor at z = -20. Heights count from there, and their
 // difference keeps its sign.
 TEST(SegregationColumns, CountHeightsFromTheBaseOfAMeshVessel) {
     Bed bed;
@@ -50,12 +51,12 @@ TEST(SegregationColumns, CountHeightsFromTheBaseOfAMeshVessel) {
     EXPECT_NEAR(bed.look(0, "small_height_m"), 5.5, 1e-12);
     EXPECT_NEAR(bed.look(0, "big_height_m"), 5.5, 1e-12);
     EXPECT_NEAR(bed.look(0, "height_difference"), 0, 1e-12);
-    bed.add(big, {0, 0, 1 - 20 + 27.5}, 0.5);  // the mean of eleven is 2 higher
+    bed.add(big, {0, 0, 1 - 20 + 27.5}, 0.5);  // the mean of eleven grains is 2 higher
     EXPECT_NEAR(bed.look(0, "big_height_m"), 7.5, 1e-12);
     EXPECT_GT(bed.look(0, "height_difference"), 0);
 }
 
-// Walls are at y = -8 and 12. A big grain is beside one that is nearer to its centre than 1.5 + 1.
+// Walls are at y = -8 and 12. A big grain is beside a wall that is nearer to its centre than 1.5 + 1.
 TEST(SegregationColumns, BothWallsCountWhereTheyAreNow) {
     Bed bed;
     for (const double y : {-6.0, -6.2, 10.0, 0.0}) bed.add(big, {0, y, 5}, 1.5);
@@ -64,8 +65,8 @@ TEST(SegregationColumns, BothWallsCountWhereTheyAreNow) {
 }
 
 // A small grain touches a big one through the periodic ends and has a small one at a gap of 0.1. The other
-// small one is 0.37 away from the big one: further than a quarter of the smallest diameter. By chance pairs
-// weigh (r + r)^2.
+// small grain is 0.37 away from the big one, further than a quarter of the smallest diameter. By chance,
+// pairs weigh (r + r)^2.
 TEST(SegregationColumns, NeighboursAreWithinAQuarterOfTheSmallestDiameter) {
     Bed bed;
     bed.period = 6;
@@ -75,7 +76,8 @@ TEST(SegregationColumns, NeighboursAreWithinAQuarterOfTheSmallestDiameter) {
     EXPECT_NEAR(bed.look(0, "unlike_neighbours"), (1.0 / 2) / (8.0 / 9), 1e-12);
 }
 
-// Two samples of two grains: shares of the big one 1/2 and 0 against 1/4 of all, s^2 = 1/16.
+// There are two samples of two grains. The big one has the shares 1/2 and 0 in them and 1/4 of all, so s^2 =
+// 1/16.
 TEST(SegregationColumns, MixingIsThatOfTheLargestSpecies) {
     Bed bed;
     bed.add(middle, {0, 0, 2}, 1);

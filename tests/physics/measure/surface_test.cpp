@@ -1,4 +1,4 @@
-// Surfaces whose shape is known.
+// Tests of surfaces with known shapes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-// A bed of grains of diameter 1: stacks a distance of 1 apart, whose topmost grains end at h(y).
+// A bed of grains of diameter 1, in stacks at distances of 1 whose topmost grains end at h(y).
 std::vector<Place> bed_of(int width, int depth, const std::function<double(double)>& h) {
     std::vector<Place> grains;
     for (int j = 0; j < width; ++j) {
@@ -44,12 +44,13 @@ TEST(Surface, LeavesOutGrainsInFlight) {
     const std::vector<double> calm = surface_of(grains, frame_of(40, 6)).height;
     for (int i = 0; i < 20; ++i) grains.push_back({{0, i - 9.5, 12.6 + i}, 0.5});
     EXPECT_EQ(surface_of(grains, frame_of(40, 6)).height, calm);
-    // The whole bed may fly.
+    // The surface is also found if the whole bed flies.
     for (Place& p : grains) p.position.z() += 100;
     EXPECT_NEAR(surface_of(grains, frame_of(40, 6)).mean(), 110, 1e-9);
 }
 
-// A ball of radius 3 half in the bed: no holes beside its middle, and the surface is the ball's there.
+// A ball of radius 3 lies half in the bed. There are no holes beside its middle, and the surface there is the
+// ball's.
 TEST(Surface, IsThatOfALargeGrainWhereItLies) {
     std::vector<Place> grains;
     for (const Place& p : bed_of(40, 6, [](double) { return 10; }))
@@ -58,7 +59,7 @@ TEST(Surface, IsThatOfALargeGrainWhereItLies) {
     const BedOutline surface = surface_of(grains, frame_of(40, 6));
     for (std::size_t j = 0; j < 20; ++j) {
         double expected = 0;
-        const double y = std::max(0.0, std::abs(surface.place(j)) - 1);  // of the column's nearest edge
+        const double y = std::max(0.0, std::abs(surface.place(j)) - 1);  // of the nearest edge of the column
         for (const double x : {1.0, 0.0, 1.0}) {
             const double square = 9 - y * y - x * x;
             expected += square > 0 ? 10 + std::sqrt(square) : 10;
@@ -90,12 +91,13 @@ TEST(Surface, FindsGrainsPastAPeriodicEnd) {
     SurfaceFrame frame = frame_of(20, 4);
     frame.period = 4;
     const BedOutline surface = surface_of(std::vector<Place>{{{3, 0, 3}, 0.5}, {{-1, 0, 7}, 0.5}}, frame);
-    EXPECT_EQ(surface.height[5], 3.5);  // in one column, and the other grain is too far above
+    EXPECT_EQ(surface.height[5],
+              3.5);  // the grain lies in one column, and the other grain is too far above it
 }
 
-// 90 grains of 1, and 10 of 4 that come during the run: their mean is 1.3. In the wedge they fill the room up
-// to the height h at 0.6 of it, below slants of 45 degrees from a floor of half-width 2: 4 h + h^2 times
-// depth.
+// There are 90 grains of 1, and 10 of 4 come during the run: their mean is 1.3. In the wedge they fill the
+// room up to the height h with a solid fraction of 0.6. The slants rise at 45 degrees from a floor of
+// half-width 2, so the room is 4 h + h^2 times the depth.
 TEST(SurfaceFrame, IsAsWideAsTheContainerWhereTheBedEnds) {
     Scene scene;
     scene.species.resize(2);
@@ -112,7 +114,7 @@ TEST(SurfaceFrame, IsAsWideAsTheContainerWhereTheBedEnds) {
     EXPECT_NEAR(frame.front, 5, 1e-12);
 }
 
-// 2.5 waves of amplitude 4 and one of amplitude 1 with a whole number of waves: the larger one is told.
+// There are 2.5 waves of amplitude 4 and a whole number of waves of amplitude 1. The larger wave is found.
 TEST(Spectrum, FindsTheLargestWave) {
     Spectrum spectrum(30);
     std::vector<double> h;
@@ -121,7 +123,7 @@ TEST(Spectrum, FindsTheLargestWave) {
     const DominantWave wave = spectrum.dominant(h, 0.15);
     EXPECT_NEAR(wave.wavelength, 2 * 0.15 / 5, 1e-12);
     EXPECT_NEAR(wave.share, 16.0 / (16 + 1), 0.02);  // the other one leaks a little into it
-    for (double& x : h) x = -x;                      // a second time, for the plan is used again
+    for (double& x : h) x = -x;                      // a second time, because the plan is used again
     EXPECT_NEAR(spectrum.dominant(h, 0.15).share, wave.share, 1e-12);
 }
 
@@ -137,7 +139,7 @@ TEST(Spectrum, OfOneWaveHasAllOfTheVariance) {
     }
 }
 
-// A bed with a sine on top, at any phase against the walls.
+// A bed has a sine on top, at any phase against the walls.
 TEST(Spectrum, FindsTheWavelengthOfASineSurface) {
     for (const double waves : {2.0, 3.0, 4.5}) {
         for (const double phase : {0.0, 0.7, 1.5, 2.6}) {
@@ -151,7 +153,7 @@ TEST(Spectrum, FindsTheWavelengthOfASineSurface) {
     }
 }
 
-// The larger wave is three bins long, the other one six: only waves of at least four bins count.
+// The larger wave is three bins long and the other one six; only waves of at least four bins count.
 TEST(Spectrum, LeavesOutWavesThatBinsDoNotResolve) {
     Spectrum spectrum(30);
     std::vector<double> h;
@@ -169,7 +171,7 @@ TEST(Spectrum, OfAFlatSurfaceHasNoWave) {
     EXPECT_TRUE(std::isnan(one.dominant({0.5}, 1).wavelength));
 }
 
-// h_n(y) of eight periods.
+// h(n, j) gives the height in bin j and period n, for eight periods.
 Subharmonics shares_of(const std::function<double(int n, int j)>& h) {
     std::vector<std::vector<double>> surfaces(kComparedPeriods);
     std::vector<const std::vector<double>*> pointers;
@@ -188,7 +190,7 @@ TEST(Subharmonics, TellWavesAtHalfAndQuarterFromAHeap) {
     const Subharmonics half = shares_of([](int n, int j) { return 5 + (n % 2 ? -1 : 1) * wave(j); });
     EXPECT_NEAR(half.half, 1, 1e-12);
     EXPECT_NEAR(half.quarter, 0, 1e-12);
-    // Standing: up, flat, down, flat. Or one pattern after another.
+    // The wave stands: up, flat, down, flat. In the second series one pattern follows another.
     const Subharmonics standing = shares_of([](int n, int j) { return 5 + std::cos(pi * n / 2) * wave(j); });
     EXPECT_NEAR(standing.quarter, 1, 1e-12);
     EXPECT_NEAR(standing.half, 0, 1e-12);
@@ -196,19 +198,19 @@ TEST(Subharmonics, TellWavesAtHalfAndQuarterFromAHeap) {
         shares_of([](int n, int j) { return std::cos(2 * pi * j / 16 + pi * n / 2); });
     EXPECT_NEAR(turning.quarter, 1, 1e-12);
     const Subharmonics heap =
-        shares_of([](int n, int j) { return n + wave(j); });  // whatever the mean height does
+        shares_of([](int n, int j) { return n + wave(j); });  // the mean height does not matter
     EXPECT_NEAR(heap.half, 0, 1e-12);
     EXPECT_NEAR(heap.quarter, 0, 1e-12);
 }
 
-// A heap of amplitude 2 with waves of amplitude 1 on it: shares go by squares.
+// A heap of amplitude 2 carries waves of amplitude 1; shares are in proportion to squares.
 TEST(Subharmonics, ShareTheVariance) {
     const Subharmonics mixed =
         shares_of([](int n, int j) { return 2 * wave(j) + (n % 2 ? -1 : 1) * std::sin(2 * pi * j / 8); });
     EXPECT_NEAR(mixed.half, 1.0 / (1 + 4), 1e-12);
 }
 
-// 64 bins of 8 periods of noise: a share of 1/8 scatters by about sqrt(2 / 64) of itself.
+// There are 64 bins and 8 periods of noise: a share of 1/8 scatters by about sqrt(2 / 64) of itself.
 TEST(Subharmonics, OfNoiseAreThoseOfChance) {
     Random random(4, Stream::centres);
     const Subharmonics noise = shares_of([&](int, int) { return random.normal(); });
@@ -232,13 +234,13 @@ TEST(Mound, OfATentHasItsSlope) {
         const Mound mound = mound_of(made(bins, 0.12, [](double y) { return 0.05 - 0.3 * std::abs(y); }));
         EXPECT_NEAR(mound.slope, 0.3, 1e-12);
         EXPECT_NEAR(mound.tilt, 0, 1e-12);
-        const double slack = bins == 24 ? 1e-12 : 1e-4;  // of 24 bins zones are whole ones
+        const double slack = bins == 24 ? 1e-12 : 1e-4;  // zones of 24 bins are whole bins
         EXPECT_NEAR(mound.height, 0.3 * 0.12 / 3, slack);
     }
 }
 
-// Seven bins that rise as 1, 2 and 4 towards the middle one, which belongs to neither half: slopes are those
-// of three bins each, (4 - 1) / 2.
+// Seven bins rise as 1, 2 and 4 towards the middle one, which belongs to neither half. Slopes are those of
+// three bins each, (4 - 1) / 2.
 TEST(Mound, LeavesTheMiddleBinOut) {
     BedOutline s{0, 1, {1, 2, 4, 9, 4, 2, 1}};
     EXPECT_NEAR(mound_of(s).slope, 1.5, 1e-12);

@@ -1,4 +1,4 @@
-// What grains do to the surface of a mesh, by contacts that are made by hand.
+// Tests of what grains do to the surface of a mesh, by contacts that are made by hand.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-// The square of side 2 in the plane z = 0, of two triangles, that moves along x; a grain of radius 1 lies on
+// The square of side 2 in the plane z = 0 has two triangles and moves along x. A grain of radius 1 lies on
 // it.
 struct GrainOnSquare {
     test::BedByHand bed{"wear"};
@@ -35,7 +35,7 @@ struct GrainOnSquare {
     Motion& grain() { return bed.grains.motion[0]; }
 };
 
-// It comes down at 4 and slides along x at 7, 1 of it by its spin: 7 - 0.5 against the plate.
+// The grain comes down at 4 and slides along x at 7, 1 of it by its spin: 7 - 0.5 against the plate.
 TEST(WearInstrument, HasTheWorksOfImpactAndRubbing) {
     GrainOnSquare one;
     one.grain().velocity = {6, 0, -4};
@@ -43,7 +43,7 @@ TEST(WearInstrument, HasTheWorksOfImpactAndRubbing) {
     for (const std::int64_t step : {4, 10}) one.bed.gather(step);
     EXPECT_NEAR(one.bed.look(10, "plate_impact_work_J"), 3 * 4 * 0.01, 1e-12);
     EXPECT_NEAR(one.bed.look(10, "plate_shear_work_J"), 2 * 6.5 * 0.01, 1e-12);
-    one.grain().velocity = {6, 0, 4};  // it leaves: no impact, and it rubs on
+    one.grain().velocity = {6, 0, 4};  // it leaves: there is no impact, and it still rubs
     one.bed.gather(14);
     EXPECT_NEAR(one.bed.look(14, "plate_impact_work_J"), 3 * 4 * 0.01, 1e-12);
     EXPECT_NEAR(one.bed.look(14, "plate_shear_work_J"), 2 * 6.5 * 0.014, 1e-12);

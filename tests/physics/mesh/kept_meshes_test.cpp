@@ -1,4 +1,5 @@
-// A run keeps copies of its meshes: its folder can go elsewhere, and another file in their place is refused.
+// Tests that a run keeps copies of its meshes: its folder can be moved, and another file in place of a copy
+// is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,7 +66,7 @@ TEST_F(KeptMeshes, AnotherFileIsRefused) {
                                      scene.meshes[0].hash + "; put the file back"));
 }
 
-// Copied is what was read.
+// The copy is the file that was read.
 TEST_F(KeptMeshes, AFileThatChangesMeanwhileIsNotKept) {
     files.put("meshes of mine/plate.stl", plate(0.3));
     EXPECT_THAT(complaint([&] { keep_mesh_files(scene, files.path() / "other"); }),

@@ -1,4 +1,4 @@
-// Meshes made here, written as STL, and scenes that have them.
+// Meshes made by tests and written as STL, and scenes that have them.
 #pragma once
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ inline Corners disc(double radius, double z, int facets) {
 
 class MeshFiles : public testing::Test {
   protected:
-    // As text, in the folder of the scene.
+    // Writes the triangles as a text STL in the folder of the scene.
     void write(const std::string& name, const Corners& triangles) const {
         std::ofstream out(here / name);
         out << "solid made\n";

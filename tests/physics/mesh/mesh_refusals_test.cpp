@@ -1,4 +1,4 @@
-// Scenes with meshes that are refused before they run, at the line that says what is wrong.
+// Tests of scenes with meshes that are refused before they run, with the line that is wrong.
 #include <gmock/gmock.h>
 
 #include "engine/plan/plan.hpp"
@@ -32,7 +32,7 @@ height = "100 mm"
 
 class MeshRefusals : public MeshFiles {
   protected:
-    // What reading, planning or taking the grains says, or "".
+    // The message when the scene is read and planned and its grains are taken, or "".
     std::string said(const std::string& text) const {
         try {
             const Scene scene = read(text);
@@ -42,7 +42,7 @@ class MeshRefusals : public MeshFiles {
         }
         return "";
     }
-    // The place that a message begins with, of the line of the scene that holds `part`.
+    // The beginning of a message: the place of the scene's line that holds `part`.
     static std::string at(const std::string& text, const std::string& part) {
         return fmt::format("scene.toml:{}:", line_of(text, part));
     }
@@ -72,7 +72,7 @@ TEST_F(MeshRefusals, AGrainInsideAWallIsRefused) {
     const std::string deep = head + listed(Vec3(0.05, 0, 0.05)) + listed(Vec3(0, 0, 0.03));
     EXPECT_THAT(said(deep), AllOf(HasSubstr(at(deep, "[[grain]]\nposition = [0, 0, 0.03]")),
                                   HasSubstr("inside the mesh \"block\"")));
-    // 1 mm off its upper side: by half a radius.
+    // The centre is 1 mm above its upper side, so the grain is inside by half a radius.
     const std::string close = head + listed(Vec3(0.01, 0, 0.051));
     EXPECT_THAT(said(close), HasSubstr("overlaps the mesh \"block\" by 0.50 of its radius"));
     EXPECT_EQ(said(head + listed(Vec3(0.01, 0, 0.0515))), "");
@@ -84,7 +84,7 @@ TEST_F(MeshRefusals, AGrainOutsideAClosedVesselIsRefused) {
         std::string(kListed) + "[container]\nshape = \"mesh\"\nmesh = \"vessel\"\n" + mesh("vessel");
     EXPECT_EQ(said(head + listed(Vec3(0, 0, 0.02))), "");
     EXPECT_THAT(said(head + listed(Vec3(0, 0, 0.06))), HasSubstr("outside the vessel \"vessel\""));
-    // Above an open one it may fall into it.
+    // If the box is open above, the grain may fall into it.
     write("vessel.stl", box_of_triangles(Vec3(-0.02, -0.02, 0), Vec3(0.02, 0.02, 0.05), true));
     EXPECT_EQ(said(head + listed(Vec3(0, 0, 0.06))), "");
 }
@@ -96,7 +96,7 @@ TEST_F(MeshRefusals, AMeshFarFromAllGrainsIsRefused) {
     const std::string away = head + mesh("vane", "position = [3, 0, 0]\n");
     EXPECT_THAT(said(away),
                 AllOf(HasSubstr(at(away, "file = \"vane.stl\"")), HasSubstr("far from all grains")));
-    // In millimetres its sides lie 20 m away.
+    // If the file is in millimetres, its sides are 20 m away.
     write("drum.stl", pipe(200, -100, 100, 36));
     const std::string large = std::string(kHead) + R"([container]
 shape = "none"
@@ -106,7 +106,7 @@ region = { low = [-0.05, -0.05, -0.05], high = [0.05, 0.05, 0.05] }
     EXPECT_THAT(said(large), AllOf(HasSubstr("far from all grains"), HasSubstr("scale = 0.001")));
 }
 
-// A bar of 180 mm along x in a box of 200 mm x 100 mm, turned about z.
+// A bar of 180 mm along x in a box of 200 mm x 100 mm turns about z.
 TEST_F(MeshRefusals, AMeshThatTurnsIntoAFaceIsRefused) {
     write("bar.stl", box_of_triangles(Vec3(-0.09, -0.002, 0.02), Vec3(0.09, 0.002, 0.05)));
     const std::string turn = "turn = { axis = [0, 0, 1], rate = \"60 rpm\" }\n";
@@ -114,7 +114,7 @@ TEST_F(MeshRefusals, AMeshThatTurnsIntoAFaceIsRefused) {
     EXPECT_THAT(said(bar), AllOf(HasSubstr(at(bar, "turn = {")), HasSubstr("moves into the"),
                                  HasSubstr("wall"), HasSubstr("turned by")));
     EXPECT_EQ(said(std::string(kHead) + kBox + mesh("bar", "scale = 0.5\n" + turn)), "");
-    // Too slow to get there: 0.5 s at 6 rpm are 18 degrees.
+    // This turn is too slow to reach the face: 0.5 s at 6 rpm are 18 degrees.
     EXPECT_EQ(
         said(std::string(kHead) + kBox + mesh("bar", "turn = { axis = [0, 0, 1], rate = \"6 rpm\" }\n")), "");
 }
@@ -129,12 +129,12 @@ region = { low = [-0.08, -0.08, 0.06], high = [0.08, 0.08, 0.1] }
 )" + mesh("bar", "turn = { axis = [0, 0, 1], rate = \"60 rpm\" }\n") +
                              mesh("post");
     EXPECT_THAT(said(text), AllOf(HasSubstr(at(text, "turn = {")), HasSubstr("\"bar\" moves into \"post\"")));
-    // Out of its way.
+    // Here the face is out of its way.
     std::string clear = text;
     EXPECT_EQ(said(clear + "position = [0, 0.1, 0]\n"), "");
 }
 
-// A drum that turns between two discs that stand, on purpose as wide as it or wider.
+// A drum turns between two discs that stand still and are as wide as it or wider, as the user wants it.
 TEST_F(MeshRefusals, MeshesThatTouchAtRestMayMove) {
     write("drum.stl", pipe(0.05, -0.03, 0.03, 36));
     for (const double width : {0.05, 0.07}) {
@@ -153,7 +153,7 @@ region = { low = [-0.02, -0.02, -0.02], high = [0.02, 0.02, 0.02] }
     }
 }
 
-// A shaft goes through the walls that it turns in.
+// A shaft passes through the walls in which it turns.
 TEST_F(MeshRefusals, MeshesThatCrossAtRestMayTurn) {
     write("shaft.stl", pipe(0.005, -0.05, 0.2, 24));
     write("vessel.stl", box_of_triangles(Vec3(-0.05, -0.05, 0), Vec3(0.05, 0.05, 0.1)));

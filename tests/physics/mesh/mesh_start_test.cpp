@@ -1,4 +1,4 @@
-// Beds that begin in a vessel of triangles, or in a box of one's own.
+// Tests of beds that begin in a vessel of triangles, or in a box that the scene gives.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -43,8 +43,8 @@ double volume_of_beads(const Scene& scene) {
     return static_cast<double>(scene.species[0].count) * pi / 6 * std::pow(scene.species[0].diameter.mean, 3);
 }
 
-// V = pi R^2 z^3 / (3 h^2) of a cone; a third of what the crowd takes is solid. The mean height of what fills
-// a cone to z is 3/4 z, and its deviation sqrt(3/80) z.
+// A cone has V = pi R^2 z^3 / (3 h^2), and a third of the room that the grains take is solid. If a cone is
+// filled to z, the mean height is 3/4 z and its deviation is sqrt(3/80) z.
 TEST_F(MeshStart, LayersFillAConeToTheHeightOfTheirVolume) {
     constexpr double radius = 0.03, height = 0.06;
     write("vessel.stl", cone(radius, height, 180));
@@ -61,7 +61,7 @@ TEST_F(MeshStart, LayersFillAConeToTheHeightOfTheirVolume) {
     EXPECT_LE(highest, 1.02 * top);
     EXPECT_GT(highest, 0.95 * top);
     EXPECT_NEAR(mean, 0.75 * top, 4 * std::sqrt(3.0 / 80 / 300) * top + 0.02 * top);
-    // The plan's bed is that of 0.6 solid.
+    // The plan's bed has a solid fraction of 0.6.
     EXPECT_NEAR(make_plan(scene).bed_height, std::cbrt(1 / 1.8) * top, 0.01 * top);
 }
 
@@ -136,8 +136,8 @@ file = "plate.stl"
     EXPECT_LT(run.measure("centre_z_m"), 0.006);  // a heap on the plate
 }
 
-// Before the run nothing turns, though the turn begins at once: a grain lies where it lies in a vessel that
-// stands. (The floor would drag it along at 63 mm/s.)
+// Nothing turns before the run, though the turn begins at once: a grain lies as in a vessel that stands
+// still. (Otherwise the floor would drag it along at 63 mm/s.)
 TEST_F(MeshStart, WallsStandStillWhileABedSettles) {
     write("vessel.stl", box_of_triangles(Vec3(-0.01, -0.01, 0), Vec3(0.01, 0.01, 0.02)));
     const std::string still = std::string(kBeads) + kVessel,
@@ -158,7 +158,7 @@ TEST_F(MeshStart, WallsStandStillWhileABedSettles) {
 // ---- going on from files ----
 
 TEST_F(MeshStart, ARestingBedStaysAtRestUnderTheSameLaw) {
-    std::filesystem::create_directory(here / "meshes");  // where a run keeps it
+    std::filesystem::create_directory(here / "meshes");  // a run keeps its meshes there
     write("meshes/vessel.stl", box_of_triangles(Vec3(-0.01, -0.01, 0), Vec3(0.01, 0.01, 0.04)));
     std::string text = std::string(kBeads) + kVessel;
     text.replace(text.find("vessel.stl"), 10, "meshes/vessel.stl");
@@ -217,7 +217,7 @@ stiffness = "1e4 N/m"
     EXPECT_EQ(face_names(scene), std::vector<std::string>{"vessel"});
 }
 
-// The wall's own speed counts in v*: 2.2 times that of the rim, 30 rpm x 22.4 mm here.
+// The wall's own speed counts in v*: 2.2 times the speed of the rim, 30 rpm x 22.4 mm here.
 TEST_F(MeshStart, FastWallsMakeTheContactsStiff) {
     write("vessel.stl", box_of_triangles(Vec3(-0.01, -0.01, 0), Vec3(0.01, 0.01, 0.04)));
     const std::string text = std::string(kBeads) + kVessel;
@@ -231,7 +231,7 @@ TEST_F(MeshStart, FastWallsMakeTheContactsStiff) {
     EXPECT_NEAR(fast.wall_speed, 20 * pi * rim, 1e-12);
     EXPECT_NEAR(fast.impact_speed, 2.2 * 20 * pi * rim, 1e-9);
     EXPECT_TRUE(fast.moving_walls);
-    // t_c ~ 1 / v* where impacts demand the stiffness.
+    // t_c ~ 1 / v* where impacts determine the stiffness.
     EXPECT_NEAR(turning("1200 rpm").clock.step / fast.clock.step, 0.5, 0.01);
 }
 

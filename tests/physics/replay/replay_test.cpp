@@ -1,4 +1,4 @@
-// Moments of a run that are brought back from its checkpoints.
+// Tests of moments of a run that are restored from its checkpoints.
 #include "engine/run/replay/replay.hpp"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ bool go_on(double) {
     return true;
 }
 
-// The run of a scene, with checkpoints in its folder, and the scene and the plan as one reads them there.
+// The run of a scene with checkpoints in its folder, and the scene and the plan as they are read there.
 struct RunOnDisk {
     RunOnDisk(const fs::path& folder, std::vector<std::string> sets, int threads) : here(folder) {
         sets.insert(sets.end(), {"start.settle_limit=0.02 s", "run.duration=0.15 s"});
@@ -46,7 +46,7 @@ struct RunOnDisk {
         last = chosen.steps;
         plan = chosen;
     }
-    // To the end, by steps that nobody will take again; `see` at each of these rising steps.
+    // Runs to the end in steps that no replay will take, and calls `see` at each of these rising steps.
     template <class See>
     void go(const std::vector<std::int64_t>& steps, const See& see) {
         CheckpointRing ring(here, 64'000'000, 0, last);
@@ -78,7 +78,7 @@ std::vector<std::int64_t> random_steps(std::size_t count, std::int64_t last) {
     return steps;
 }
 
-// With every instrument, one of which looks at each step: the replay goes without them.
+// The run has every instrument, one of which looks at each step; the replay goes without them.
 TEST(Replay, AMomentHasTheStateThatTheRunHadThere) {
     const test::TemporaryFolder here;
     RunOnDisk run(here.path(), {"output.instruments=[\"energy_balance\", \"walls\", \"surface\", \"bed\"]"},
@@ -94,7 +94,7 @@ TEST(Replay, AMomentHasTheStateThatTheRunHadThere) {
 
 class ReplayWith : public testing::TestWithParam<const char*> {};
 
-// The run stops elsewhere than the replay does: at other steps, and at each for the energy balance.
+// The run stops at other steps than the replay, and at every step for the energy balance.
 TEST_P(ReplayWith, StopsOnTheWayDecideNothing) {
     const test::TemporaryFolder here;
     RunOnDisk run(here.path(), {GetParam(), "output.instruments=[\"energy_balance\"]", "run.duration=0.06 s"},
@@ -119,8 +119,8 @@ INSTANTIATE_TEST_SUITE_P(Integrators, ReplayWith,
                              return name;
                          });
 
-// Newton's second law, of a thousand grains: what a snapshot shows of contacts moves them as the next step
-// does. Velocity Verlet: x' = x + dt v + dt^2 a / 2.
+// Newton's second law for a thousand grains: the contacts in a snapshot move them as the next step does.
+// Velocity Verlet: x' = x + dt v + dt^2 a / 2.
 void expect_contacts_move_grains(const std::vector<std::string>& sets) {
     const test::TemporaryFolder here;
     RunOnDisk run(here.path(), sets, 1);
@@ -179,7 +179,7 @@ TEST(Replay, ADamagedCheckpointIsPassedOver) {
     }
 }
 
-// Checkpoints hold the scene as it was used, so what becomes of scene.toml does not matter.
+// Checkpoints hold the scene as it was used, so changes of scene.toml do not matter.
 TEST(Replay, NeedsNoScene) {
     const test::TemporaryFolder here;
     RunOnDisk run(here.path(), {"run.duration=0.05 s"}, 1);
@@ -189,7 +189,7 @@ TEST(Replay, NeedsNoScene) {
     EXPECT_EQ(run.at(20, 1).state_hash(), hash);
 }
 
-// Bytes of checkpoints that are none: the ring looks at sizes alone.
+// Bytes that are no real checkpoints: the ring looks only at sizes.
 struct Written {
     std::uintmax_t bytes;
     void operator()(const fs::path& file) const { std::ofstream(file) << std::string(bytes, 'x'); }
@@ -198,7 +198,7 @@ struct Written {
 TEST(CheckpointRing, CoversARunOfUnknownLengthEvenly) {
     const test::TemporaryFolder here;
     constexpr std::int64_t last = 100'000;
-    CheckpointRing ring(here.path(), 1'000'000, 0, 10);  // as if the run had been meant to be short
+    CheckpointRing ring(here.path(), 1'000'000, 0, 10);  // as if the run had been planned to be short
     Random random(3, Stream::centres);
     for (std::int64_t step = 0; step < last; step += 1 + static_cast<std::int64_t>(300 * random.uniform()))
         if (ring.due(step)) ring.add(step, Written{100});
@@ -223,7 +223,7 @@ TEST(CheckpointRing, StaysWithinItsBytesAndKeepsTheFirst) {
     EXPECT_LE(bytes, 1000u);
     EXPECT_GE(ring.kept().size(), 5u);
     EXPECT_EQ(ring.kept().front().step, 0);
-    // What is larger than all may be is not kept, and not tried again.
+    // A checkpoint that is larger than all may be together is not kept, and not tried again.
     const test::TemporaryFolder there;
     CheckpointRing small(there.path(), 100, 0, 100);
     small.add(0, Written{150});

@@ -1,4 +1,4 @@
-// Scenes that a program runs with the engine alone: in memory, and in a folder.
+// Tests of scenes that a program runs with the engine alone: in memory, and in a folder.
 #include "engine/run/folder/run_scene.hpp"
 
 #include <gmock/gmock.h>
@@ -79,7 +79,7 @@ TEST(RunScene, SaysWhatIsWrong) {
     EXPECT_EQ(status_in_run_json(how.folder / "run.json"), "failed");
 }
 
-// As `resume` does it, without anything of a film.
+// The run is continued as `resume` does it, but without a film.
 TEST(RunScene, GoesOnInItsFolder) {
     const TemporaryFolder here;
     RunSceneOptions how;

@@ -1,5 +1,5 @@
-// Once a bed has been through its motions, stepping it asks the heap for nothing but to hold more contacts
-// than ever before.
+// Test that once a bed has been through its motions, the step asks the heap for memory only to hold more
+// contacts than ever before.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -20,7 +20,7 @@ void* allocated(std::size_t size, std::size_t alignment) {
     return memory;
 }
 
-// Not inlined, or the compiler takes new and delete for two that do not go together.
+// If this were inlined, the compiler would take new and delete for two that do not belong together.
 [[gnu::noinline]] void release(void* memory) {
     std::free(memory);
 }
@@ -33,7 +33,7 @@ void* operator new(std::size_t size) {
 void* operator new(std::size_t size, std::align_val_t alignment) {
     return allocated(size, static_cast<std::size_t>(alignment));
 }
-// std::stable_sort asks so; a sanitizer's own would not go with the delete below.
+// std::stable_sort uses this form; a sanitizer's own form would not fit the delete below.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     if (counting) ++allocations;
     return std::malloc(size);
@@ -66,8 +66,8 @@ TEST(Allocations, AreNoneInTheStepLoop) {
             const std::int64_t period = bed.plan.clock.steps_per_period;
             loop.run(0, 3 * period, step, 0);
             constexpr int kGrowth = 14;  // allocations of two tables that grow
-            // Threads that others keep from working get smaller shares, and then larger ones than ever
-            // before: not for ever.
+            // Threads that other programs keep from working get smaller shares, and later larger ones than
+            // ever before. This does not go on for ever.
             const int last = threads == 1 ? 3 : 8;
             for (int n = 3; n <= last && (n == 3 || allocations > kGrowth); ++n) {
                 const std::int64_t rebuilds = loop.rebuilds();

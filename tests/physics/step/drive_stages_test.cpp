@@ -1,5 +1,5 @@
-// A drive that changes: place and velocity where stages meet, accelerations, the count of periods, taps,
-// rest, and a ball that meets the plate in the course of a change.
+// Tests of a drive that changes: place and velocity where stages meet, accelerations, the count of periods,
+// taps, rest, and a ball that meets the plate during a change.
 #include <gtest/gtest.h>
 
 #include "engine/plan/times.hpp"
@@ -50,7 +50,8 @@ TEST(DriveStages, PlaceAndVelocityAreContinuous) {
         drive.phase = 0.1;
         const Clock clock = clock_of(drive);
         const WallMotion motion(drive, clock);
-        ASSERT_EQ(clock.changes.stretches().size(), 8u);  // 5 stages, 3 changes; none from rest to taps
+        ASSERT_EQ(clock.changes.stretches().size(),
+                  8u);  // 5 stages and 3 changes; there is no change from rest to taps
         for (std::size_t i = 1; i < 8; ++i) {
             const double start = clock.changes.stretches()[i].start;
             const auto after = static_cast<std::int64_t>(std::ceil(start));
@@ -67,7 +68,7 @@ TEST(DriveStages, VelocityIsTheRateOfThePlace) {
     const Drive drive = changing_drive();
     const Clock clock = clock_of(drive);
     const WallMotion motion(drive, clock);
-    // A tap begins and ends with its full acceleration, A = (2 pi f)^2 a: there the mean is off by A dt / 4.
+    // A tap begins and ends with its full acceleration, A = (2 pi f)^2 a; there the mean is off by A dt / 4.
     const double at_taps = 0.26 * 4 * kGravity * clock.step;
     for (std::int64_t n = 5; n < 480000; n += 97) {
         const double rate = (motion.at(n + 1).offset.z() - motion.at(n - 1).offset.z()) / (2 * clock.step);
@@ -76,7 +77,7 @@ TEST(DriveStages, VelocityIsTheRateOfThePlace) {
     }
 }
 
-// m/s2, the largest between two times, from second differences of the place.
+// Largest acceleration in m/s2 between two times, from second differences of the place.
 double largest_acceleration(const WallMotion& motion, const Clock& clock, double from, double to) {
     double largest = 0;
     const auto first = static_cast<std::int64_t>(std::ceil(from / clock.step)) + 1;
@@ -89,7 +90,8 @@ double largest_acceleration(const WallMotion& motion, const Clock& clock, double
 }
 
 TEST(DriveStages, PeakAccelerationIsGammaInAStageAndBoundedInAChange) {
-    // With 3 periods and up to twice the frequency no change exceeds the larger of both by more than 8 %.
+    // With 3 periods and up to twice the frequency, no change exceeds the larger acceleration by more than 8
+    // %.
     for (const double frequency : {10.0, 14.0, 28.0, 40.0}) {
         for (const double g_level : {1.2, 3.0, 6.0}) {
             const Drive drive = drive_of({stage(Kind::vibrate, 0.5, frequency, g_level)});
@@ -100,7 +102,8 @@ TEST(DriveStages, PeakAccelerationIsGammaInAStageAndBoundedInAChange) {
             const double in_change = largest_acceleration(motion, clock, begins, settled) / kGravity;
             EXPECT_LE(in_change, 1.08 * std::max(3.0, g_level)) << frequency << " Hz, " << g_level;
             EXPECT_LE(in_change, 1.0001 * peak_acceleration_of_change(schedule, 1) / kGravity);
-            // A sine seen at steps of 1/1000 of a period: cos(pi / 1000) of it at least.
+            // A sine is sampled at steps of 1/1000 of a period, so its largest value is at least cos(pi /
+            // 1000).
             EXPECT_NEAR(largest_acceleration(motion, clock, begins - 0.1, begins) / kGravity, 3, 1e-4);
             EXPECT_NEAR(largest_acceleration(motion, clock, settled, settled + 0.2) / kGravity, g_level,
                         1e-4 * g_level);
@@ -108,7 +111,7 @@ TEST(DriveStages, PeakAccelerationIsGammaInAStageAndBoundedInAChange) {
     }
 }
 
-// By Simpson's rule over the frequency that the documentation promises.
+// The expected count is the integral, by Simpson's rule, of the frequency that the documentation promises.
 TEST(DriveStages, CountOfPeriodsIsTheIntegralOfTheFrequency) {
     const Drive drive = drive_of({stage(Kind::vibrate, 0.5, 31, 2), stage(Kind::vibrate, 1.2, 12, 1.5)});
     const Clock clock = clock_of(drive);
@@ -138,7 +141,7 @@ TEST(DriveStages, StepsAndPeriodsAreEachOthersInverse) {
     }
 }
 
-// The phase is counted, not summed up.
+// The phase is computed from a count and not by adding up.
 TEST(DriveStages, PhaseOfALateStageLosesNoDigit) {
     const Drive drive = drive_of({stage(Kind::vibrate, 0.5, 32, 2)});  // 5000 steps
     const Clock clock = clock_of(drive);
@@ -148,7 +151,7 @@ TEST(DriveStages, PhaseOfALateStageLosesNoDigit) {
     EXPECT_EQ(motion.at(late).offset.z(), motion.at(later).offset.z());
 }
 
-// A tap goes up by 2a and back in 1 / f, and then all is at rest until the next.
+// A tap goes up by 2a and back in 1 / f, and then everything rests until the next tap.
 TEST(DriveStages, TapsAreAsHighAndAsLongAsTheySay) {
     const double a = amplitude_of(4, 30);
     const Drive drive = drive_of({stage(Kind::taps, 0, 30, 4, 0.2)}, 30);
@@ -184,7 +187,8 @@ TEST(DriveStages, RestIsAtRest) {
     EXPECT_EQ(clock.cycles(settled + 8000), 14);  // its periods go on
 }
 
-// Balls that come down one after the other rebound from the plate as it moves then: e = -(v' - w) / (v - w).
+// Balls that come down one after the other rebound from the plate by its velocity at that time: e = -(v' - w)
+// / (v - w).
 TEST(DriveStages, BallsReboundFromThePlateAsItMoves) {
     const double e = 0.7, speed = 1, stroke = 0.005;
     const Drive drive = drive_of({stage(Kind::vibrate, 0.2, 35, 3), stage(Kind::rest, 0.4, 0, 0)});

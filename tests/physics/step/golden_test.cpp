@@ -1,7 +1,8 @@
-// The same bits for any number of threads and on AVX2 and AVX-512, which fuse multiplications with additions;
-// those of SSE4, which cannot, for any number of threads. Two cases also hold today's bits against
-// yesterday's: a change of them must be meant. That the step is right is shown by reference_test.cpp. Bits
-// depend on the compiler's order of operations, so the hashes are those of GCC.
+// Tests that the bits are the same for any number of threads and on AVX2 and AVX-512, which fuse
+// multiplications with additions; and that those of SSE4, which cannot, are the same for any number of
+// threads. Two cases also compare today's bits with yesterday's, so that no change of them goes unnoticed.
+// reference_test.cpp shows that the step is right. Bits depend on the compiler's order of operations, so the
+// hashes are those of GCC.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -17,15 +18,15 @@ struct Golden {
     const char* name;
     int particles;
     Precision precision;
-    int steps;                           // before, so many that pairs touch
-    std::uint64_t fused = 0, plain = 0;  // of yesterday; 0: not held against them
+    int steps;                           // number of steps before the test, so that pairs touch
+    std::uint64_t fused = 0, plain = 0;  // yesterday's hashes; 0: not compared
 };
 
 bool has(std::int64_t target) {
     return (hwy::SupportedTargets() & HWY_TARGETS & target) != 0;
 }
 
-// work() with the kernels of one instruction set.
+// Calls work() with the kernels of one instruction set.
 template <class Work>
 void at_width(std::int64_t target, const Work& work) {
     hwy::GetChosenTarget().Update(target);
@@ -38,7 +39,7 @@ const BenchCase& case_of(const Golden& golden) {
     return *std::find_if(all.begin(), all.end(), [&](const BenchCase& c) { return c.name == golden.name; });
 }
 
-// A case's bed after so many steps of one thread, the drive being about to start.
+// The bed of a case after so many steps of one thread, just before the drive starts.
 BenchBed fallen(const Golden& golden, std::int64_t steps) {
     BenchBed bed = case_of(golden).bed(golden.particles);
     for (auto* kinds : {&bed.plan.grain, &bed.plan.wall})
@@ -71,7 +72,7 @@ void expect_golden([[maybe_unused]] std::uint64_t hash, [[maybe_unused]] std::ui
 TEST_P(GoldenHash, HoldsForAnyThreadsAndWidth) {
     BenchBed bed;
     std::uint64_t plain = 0;
-    // Builds without SSE4, those of the sanitizers, have plain code in its place, with the same bits.
+    // Builds without SSE4, such as those of the sanitizers, have plain code in its place, with the same bits.
     at_width(has(HWY_SSE4) ? HWY_SSE4 : HWY_STATIC_TARGET, [&] {
         bed = fallen(GetParam(), GetParam().steps);
         const std::uint64_t hash = hash_after(bed, 1);
@@ -104,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
         return name + (one.param.precision == Precision::mixed ? "_mixed" : "");
     });
 
-// In a large bed grains go on with the next step before the rest (see Vanguard), as far as no other thread
+// In a large bed some grains begin the next step before the others (see Vanguard), as far as no other thread
 // reads them.
 TEST(Threads, LargeBedHasTheSameBits) {
     const Golden bed10k{"bed10k", 800, Precision::full, 30000};

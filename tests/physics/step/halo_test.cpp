@@ -1,4 +1,4 @@
-// What a thread reads of other threads' grains, and contacts in a new order.
+// Tests of copies of other threads' grains that a thread reads, and of contacts in a new order.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -34,7 +34,7 @@ void move_to(Grains& grains, int time) {
     }
 }
 
-// Reads 7, 9 and 35 of the others.
+// The thread reads 7, 9 and 35 of the others.
 Halo halo_of(Grains& grains) {
     Halo halo;
     halo.own(10, 30, 9, kGrains);
@@ -64,11 +64,11 @@ TEST_P(HaloOf, BringsWhatOwnersHadWhenTheyPutItIn) {
     std::copy_n(first, 3, one), std::copy_n(second, 3, two);
     std::fill(one + 3, one + kBlock, 12), std::fill(two + 3, two + kBlock, 13);
     KickInput kicks;
-    kicks.drift = 1;  // shows if copies that have come move
+    kicks.drift = 1;  // would show if copies that have come are moved again
     for (const int box : {0, 1}) {
         halo.get(grains, box, {kicks, true});
         const Halo::Bodies at = halo.find(one, two, 3);
-        EXPECT_EQ(at.second[0], 12);  // its own where they are
+        EXPECT_EQ(at.second[0], 12);  // its own grains stay at their places
         EXPECT_EQ(at.first[2], 12);
         const std::pair<std::int32_t, std::int32_t> foreign[] = {
             {at.first[0], 7}, {at.first[1], 9}, {at.second[1], 35}};
@@ -86,7 +86,7 @@ TEST_P(HaloOf, BringsWhatOwnersHadWhenTheyPutItIn) {
     }
 }
 
-// Bit by bit as their owners move them, though these send only what has contacts.
+// Copies that are not sent move bit by bit as their owners move them: owners send only grains with contacts.
 TEST_P(HaloOf, LetsCopiesFlyThatDoNotCome) {
     Grains grains = some_grains(GetParam());
     move_to(grains, 1);
@@ -121,7 +121,7 @@ TEST_P(HaloOf, LetsCopiesFlyThatDoNotCome) {
 INSTANTIATE_TEST_SUITE_P(Precision, HaloOf, testing::Bool(),
                          [](const auto& one) { return one.param ? "mixed" : "full"; });
 
-// Chunks of own grains stay as they are listed; the others are as find() has them.
+// Chunks of own grains stay as they are listed; the others are as find() gives them.
 TEST(FoundPairs, AreWhatFindSays) {
     Grains grains = some_grains(false);
     Halo halo = halo_of(grains);
@@ -145,7 +145,7 @@ TEST(FoundPairs, AreWhatFindSays) {
     EXPECT_EQ(found.of(first.data(), second.data(), kChunk).first, first.data() + kChunk);
 }
 
-// Some contacts go, some late ones come in between: as it is when a table is sorted.
+// Some contacts go and some late ones come in between, as when a table is sorted.
 TEST(Reorder, PutsEachContactsNumbersWhereTheOrderSays) {
     std::mt19937 random(1);
     for (const std::size_t number_size : {sizeof(double), sizeof(float)}) {

@@ -1,4 +1,4 @@
-// Balls on meshes: as on planes and cylinders, where the mesh is one.
+// Tests of balls on meshes: they move as on planes and cylinders of the same shape.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -17,7 +17,7 @@ PairPlan rubbing_pair() {
     return pair;
 }
 
-// Slides, and then rolls.
+// A ball that slides and then rolls.
 World ball_on(const std::function<void(World&)>& ground) {
     World w = make_world(rubbing_pair(), 2e-6);
     ground(w);
@@ -48,7 +48,7 @@ TEST(MeshContacts, ABallRollsOnTrianglesAsOnAPlane) {
     }
 }
 
-// On a face, over an edge and over a vertex.
+// A ball falls on a face, over an edge and over a vertex.
 TEST(MeshContacts, ABallReturnsAlikeFromFacesEdgesAndVertices) {
     const auto rebound = [](const Vec3& above) {
         World w = make_world(walton_braun_pair(0.8, 0.3), 1e-6);
@@ -104,7 +104,7 @@ TriangleMesh mesh_of(const std::vector<Face>& faces, double size) {
     return mesh;
 }
 
-// Forces over a few steps, in places anywhere in the wedge, at any velocity and spin.
+// Compares forces over a few steps, at places anywhere in the wedge and at any velocity and spin.
 TEST(MeshContacts, TheWedgeOfTrianglesPushesAsThatOfPlanes) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> one(-1, 1);
@@ -115,7 +115,7 @@ TEST(MeshContacts, TheWedgeOfTrianglesPushesAsThatOfPlanes) {
         Vec3 at(0.009 * one(random), 0.018 * one(random), 0.02 + 0.0185 * one(random));
         const Vec3 velocity(one(random), one(random), one(random));
         const Vec3 spin = 100 * Vec3(one(random), one(random), one(random));
-        // Onto the walls that are near.
+        // Moves the ball to the walls that are near.
         for (const Face& face : faces) {
             const double distance = distance_to(face, Vec3::Zero(), at).distance;
             if (distance < 1.3 * kRadius) at += (kRadius - 1e-5 - distance) * face.normal;
@@ -143,7 +143,7 @@ TEST(MeshContacts, TheWedgeOfTrianglesPushesAsThatOfPlanes) {
     EXPECT_GT(touched, 300);
 }
 
-// In a corner of one mesh, whose sides meet in edges.
+// A ball lies in a corner of one mesh, whose sides meet in edges.
 TEST(MeshContacts, ABoxOfTrianglesHoldsABallInItsCornerAsPlanesDo) {
     const auto pushed = [](bool triangles) {
         World w = make_world(walton_braun_pair(0.9, 0.4), 1e-6);
@@ -168,7 +168,7 @@ TEST(MeshContacts, ABoxOfTrianglesHoldsABallInItsCornerAsPlanesDo) {
     EXPECT_LT((planes.torque - mesh.torque).norm(), of_rounding(1e-9, 1e-5) * planes.torque.norm());
 }
 
-// Two ridges that a ball meets at once are two contacts; each is shown with the mesh's number and a triangle.
+// A ball that meets two ridges at once has two contacts, each of which has the mesh's number and a triangle.
 TEST(MeshContacts, AreShownWithTheirMeshAndTriangle) {
     World w = make_world(rubbing_pair(), 1e-6);
     w.around.faces = {floor_face()};
@@ -193,7 +193,7 @@ TEST(MeshContacts, AreShownWithTheirMeshAndTriangle) {
     EXPECT_EQ(seen, 2);
 }
 
-// mu = 0, e = 1: nothing is lost, neither on faces nor on seams, edges and in corners.
+// With mu = 0 and e = 1 nothing is lost on faces, seams and edges and in corners.
 TEST(MeshContacts, AnElasticGasKeepsItsEnergyInAClosedMesh) {
     const auto energies = [](bool triangles) {
         PairPlan pair = walton_braun_pair(1, 0);

@@ -1,4 +1,4 @@
-// Which grains and triangles are listed: those that asking each alone gives.
+// Tests that those grains and triangles are listed that are found by looking at each one.
 #include "engine/step/lists/mesh_near.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::vector<std::int32_t> listed_in(const MeshLists& lists) {
     return numbers;
 }
 
-// The grain creeps, so that what was found before serves again, and sometimes it jumps.
+// The grain creeps, so that earlier finds are used again, and sometimes it jumps.
 TEST(MeshLists, HoldAllTrianglesWithinReachWhereverTheGrainGoes) {
     const auto surface = surface_of(box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1), 9));
     std::mt19937_64 random(3);
@@ -43,7 +43,7 @@ TEST(MeshLists, HoldAllTrianglesWithinReachWhereverTheGrainGoes) {
     }
 }
 
-// In a box the four sides of a triangle's square lie in one plane, those round the corner in others.
+// In a box the two triangles of a side lie in one plane, and those around the corner in others.
 TEST(MeshLists, FlatNeighboursStandBehindTheFirst) {
     const auto surface = surface_of(box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1), 4));
     MeshLists lists;

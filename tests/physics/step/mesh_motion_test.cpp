@@ -1,5 +1,5 @@
-// Meshes and faces that turn: what they do to a ball, and the same bits on any number of threads and through
-// a checkpoint.
+// Tests of meshes and faces that turn: what they do to a ball, and the same bits on any number of threads and
+// through a checkpoint.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,8 +23,8 @@ Face turning_floor(const BodyTurn& turn) {
     return face;
 }
 
-// A ball that rolls without slip on a turning plate goes round in circles, at 2/7 of the plate's rate:
-// m a = T, I w' = -r z x T and no slip give v' = 2/7 W x v (Weltner 1979, Am. J. Phys. 47, 984).
+// A ball that rolls without slip on a turning plate goes round in circles at 2/7 of the plate's rate: m a =
+// T, I w' = -r z x T and no slip give v' = 2/7 W x v (Weltner 1979, Am. J. Phys. 47, 984).
 class TurningPlate : public testing::TestWithParam<bool> {};
 
 TEST_P(TurningPlate, LeadsARollingBallRoundATwoSeventhsOfItsRate) {
@@ -57,7 +57,7 @@ TEST_P(TurningPlate, LeadsARollingBallRoundATwoSeventhsOfItsRate) {
 INSTANTIATE_TEST_SUITE_P(, TurningPlate, testing::Values(true, false),
                          [](const auto& of) { return std::string(of.param ? "OfTriangles" : "OfAFace"); });
 
-// A ball pressed to a drum's wall by gravity across its axis.
+// A ball in a drum that gravity presses to the wall, across the drum's axis.
 struct InDrum {
     Vec3 position, velocity, spin;
     double work;    // J, of the drum
@@ -95,11 +95,12 @@ InDrum in_drum(int facets, std::int64_t steps, double friction = 0.5, double rol
             moment / static_cast<double>(steps)};
 }
 
-// At first it slips, and the wall drags it with mu m g; at last it rolls at the bottom, or swings about it.
+// At first it slips, and the wall drags it with mu m g. In the end it rolls at the bottom, or swings about
+// it.
 TEST(TurningDrum, SpinsABallUp) {
     for (const int facets : {0, 360}) {
         const InDrum end = in_drum(facets, 500000);
-        // No slip: the ball's surface moves with the wall.
+        // Without slip the ball's surface moves with the wall.
         const Vec3 k = Vec3(end.position.x(), end.position.y(), 0).normalized();
         const Vec3 wall = 5 * Vec3(0, 0, 1).cross(0.02 * k);
         const Vec3 slip = end.velocity + end.spin.cross(kRadius * k) - wall;
@@ -108,7 +109,8 @@ TEST(TurningDrum, SpinsABallUp) {
 }
 
 TEST(TurningDrum, Of360FacetsTakesTheTorqueOfTheRoundOne) {
-    // One facet passes below the ball, whose slope adds nothing to the mean then. The ball slips meanwhile.
+    // One facet passes below the ball, so its slope adds nothing to the mean. The ball slips during this
+    // time.
     const std::int64_t steps = std::llround(2 * std::numbers::pi / 360 / 5 / 2e-6);
     const double time = 2e-6 * static_cast<double>(steps);
     const InDrum round = in_drum(0, steps), facets = in_drum(360, steps);
@@ -124,7 +126,7 @@ TEST(TurningDrum, WithoutFrictionNeedsNoPower) {
     const InDrum round = in_drum(0, 20000, 0), facets = in_drum(360, 20000, 0);
     const double of_friction = std::abs(in_drum(0, 20000).moment);
     EXPECT_LT(std::abs(round.moment), 1e-9 * of_friction);
-    EXPECT_LT(std::abs(facets.moment), 0.02 * of_friction);  // a polygon has lower and higher places
+    EXPECT_LT(std::abs(facets.moment), 0.02 * of_friction);  // a polygon has higher and lower places
 }
 
 TEST(TurningDrum, DoesTheWorkOfRollingResistanceToo) {
@@ -133,7 +135,7 @@ TEST(TurningDrum, DoesTheWorkOfRollingResistanceToo) {
     EXPECT_NEAR(facets.work, round.work, 0.01 * round.work);
 }
 
-// Ball and wall turn as one body, about an axis far away: nothing slips, and what was stored stays.
+// Ball and wall turn as one body about an axis far away: nothing slips, and the stored force stays.
 TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
     const double rate = 30;
     for (const bool triangles : {true, false}) {
@@ -148,7 +150,7 @@ TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
         w.grains.motion[0].spin = rate * turn.axis;
         w.grains.motion[0].velocity = rate * turn.axis.cross(at - turn.through);
         w.start();
-        // The centre would fly straight on. In each step it flies to where the turn takes it.
+        // The centre would fly straight on, so it is sent in each step to where the turn takes it.
         const auto place = [&](int k) {
             return Vec3(turn.through + Eigen::AngleAxisd(rate * k * 1e-6, turn.axis) * (at - turn.through));
         };
@@ -186,7 +188,7 @@ World in_turning_box(bool triangles, const BodyTurn& turn, const PairPlan& pair)
     return w;
 }
 
-// Balls beside a side, an edge or a corner, at any velocity and spin, in a box that turns about any axis.
+// Balls lie beside a side, an edge or a corner, at any velocity and spin, in a box that turns about any axis.
 TEST(TurningBox, OfTrianglesPushesAsThatOfPlanes) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> one(-1, 1);
@@ -223,8 +225,8 @@ TEST(TurningBox, OfTrianglesPushesAsThatOfPlanes) {
     EXPECT_GT(touched, 200);
 }
 
-// A ball too heavy to move, and a side that turns into it: the force is k times the overlap with the turned
-// plane, along its turned normal.
+// A side turns into a ball that is too heavy to move. The force is k times the overlap with the turned plane,
+// along its turned normal.
 TEST(TurningBox, PressesAsTheTurnedPlaneDoes) {
     const BodyTurn turn = turn_about(Vec3(2, -1, 2) / 3, 20, Vec3(-0.004, 0.007, 0.011));
     const Vec3 normal(-1, 0, 0), on_side(0.01, 0, 0), at(0.01 - kRadius + 1e-6, 0.002, 0.03);
@@ -239,7 +241,7 @@ TEST(TurningBox, PressesAsTheTurnedPlaneDoes) {
                 Eigen::AngleAxisd(turn.rate * w.plan.clock.step * 50 * k, turn.axis).toRotationMatrix();
             const Vec3 n = turned * normal, there = turn.through + turned * (on_side - turn.through);
             const double overlap = kRadius - n.dot(at - there);
-            ASSERT_GT(overlap, last);  // it is loaded all the time
+            ASSERT_GT(overlap, last);  // it is being loaded all the time
             last = overlap;
             EXPECT_LT((w.grains.load[0].force - kStiffness * overlap * n).norm(),
                       of_rounding(1e-9, 1e-4) * kStiffness * overlap)
@@ -326,7 +328,7 @@ TEST(MeshSameBits, OnOneTwoAndThreeThreads) {
     EXPECT_EQ(seen[0], seen[2]);
 }
 
-// Saved in mid-contact, and read by another number of threads.
+// The run is saved during contacts, and read by another number of threads.
 TEST(MeshSameBits, ThroughACheckpoint) {
     for (const std::int64_t at : {1500, 2777, 4001}) {
         World whole = bed(1);

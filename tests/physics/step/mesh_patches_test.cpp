@@ -1,4 +1,4 @@
-// Where a grain touches a mesh: once for each patch of surface, whatever the triangles.
+// Tests that a grain touches a mesh once for each patch of surface, whatever the triangles are.
 #include "engine/step/geometry/patches.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSize = 1, kRadiusHere = 0.1;
 
-// The triangles are asked in a random order.
+// The patches found when the triangles are asked in a random order.
 std::vector<Patch> patches_of(const Surface& surface, const Vec3& centre, double radius = kRadiusHere) {
     std::vector<std::int32_t> near;
     surface.near(centre, radius, near);
@@ -74,7 +74,7 @@ TEST(Patches, InABoxEachSideCounts) {
     EXPECT_EQ(patches_of(*surface, Vec3(-0.5, -0.5, -0.09)).size(), 1u);
     EXPECT_EQ(patches_of(*surface, Vec3(-0.5, -0.08, -0.09)).size(), 2u);
     EXPECT_EQ(patches_of(*surface, Vec3(-0.07, -0.08, -0.09)).size(), 3u);
-    // Far from the side wall: its edge with the floor is within reach, but the floor is nearer there.
+    // This place is far from the side wall: its edge with the floor is within reach, but the floor is nearer.
     EXPECT_EQ(patches_of(*surface, Vec3(-0.5, -0.09, -0.02)).size(), 2u);
 }
 
@@ -89,7 +89,7 @@ TEST(Patches, AGrooveCountsTwiceUnlessItIsShallow) {
         EXPECT_EQ(touched_in_groove(90 * degree, Vec3(0.1, 0, 0.09 * std::sqrt(2.0)), n), 2);
         EXPECT_EQ(touched_in_groove(40 * degree, Vec3(0.1, 0, 0.0999), n), 2);
         EXPECT_EQ(touched_in_groove(5 * degree, Vec3(0.1, 0, 0.0999), n), 1);
-        // Lying on one side of it, with the edge within reach.
+        // The grain lies on one side of the groove, with the edge within reach.
         const double tilt = 6 * degree;
         const Vec3 on_right = Vec3(0.1, 0.03 * std::cos(tilt) - 0.09 * std::sin(tilt),
                                    0.03 * std::sin(tilt) + 0.09 * std::cos(tilt));
@@ -114,7 +114,7 @@ TEST(Patches, TheTipOfAConeIsOnePlaceWhateverItsSides) {
     }
 }
 
-// A direction in the polar cone of a needle's tip may see half of its sides from behind.
+// From a direction in the polar cone of a needle's tip, half of its sides may be seen from behind.
 TEST(Patches, ANeedleIsTouchedOnceFromTheSide) {
     for (const int sides : {10, 50}) {
         const auto surface = surface_of(cone_mesh(0.05, 1, sides));
@@ -127,7 +127,7 @@ TEST(Patches, ANeedleIsTouchedOnceFromTheSide) {
     }
 }
 
-// Facets that turn by less than 10.5 degrees are one wall, at every place within.
+// Facets that turn by less than 10.5 degrees are one wall, at every place inside.
 TEST(Patches, ARoundTubeIsTouchedOnce) {
     for (const int facets : {36, 90, 360}) {
         const auto surface = surface_of(tube_mesh(1, 2, facets, 8));

@@ -38,7 +38,7 @@ inline TriangleMesh square_mesh(double side, int n) {
     return mesh;
 }
 
-// A tube about the z axis, from -length / 2 to length / 2; corners of its facets lie on the circle.
+// A tube about the z axis, from -length / 2 to length / 2. The corners of its facets lie on the circle.
 inline TriangleMesh tube_mesh(double radius, double length, int facets, int rings) {
     TriangleMesh mesh;
     add_sheet(
@@ -104,12 +104,12 @@ inline std::shared_ptr<const Surface> surface_of(TriangleMesh mesh) {
     return std::make_shared<Surface>(std::move(mesh), facts, "by hand");
 }
 
-// Lets time pass for bodies with a motion of their own.
+// Lets time pass for bodies with motions of their own.
 inline void start_clock(World& w) {
     w.around.motion = WallMotion(Drive{}, w.plan.clock);
 }
 
-// The contact is that of walls.
+// Adds a mesh with the contact of walls.
 inline MeshWall& add_mesh(World& w, const std::string& name, TriangleMesh mesh) {
     MeshWall wall;
     wall.name = name;
