@@ -11,8 +11,9 @@
 
 namespace grainreel {
 
-// The plan has the time of the smallest: for a linear spring it grows as the root of the mass, for Hertz' as
-// (m / k)^(2/5) with k as the root of the radius (hertz_contact_time).
+// The plan holds the contact time of the smallest grains. That of mean grains is longer: for a linear
+// spring it grows as the root of the mass, for Hertz' as (m / k)^(2/5), where k grows as the root of the
+// radius (hertz_contact_time).
 double ContactKind::mean_contact_time() const {
     const Touching smallest = extremes(first, other()).front(), mean = mean_touching(first, other());
     const double heavier = mean.effective_mass / smallest.effective_mass;

@@ -1,5 +1,5 @@
 // The kinds of contact that a run can have: whose grains can meet, and how many of all contacts each kind
-// has. What is said of a bed is said of most of its contacts, and the extreme by its name.
+// has. A message about the bed is about most of its contacts; the extreme kind is given by its name.
 #pragma once
 
 #include <optional>
@@ -15,25 +15,26 @@ struct ContactKind {
     std::string name;      // "\"nut\" and \"bead\"", "\"nut\" and a wall", "\"nut\" and \"drum\""
     const PairPlan* pair;  // lives as long as the plan
     Species first;
-    std::optional<Species> second;  // empty: a wall or a mesh; of infinite density where it is glued to one
+    std::optional<Species> second;  // empty for a wall or a mesh; a glued grain has infinite density
     bool at_wall = false;           // a wall, a mesh, or what is glued to a wall
     // Share of all contacts between grains, or of all at walls. It is estimated: a grain has contacts in
     // proportion to its surface.
     double share = 0;
 
     const Species* other() const { return second ? &*second : nullptr; }
-    double mean_contact_time() const;  // s, of grains of mean size
-    double smaller_diameter() const;   // m, of the mean ones
+    double mean_contact_time() const;  // s, between grains of mean size
+    double smaller_diameter() const;   // m, the mean diameter of the smaller species
 };
 
-// A single grain never meets its like, and there are walls only where there is a container or a plane.
+// There is no kind for a species of a single grain with itself, and none at walls without container or
+// plane.
 std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan);
 
-// Share of contacts that each species has among all grains; 0 for one that is only glued to walls.
+// Share of all contacts between grains that each species has; 0 for a species that is only glued to walls.
 std::vector<double> contact_shares(const Scene& scene);
 
-// The smallest and the largest restitution of a free impact at the plan's impact speed, over the smallest and
-// largest grains of the two species. b: nullptr for a wall.
+// The smallest and the largest restitution of a free impact at the plan's impact speed, over the smallest
+// and largest grains of the two species. b is nullptr for a wall.
 struct RestitutionRange {
     double low = 1, high = 0;
 };

@@ -12,13 +12,15 @@ namespace {
 
 using std::numbers::pi;
 
-// Where a damping is known to lie: up to `low` the restitution is larger than wanted, from `high` on not.
+// Where a damping is known to lie: up to `low` the restitution is larger than wanted, from `high` on it is
+// not.
 struct Bracket {
     double low = 0, high = std::numeric_limits<double>::infinity();
 };
 
-// The damping in [0, most] at which a restitution that falls with it takes the wanted value, by sixty
-// halvings. What a bracket knows is not computed; the answer is the same, bit for bit.
+// The damping in [0, most] at which the restitution, which falls with the damping, takes the wanted value.
+// It is found by sixty halvings. The bracket saves computing what it already knows; the result is the same,
+// bit for bit.
 template <class Restitution>
 double solve(double wanted, double most, const Restitution& restitution, const Bracket& known = {}) {
     double low = 0, high = most;
@@ -31,7 +33,7 @@ double solve(double wanted, double most, const Restitution& restitution, const B
     return 0.5 * (low + high);
 }
 
-// -ln e of the dashpot that pulls, over pi: beta / sqrt(1 - beta^2).
+// The dashpot may pull: beta / sqrt(1 - beta^2) = -ln e / pi gives beta.
 double logarithmic(double restitution) {
     const double logarithm = -std::log(restitution);
     return logarithm / std::sqrt(pi * pi + logarithm * logarithm);
@@ -56,8 +58,8 @@ double linear_damping(double restitution, bool attraction) {
 
 namespace {
 
-// x'' = -x^(3/2) - d x^(1/4) x' from x = 0, x' = 1, by the classical Runge-Kutta method, until the force
-// ends.
+// Integrates x'' = -x^(3/2) - d x^(1/4) x' from x = 0, x' = 1 by the classical Runge-Kutta method, until
+// the force ends.
 struct HertzImpact {
     double restitution = 0;
     int steps = 0;
@@ -83,7 +85,7 @@ HertzImpact hertz_impact(double damping) {
     return {v < 0 ? -v : 0, step};
 }
 
-// Close to the damping of a restitution, by secants from two guesses.
+// Finds a damping close to that of the wanted restitution, by secants from two guesses.
 double approach(double restitution, double before, double at) {
     double error_before = hertz_impact(before).restitution - restitution;
     for (int look = 0; look < 12; ++look) {
@@ -96,9 +98,9 @@ double approach(double restitution, double before, double at) {
     return at;
 }
 
-// The narrowest bracket that holds for certain. The integration ends with a step, so the restitution jumps by
-// up to 1e-6 where the number of steps changes. The wide bracket is wider than such jumps are high; the
-// narrow one, wider than rounding, holds when there is no jump within the wide one.
+// The narrowest bracket that is certain to hold. The integration ends with a whole step, so the restitution
+// jumps by up to 1e-6 where the number of steps changes. The wide bracket is wide enough for such jumps.
+// The narrow one is only wider than rounding, and holds when no jump lies within the wide one.
 Bracket hertz_bracket(double restitution, double damping) {
     constexpr double wide = 1e-5, narrow = 3e-13;  // over the damping
     Bracket known;
@@ -138,7 +140,7 @@ double hertz_contact_time(double mass, double k, double speed) {
 double hertz_damping(double restitution, bool attraction) {
     if (restitution == 1) return 0;
     if (attraction) return std::sqrt(5) * logarithmic(restitution);
-    // A scene asks for the same few, kind of contact by kind of contact.
+    // A scene has few restitutions but many kinds of contact, so found dampings are kept.
     static std::mutex turn;
     static std::map<double, double> found;
     const std::lock_guard lock(turn);

@@ -1,22 +1,25 @@
-// How strong a dashpot must be for a wanted restitution, and the other way round. Dimensionless.
+// How strong a dashpot must be for a wanted restitution, and which restitution a dashpot gives.
+// Dimensionless.
 #pragma once
 
 namespace grainreel {
 
-// Linear spring and dashpot, beta = c / (2 sqrt(m k)) the damping ratio. While the dashpot may pull the
-// contact ends with the overlap: e = exp(-pi beta / sqrt(1 - beta^2)), beta < 1. Without attraction it ends
-// with the force, a little earlier and faster (Schwager & Poeschel 2007, Granul. Matter 9, 465, eq. 21).
+// Linear spring and dashpot; beta = c / (2 sqrt(m k)) is the damping ratio. Where the dashpot may pull
+// (attraction), the contact ends with the overlap: e = exp(-pi beta / sqrt(1 - beta^2)), beta < 1. Without
+// attraction it ends with the force, a little earlier and faster (Schwager & Poeschel 2007, Granul. Matter
+// 9, 465, eq. 21).
 double linear_restitution(double beta, bool attraction);
 double linear_damping(double restitution, bool attraction);
 
 // Hertz' spring with the dashpot d sqrt(m k) a^(1/4) v (Tsuji, Tanaka & Ishida 1992, Powder Technol. 71,
-// 239), whose restitution does not depend on speed. While it may pull, d = -sqrt(5) ln e / sqrt(pi^2 + ln^2
-// e) (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, to about 1e-5.
+// 239). Its restitution does not depend on speed. Where the dashpot may pull, d = -sqrt(5) ln e / sqrt(pi^2
+// + ln^2 e) (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, to about
+// 1e-5.
 double hertz_restitution(double damping, bool attraction);
 double hertz_damping(double restitution, bool attraction);
 
-// s: of a free elastic impact with N = k a^(3/2), k in N/m^1.5: 2.943 a_max / v, with a_max = (5 m v^2 /
-// 4k)^(2/5) (Timoshenko & Goodier, Theory of Elasticity, art. 142).
+// Duration (s) of a free elastic impact with N = k a^(3/2), k in N/m^1.5. It is 2.943 a_max / v, with a_max
+// = (5 m v^2 / 4k)^(2/5) (Timoshenko & Goodier, Theory of Elasticity, art. 142).
 double hertz_contact_time(double mass, double k, double speed);
 
 }  // namespace grainreel

@@ -18,12 +18,12 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_steps = 9e15;  // up to there a double counts exactly, and so are times
+constexpr double most_steps = 9e15;  // up to here a double counts steps exactly, and so their times
 constexpr double most_records =
-    1e9;  // of a file: 400 GB of measures, and NetCDF numbers no more than twice that
+    1e9;  // in one file: 400 GB of measures; NetCDF can number about twice as many
 constexpr double frames_without_drive = 1.0 / 30, rows_without_drive = 0.01;  // s
 
-// The stiffness that a kind of contact takes from the start file, where the scene gives none.
+// The stiffness that a kind of contact takes from the start file where the scene gives none.
 std::optional<double> stiffness_in_file(const StartFacts& file, const PairContact& contact,
                                         const std::vector<std::optional<double>>& kinds, std::size_t kind) {
     if (contact.stiffness || !file.known) return std::nullopt;
@@ -32,7 +32,8 @@ std::optional<double> stiffness_in_file(const StartFacts& file, const PairContac
     return found > 0 ? std::optional(found) : std::nullopt;
 }
 
-// Contacts that latch can rest on any overlap, so theirs say only how small a stiffness must not be.
+// Whether the plan's own stiffness must be taken in place of the file's. Contacts that latch can rest on
+// any overlap, so their overlaps in the file give only a lower bound.
 bool wants_more(const PairPlan& own, const PairPlan& found) {
     const bool latches = own.model.normal != NormalForce::hertz &&
                          own.model.normal != NormalForce::spring_dashpot && own.hardening == 0 &&
@@ -55,9 +56,9 @@ PairPlan plan_kind(const Scene& scene, const BedPlan& bed, const StartFacts& fil
     return wants_more(own, pair) ? own : pair;
 }
 
-// A glued grain is as heavy as its wall. Its contacts have the numbers of the pair of species, but for the
-// stiffness, which a larger effective mass may demand: that of the free grain, for equal grains twice as
-// large.
+// Plans the contacts with glued grains. A glued grain is as heavy as its wall. The numbers are those of the
+// pair of species except for the stiffness: it is chosen for the effective mass of the contact, which is
+// the free grain's mass (for equal grains twice that of a free pair) and may demand more.
 void plan_glued(const Scene& scene, const BedPlan& bed, const StartFacts& file, Plan& plan) {
     if (!scene.container.wall_grains) return;
     const Species glued = glued_species(scene);
@@ -86,8 +87,8 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, const StartFacts& fil
                                       nullptr, file.mesh, kind));
 }
 
-// The largest of all kinds of contact, and what most have: the mean over those between grains, or at walls
-// where that is more.
+// Finds the largest overlap of all kinds of contact, and the usual one: the mean over contacts between
+// grains, or over those at walls where that is larger.
 void plan_overlaps(const Scene& scene, const BedPlan& bed, Plan& plan) {
     double between_grains = 0, at_walls = 0;
     std::string heaviest;  // the species whose grains land on others the hardest
@@ -110,7 +111,7 @@ void plan_overlaps(const Scene& scene, const BedPlan& bed, Plan& plan) {
     plan.usual_overlap = std::max(between_grains, at_walls);
 }
 
-// `seconds` in steps; `key` is the place to complain about.
+// Gives `seconds` in steps. `key` is the place that the message names when there are too many.
 std::int64_t count_steps(const Scene& scene, double seconds, double step, const char* key) {
     const double steps = seconds / step;
     if (steps > most_steps)
@@ -121,20 +122,20 @@ std::int64_t count_steps(const Scene& scene, double seconds, double step, const 
     return std::llround(steps);
 }
 
-// Rounds the step down so that a multiple of 8 makes one period: then its phases, halves and quarters are
-// steps.
+// Rounds the step down so that a multiple of 8 makes one period. Then eighths, quarters and halves of a
+// period fall on steps.
 Clock plan_clock(const Scene& scene, double step) {
     Clock clock;
     clock.step = step;
     if (!scene.drive.present) return clock;
-    // A step that was so rounded before comes back as it was, hence the hair of tolerance.
+    // A step that has been rounded this way before must come back unchanged, so there is a small tolerance.
     double eighths = std::max(1.0, std::ceil(1 / (8 * scene.drive.frequency * step) * (1 - 1e-12)));
     if (scene.drive.changes()) eighths = common_eighths(scene.drive, eighths);
     const std::int64_t period = count_steps(scene, 8 * eighths, 1, "drive.frequency");
     return drive_clock(scene.drive, 1 / (scene.drive.frequency * static_cast<double>(period)), period);
 }
 
-// What a file would hold one of every so many steps.
+// Throws where a file would hold too many records, one every so many steps.
 void check_records(const Scene& scene, const Plan& plan, double every, const char* what, const char* key) {
     const double records = static_cast<double>(plan.steps) / every;
     if (records <= most_records) return;
@@ -144,7 +145,7 @@ void check_records(const Scene& scene, const Plan& plan, double every, const cha
         scene.where(key), plan.steps, records, what, most_records, key));
 }
 
-// Where the scene has no interval, records go with the periods of the stage that is on.
+// Where the scene has no interval, the time between records is a number of periods of the stage that is on.
 void go_by_periods(const Output& output, Plan& plan) {
     const double mean = static_cast<double>(plan.steps) / plan.clock.cycles(plan.steps);  // steps a period
     if (output.trajectory && !output.trajectory_interval) {
@@ -193,7 +194,8 @@ void plan_outlet(const Scene& scene, Plan& plan) {
                         scene.where("container.outlet.opens"), opens, scene.run.duration));
 }
 
-// Here and not in the reader: a finished run is drawn again though its start file may be gone.
+// This is checked here and not by the reader: a finished run can be drawn again though its start file is
+// gone.
 void check_start_file(const Scene& scene) {
     std::error_code ignored;
     const std::string& file = scene.start.file;
@@ -203,9 +205,9 @@ void check_start_file(const Scene& scene) {
                                 scene.where("start.file"), file, exists ? "is no file" : "does not exist"));
 }
 
-// s: the step that the plan chooses when nothing but the drive moves walls. A rim that is fast for it is
-// hardly meant, and a step that follows it makes a run that never ends. With nothing else in motion it is the
-// step.
+// The step (s) that the plan would choose if only the drive moved walls. It shows when a wall's own speed
+// makes the step far too short: such a fast rim is hardly meant, and the run would never end. Where nothing
+// else moves, the given step is returned.
 double step_without_own_speeds(const Scene& scene, const StartFacts& file, const BedPlan& bed, double step) {
     if (bed.speed_of_others == bed.impact_speed || bed.speed_of_others == 0) return step;
     BedPlan slow = bed;

@@ -1,4 +1,4 @@
-// From what the scene says to what the engine does: laws, stiffness, step, and what that will cost.
+// The plan: what the engine does for a scene (laws, stiffness, step), and what that will cost.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace grainreel {
 
-// What the engine computes for one kind of contact: the simplest that does what the scene asks for.
+// The force law that the engine computes for one kind of contact: the simplest that does what the scene
+// asks for.
 enum class NormalForce {
     walton_braun,
     walton_braun_corrected,
@@ -26,7 +27,7 @@ struct LawKernel;
 struct ContactModel {
     NormalForce normal = NormalForce::walton_braun;
     TangentialLaw tangential = TangentialLaw::incremental_slip;  // `none` when nothing rubs
-    bool rolls = false;                                          // resists rolling; only where it rubs
+    bool rolls = false;  // resists rolling; only where there is friction
     Precision precision = Precision::full;
     const LawKernel* own = nullptr;  // a caller's law in place of these; scenes have none
     bool operator==(const ContactModel&) const = default;
@@ -35,7 +36,7 @@ struct ContactModel {
 // The numbers of one kind of contact, ready for the laws. SI units.
 struct PairPlan {
     ContactModel model;
-    double effective_mass = 0;       // kg, the lightest pair of these species
+    double effective_mass = 0;       // kg, of the lightest pair of these species
     double loading_stiffness = 0;    // N/m: K1 (Walton-Braun), kn (spring-dashpot), dN/da at the allowed
                                      // overlap of the smallest (Hertz)
     double unloading_stiffness = 0;  // N/m: K2 = K1 / e^2; equals K1 for laws with a dashpot
@@ -43,13 +44,14 @@ struct PairPlan {
     std::vector<RestitutionPoint> restitution_table;  // in place of one e: K2 = K1 / e(v)^2
     double modulus = 0;                               // Pa, E* of Hertz
     double tangential_stiffness = 0;                  // N/m: K0 or kt; Mindlin: at the allowed overlap
-    double tangential_ratio = 0;                      // Mindlin: tangential over normal stiffness
+    double tangential_ratio = 0;                      // tangential over normal stiffness (Mindlin)
     double gamma = 0;
     double restitution = 1;  // at v* where it depends on speed
     double friction = 0;
     double rolling_friction = 0;
-    // 1/s, times the effective mass of the touching pair; and more of both over the root of that mass,
-    // kg^(1/2)/s, which keeps one restitution for grains of all sizes.
+    // The dashpots: damping rates (1/s), to be multiplied by the effective mass of the touching pair. To
+    // each rate the value `by_root` (kg^(1/2)/s) over the root of that mass is added; this keeps one
+    // restitution for grains of all sizes.
     double normal_damping = 0, tangential_damping = 0;
     double damping_by_root = 0, tangential_damping_by_root = 0;
     double hertz_damping = 0;    // d of Hertz' dashpot d sqrt(m k) a^(1/4) v
@@ -60,27 +62,28 @@ struct PairPlan {
     // start file".
     std::string stiffness_reason;
 
-    double damping_rate(double mass) const;  // 1/s, of the normal dashpot of two with this effective mass
-    double tangential_damping_rate(double mass) const;  // 1/s, as above
-    // The restitution of a free impact at that speed (m/s) between two bodies with this effective mass (kg).
+    double damping_rate(double mass) const;             // 1/s, of the normal dashpot at this effective mass
+    double tangential_damping_rate(double mass) const;  // 1/s, of the tangential dashpot
+    // The restitution of a free impact at this speed (m/s) between two bodies of this effective mass (kg).
     double restitution_of(double mass, double speed) const;
     bool operator==(const PairPlan&) const = default;
 };
 
-// What a plan takes from the file that a run starts from (engine/start/start_plan.cpp looks into it).
+// What a plan takes from the file that a run starts from (engine/start/start_plan.cpp reads it).
 struct StartFacts {
-    bool known = false;  // the file could be read; nothing else holds without it
-    // N/m, Pa with Hertz: of the run that the file is from, by kind of contact as in Plan. Empty where its
-    // law is another, or where the file does not tell.
+    bool known = false;  // whether the file could be read; the other fields hold only then
+    // Stiffness (N/m; with Hertz Pa) in the run that wrote the file, by kind of contact as in Plan. Empty
+    // where that run has another law, or where the file does not tell.
     std::vector<std::optional<double>> grain, wall, glued, mesh;
-    double linear = 0, modulus = 0;  // N/m, Pa: with which its overlaps carry its weight; 0: they do not tell
-    double speed = 0;                // m/s, of impacts to expect
+    double linear = 0, modulus = 0;  // N/m and Pa; with this stiffness the file's overlaps carry its weight.
+                                     // 0: they do not tell
+    double speed = 0;                // m/s, of the impacts to expect
 };
 
 // How a run begins that starts from a file.
 struct StartPlan {
-    bool keeps_histories = false;  // of contacts whose law is that of the file's run
-    bool relaxes = false;          // brings the file's bed to rest under the scene's laws, before step 0
+    bool keeps_histories = false;  // contacts keep their histories where their law is that of the file's run
+    bool relaxes = false;          // the file's bed comes to rest under the scene's laws before step 0
     std::string text;              // for the user: what happens to stiffness, histories and bed
 };
 
@@ -96,31 +99,34 @@ struct Plan {
     std::vector<PairPlan> mesh;  // mesh x species, row-major
 
     Clock clock;
-    std::int64_t steps = 0;                                     // of vibration
-    std::int64_t settle_steps_limit = 0, rain_steps_limit = 0;  // of the start
-    StartPlan start;                                            // of a start from a file
-    std::string step_reason;                                    // which condition binds the step
+    std::int64_t steps = 0;                                     // of the run itself, from step 0 on
+    std::int64_t settle_steps_limit = 0, rain_steps_limit = 0;  // most steps of settling and of rain
+    StartPlan start;                                            // only where the run starts from a file
+    std::string step_reason;                                    // names the condition that binds the step
     double impact_speed = 0;                                    // m/s, v* of the stiffness rule
     double wall_speed = 0;  // m/s, of the fastest wall with a motion of its own (wall_speeds.hpp)
-    // Over the smaller diameter: the largest expected overlap, between whom, and that of most contacts.
+    // Overlap over the smaller diameter: the largest that is expected, and that of most contacts. `deepest`
+    // names the kind of contact that has the largest.
     double expected_overlap = 0, usual_overlap = 0;
     std::string deepest;
 
-    // Steps, not always whole: then the step nearest to each multiple is taken, and none drifts. 0: none.
+    // Number of steps, not always whole: each record is taken at the step nearest to its multiple, so the
+    // times do not drift. 0: none.
     double trajectory_every = 0, measures_every = 0;
-    FieldTimes fields;  // when fields are looked at, if there are any
-    // The greatest number of grains that there will ever be, those that have left counted; and whether any
-    // may leave or come.
+    FieldTimes fields;  // when fields are measured, if there are any
+    // `capacity` is the greatest number of grains that there will ever be, including those that have left.
+    // `traffic` says whether grains may leave or come.
     std::int64_t capacity = 0;
     bool traffic = false;
     std::optional<std::int64_t> opens;  // the step in which the container's outlet opens
-    // Where a drive changes and the scene gives no interval: so many periods of the stage that is on,
-    // which are those steps on average. 0: every so many steps.
+    // Where a drive changes and the scene gives no interval, records come every so many periods of the
+    // stage that is on; trajectory_every and measures_every are then the steps between them on average. 0:
+    // they come every so many steps.
     double trajectory_periods = 0, measures_periods = 0;
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
-    std::vector<std::string> warnings;  // each one line, with place and remedy
+    std::vector<std::string> warnings;  // one line each, with place and remedy
 
-    // Any contact has friction, any resists rolling.
+    // Whether any contact has friction, and whether any resists rolling.
     bool rubs() const;
     bool rolls() const;
 
@@ -130,10 +136,10 @@ struct Plan {
     }
 };
 
+// Plans the scene's run; reads the file that it starts from, if there is one (engine/start/start_plan.cpp).
 // Throws UserError when the scene cannot be run as it stands (does not fit, too many steps, no stiffness).
-// Looks into the file that the scene starts from, if it does (engine/start/start_plan.cpp).
 Plan make_plan(const Scene& scene);
-// Plans with facts about that file which are known already. Leaves Plan::start as it is.
+// Plans with facts about the start file that are known already. Leaves Plan::start as it is.
 Plan make_plan(const Scene& scene, const StartFacts& file);
 
 }  // namespace grainreel

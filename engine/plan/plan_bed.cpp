@@ -17,11 +17,11 @@ namespace grainreel {
 
 namespace {
 
-// Settling is short, and nobody looks: overlaps may be this large there.
+// Settling is short and is not shown, so overlaps may be this large there.
 constexpr double settling_overlap = 0.05;
-// A plastic block on the plate hits it at up to 2.13 a omega for Gamma from 1.2 to 10. What a turning wall
-// throws up at its own speed v falls back on it at about as much: it is lifted by up to 2 v^2 / g, so that it
-// comes back at sqrt(v^2 + 4 v^2).
+// Top speed of a bed that acts as a plastic block, over a omega: it hits the plate at up to 2.13 a omega
+// for Gamma from 1.2 to 10. Grains that a turning wall throws up at its own speed v fall back on it about
+// as fast: they are lifted by up to 2 v^2 / g, so they come back at sqrt(v^2 + 4 v^2).
 constexpr double plastic_block_speed = 2.2;
 
 // Top speed of a grain over the drive's a omega. A single ball on a plate of random phase gains and loses
@@ -33,7 +33,7 @@ double speed_over_drive(double restitution, double layers) {
     return std::max(plastic_block_speed, 3 * std::sqrt((1 + whole) / (2 * (1 - whole))));
 }
 
-// m/s: how fast listed grains, or a grain and a wall, may come together.
+// How fast (m/s) listed grains, or a grain and a wall, may come together.
 double closing_speed(const Scene& scene) {
     double fastest = 0;
     Vec3 low = scene.start.grains[0].velocity, high = low;
@@ -49,7 +49,7 @@ double closing_speed(const Scene& scene) {
     return std::max(no_walls ? 0.0 : fastest, (high - low).norm());
 }
 
-// m/s: of grains that come during the run, when they have fallen to the floor.
+// Speed (m/s) of grains that come during the run, when they have fallen to the floor.
 double fastest_fed(const Scene& scene) {
     double fastest = 0;
     const double floor = lowest_wall(scene);
@@ -98,7 +98,7 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
     } else if (file.known) {
         bed.impact_speed = std::max(bed.impact_speed, file.speed);
     } else if (!drive.present) {
-        bed.impact_speed = fall;  // all that one can know of a file that cannot be read
+        bed.impact_speed = fall;  // more is not known of a file that cannot be read
     }
     if (scene.container.tray)
         bed.impact_speed =
@@ -113,20 +113,21 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
 
 namespace {
 
-constexpr double loose_fraction = 1.0 / 3;  // solid, of the crowd that layers begin as
+constexpr double loose_fraction = 1.0 / 3;  // solid share of the loose crowd that layers begin as
 
 Vec3 up_of(const Scene& scene) {
     const double gravity = scene.gravity.norm();
     return gravity > 0 ? Vec3(-scene.gravity / gravity) : Vec3(0, 0, 1);
 }
 
-// Where grains are listed, the space that is looked at says how far they fall, with planes and with meshes.
+// Whether the scene is empty space with meshes, without listed grains. With listed grains the extent of the
+// space says how far they fall.
 bool is_space_with_meshes(const Scene& scene) {
     return scene.container.shape == Container::Shape::none && !scene.meshes.empty() &&
            scene.start.grains.empty();
 }
 
-// The container's box; of a vessel the part of its box that is room.
+// The container's box; for a vessel, the part of its box where grains have room.
 Region box_of(const Container& c, const SceneMesh* vessel) {
     const double x = c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth;
     if (vessel == nullptr) return {Vec3(-x, -c.half_width, 0), Vec3(x, c.half_width, c.height)};
@@ -135,7 +136,8 @@ Region box_of(const Container& c, const SceneMesh* vessel) {
     return box;
 }
 
-// m: the top of what starts in the region. Where gravity is along z, that is the top of a loose crowd.
+// Height (m) of the top of the grains that start in the region. Where gravity is along z, it is the top of
+// a loose crowd.
 double top_of_region(const Scene& scene) {
     const Region& region = *scene.start.region;
     if (up_of(scene) != Vec3(0, 0, 1)) return highest_corner(scene, region.low, region.high);
@@ -185,7 +187,7 @@ double start_drop(const Scene& scene, double depth) {
     if (scene.start.region && scene.start.packs())
         return std::max(0.0, top_of_region(scene) - lowest_wall(scene));
     if (!is_space_with_meshes(scene)) return c.height - c.base() - depth;
-    return 0;  // all are fed
+    return 0;  // all grains are fed
 }
 
 double drop_below(const Scene& scene) {
@@ -203,7 +205,7 @@ namespace {
 constexpr double lowest = 2, highest = 6;  // over the largest diameter
 constexpr double thin = 0.05;              // solid share of the layer
 
-// m2, of the room's level section.
+// Area (m2) of the room's level section, the mean over its height.
 double mean_area(const Scene& scene) {
     const Container& c = scene.container;
     if (!scene.start.region) return c.volume() / (c.height - c.base());
@@ -230,7 +232,8 @@ double rain_rate(const Scene& scene) {
     if (scene.start.rain_rate) return *scene.start.rain_rate;
     const RainLayer layer = rain_layer(scene);
     const double deep = layer.high - layer.low, area = mean_area(scene);
-    const double stays = std::sqrt(2 * deep / scene.gravity.norm());  // s, that a grain falls through it
+    const double stays =
+        std::sqrt(2 * deep / scene.gravity.norm());  // s, for which a grain falls through the layer
     const double volume = solid_volume(scene) / static_cast<double>(scene.grains());
     return thin * area * deep / volume / stays;
 }

@@ -8,41 +8,43 @@ namespace grainreel {
 
 constexpr double settled_solid_fraction = 0.6;
 
-// m: depth of the settled bed. In empty space with meshes it is that of a region's section, or of a cube.
+// Depth (m) of the settled bed. In empty space with meshes it is taken over a region's section, or over a
+// cube.
 double bed_depth(const Scene& scene);
 
-// m: height of the lowest wall to fall on. The container's base is one, and so is a mesh that lies lower.
+// Height (m) of the lowest wall that grains can fall on: the container's base, or a mesh that lies lower.
 // Without meshes it is 0.
 double lowest_wall(const Scene& scene);
 
-// m: height of the highest or lowest corner of a box.
+// Height (m) of the highest and of the lowest corner of a box.
 double highest_corner(const Scene& scene, const Vec3& low, const Vec3& high);
 double lowest_corner(const Scene& scene, const Vec3& low, const Vec3& high);
 
-// m: how far the highest grain falls at the start, upon a bed of this depth (m). From a region, and in empty
-// space with meshes, it falls to the lowest wall.
+// How far (m) the highest grain falls at the start, onto a bed of this depth (m). From a region, and in
+// empty space with meshes, it falls to the lowest wall.
 double start_drop(const Scene& scene, double depth);
 
-// m: how far grains fall from the container, or from the region they start in, to a mesh further below.
+// How far (m) grains fall from the container, or from their start region, to a mesh further below.
 double drop_below(const Scene& scene);
 
 // Rain: where above the bed its grains appear, and how many a second.
 
-// Heights of centres over the bed's surface; m. They appear between the two.
+// The layer in which grains appear: lowest and highest height (m) of their centres over the bed's surface.
 struct RainLayer {
     double low = 0, high = 0;
 };
 RainLayer rain_layer(const Scene& scene);
 
-// m: the deepest fall of a grain of the rain.
+// The deepest fall (m) of a grain of the rain.
 double rain_drop(const Scene& scene);
 
-// 1/s: as the scene says, or as many as fill a twentieth of the layer that they fall through.
+// Grains a second: as the scene says, or as many as fill a twentieth of the layer that they fall through.
 double rain_rate(const Scene& scene);
 
-// s: how long the next grain may find no place before there is none, five times a fall through the layer.
+// How long (s) a grain may find no place before rain gives up: five times a fall through the layer.
 double rain_patience(const Scene& scene);
-// s: twice as long as it rains where every grain finds its place at once, and that patience.
+// The limit of rain (s): twice the time that it needs if every grain finds its place at once, plus that
+// patience.
 double rain_limit(const Scene& scene);
 
 }  // namespace grainreel

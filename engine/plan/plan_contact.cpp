@@ -23,7 +23,7 @@ std::string place_of_pair(const Species& a, const Species* b) {
     return fmt::format("\"{}\" and {}", a.name, b == nullptr ? "the wall" : "\"" + b->name + "\"");
 }
 
-// Times sqrt(m / K): the duration of a free impact with a linear spring.
+// This factor times sqrt(m / K) is the duration of a free impact with a linear spring.
 double contact_time_factor(const PairContact& contact) {
     if (contact.normal == NormalLaw::walton_braun) return pi / 2 * (1 + contact.restitution);
     if (contact.normal_damping) return pi;
@@ -31,7 +31,7 @@ double contact_time_factor(const PairContact& contact) {
     return std::sqrt(pi * pi + logarithm * logarithm);  // pi / sqrt(1 - beta^2)
 }
 
-// The weight that rests on one grain, over its diameter: K1 >= load / eps.
+// The weight that rests on one grain, over its diameter (N/m). The static condition is K1 >= load / eps.
 double static_load(const BedPlan& bed, double diameter) {
     return 3 * (1 + bed.g_level) * settled_solid_fraction * bed.largest_density * bed.gravity *
            bed.carried_height * diameter;
@@ -64,10 +64,10 @@ void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact&
     demands.add(t.effective_mass * share * share, "wave");
 }
 
-// The same conditions for Hertz' effective modulus E*.
+// Makes the same demands of Hertz' effective modulus E*.
 void demand_modulus(const Scene& scene, const BedPlan& bed, const Touching& t, Demands& demands) {
     const double allowed = scene.run.overlap * t.diameter, m = t.effective_mass, v = bed.impact_speed;
-    const double to_modulus = 0.75 / std::sqrt(t.effective_radius);  // E* of k
+    const double to_modulus = 0.75 / std::sqrt(t.effective_radius);  // turns k into E*
     demands.add(to_modulus * 1.25 * m * v * v / std::pow(allowed, 2.5), "impact");
     demands.add(to_modulus * static_load(bed, t.diameter) * t.diameter / std::pow(allowed, 1.5),
                 "static load");
@@ -91,9 +91,9 @@ Stiffness choose_stiffness(const Scene& scene, const BedPlan& bed, const PairCon
                     hertz ? "modulus = \"1 GPa\"" : "stiffness = \"2e4 N/m\""));
 }
 
-// Damping and restitution of the spring-dashpot, each from the other; damping = 2 beta omega0. A restitution
-// that is asked for holds for grains of every size; a damping that is given leaves each size its own, and
-// that of the mean effective mass is planned with.
+// Finds the damping of the spring-dashpot from the restitution, or the restitution from the damping;
+// damping = 2 beta omega0. A wanted restitution holds for grains of every size. With a given damping each
+// size has its own restitution, and the plan takes that of the mean effective mass.
 void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact, const Species& a,
                   const Species* b) {
     const double natural = std::sqrt(pair.loading_stiffness / mean_effective_mass(a, b));
@@ -122,15 +122,17 @@ void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact
     if (!contact.tangential_damping) pair.tangential_damping_by_root = pair.damping_by_root / 2;
 }
 
-// s: of the damped oscillation's half; an overdamped contact is longer, but not faster.
+// Half a period (s) of the damped oscillation. An overdamped contact is longer, but nothing in it is
+// faster.
 double linear_contact_time(const PairPlan& pair) {
     const double natural = std::sqrt(pair.loading_stiffness / pair.effective_mass);
     const double beta = pair.damping_rate(pair.effective_mass) / (2 * natural);
     return pi / (natural * std::sqrt(std::max(0.01, 1 - beta * beta)));
 }
 
-// e(v) = sqrt(w0 / (w0 + S v)), w0 = sqrt(K1 / m) (Walton & Braun 1986): S from one point of it, at the mean
-// effective mass; then e as it is at v* of the heaviest pair, for step and contact time.
+// Hardening: e(v) = sqrt(w0 / (w0 + S v)), w0 = sqrt(K1 / m) (Walton & Braun 1986). One given point of
+// e(v), at the mean effective mass, determines S; step and contact time then use e at v* of the heaviest
+// pair.
 void plan_hardening(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Species& a,
                     const Species* b) {
     const double natural = std::sqrt(pair.loading_stiffness / mean_effective_mass(a, b));
@@ -164,11 +166,12 @@ void plan_walton_braun(const BedPlan& bed, PairPlan& pair, const PairContact& co
     pair.unloading_stiffness = pair.loading_stiffness / (pair.restitution * pair.restitution);
     pair.contact_time =
         pi / 2 * (1 + pair.restitution) * std::sqrt(pair.effective_mass / pair.loading_stiffness);
-    // The same to the last bit, and so is the step: elastic grains go the ways of those without a dashpot.
+    // Elastic grains without a dashpot have this contact time to the last bit. So they get the same step
+    // and move the same way.
     if (pair.restitution == 1) pair.contact_time = linear_contact_time(pair);
 }
 
-// A free impact takes longer the slower it is, so v* says how long a step may be.
+// A free impact takes longer the slower it is, so the fastest (v*) limits the step.
 void plan_hertz(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Touching& smallest) {
     pair.modulus = pair.loading_stiffness;
     const double k = 4.0 / 3 * pair.modulus * std::sqrt(smallest.effective_radius);
@@ -272,7 +275,7 @@ double PairPlan::restitution_of(double mass, double speed) const {
     if (model.normal == NormalForce::walton_braun_speed)
         return std::sqrt(natural / (natural + hardening * speed));
     if (!restitution_table.empty()) return restitution_at(restitution_table, speed);
-    return restitution;  // of Hertz and of a constant K2: at any mass and speed
+    return restitution;  // Hertz and a constant K2 have the same at any mass and speed
 }
 
 std::vector<Touching> extremes(const Species& a, const Species* b) {

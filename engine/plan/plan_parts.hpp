@@ -1,4 +1,4 @@
-// The plan's chapters: what the bed is like, the contacts' numbers, the step. Internal to make_plan.
+// The parts of the plan: what the bed is like, the contacts' numbers, the step. Internal to make_plan.
 #pragma once
 
 #include <string>
@@ -15,11 +15,12 @@ struct BedPlan {
     double g_level = 0;          // Gamma; 0 without a drive or without gravity
     double frequency = 0;        // Hz; 0 without a drive
     double height = 0;           // m, at a solid fraction of 0.6
-    double layers = 1;           // of grains of mean diameter
+    double layers = 1;           // number of layers of grains of mean diameter
     double largest_density = 0;  // kg/m3
     double largest_mass = 0;     // kg, of one grain
     double usual_mass = 0;       // kg, of a grain of mean size, the mean over contacts
-    double carried_height = 0;   // m, min(height, twice the width): what presses on the floor (Janssen)
+    double carried_height =
+        0;  // m, min(height, twice the width): the height whose weight presses on the floor (Janssen)
     double drop_speed = 0;       // m/s, of the highest fall while settling; 0 when nothing settles
     double impact_speed = 0;     // m/s, v*
     double speed_of_others = 0;  // m/s, v* if no wall had a motion of its own
@@ -27,45 +28,46 @@ struct BedPlan {
 BedPlan plan_bed(const Scene& scene, const StartFacts& file);
 
 double mass_of(const Species& species, double diameter);  // kg
-// By straight lines between the rows of a table, constant beyond.
+// The restitution at a speed, by straight lines between the rows of the table, constant beyond its ends.
 double restitution_at(const std::vector<RestitutionPoint>& table, double speed);
 
-// Two grains that may touch, or a grain and a wall (second mass infinite): the smallest, mean and largest of
-// each species. Sizes in m, masses in kg.
+// Two grains that may touch, or a grain and a wall (whose mass is infinite). Sizes in m, masses in kg.
 struct Touching {
     double diameter;  // of the smaller
     double distance;  // between centres, or to the wall
     double effective_mass;
     double effective_radius;
 };
-std::vector<Touching> extremes(const Species& a, const Species* b);  // b: nullptr for a wall
-Touching mean_touching(const Species& a, const Species* b);          // both of mean size
+std::vector<Touching> extremes(const Species& a,
+                               const Species* b);  // all pairs of smallest and largest; b: nullptr for a wall
+Touching mean_touching(const Species& a, const Species* b);  // both of mean size
 double mean_effective_mass(const Species& a, const Species* b);
 
-// Stiffness, damping and times of one kind of contact. `key`: its place, for messages.
+// Plans stiffness, damping and times of one kind of contact.
 PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Species& a,
                    const Species* b);
 
-// Largest overlap over the smaller diameter that impacts and weight are expected to cause. Stiffness is
-// chosen for the impact of the pair alone; a heavy grain that lands on three others drives those deeper
-// into each other and into the wall (so 3.2 % are expected in scenes/wedge_mixing.toml; 3.3 % were seen
-// within 3 s). landing: kg, of that grain.
+// The largest overlap, over the smaller diameter, that impacts and weight are expected to cause. `landing`
+// (kg) is the mass of the grain that lands: stiffness is chosen for the impact of the pair alone, but a
+// heavy grain that lands on three others drives these deeper into each other and into the wall. (So 3.2 %
+// are expected in scenes/wedge_mixing.toml; 3.3 % were seen within 3 s.)
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair,
                         const std::vector<Touching>& sizes, double landing);
 
-// Whether impacts of this restitution lose so little that the gain of the contact corrections would count. At
-// an elastic impact they gain (w dt)^4 / 20 of its energy, w^2 = K1 / m_eff, with w dt = pi / 12 at 12 steps
-// a contact (the onset in walton_braun_corrected-inl.hpp adds (w s)^4 / 4 at a touch s before the force, s
-// from 0 to dt). They are used where an impact loses twenty times that, 1 - e^2 >= (pi / 12)^4, e < 0.9976.
+// Whether impacts of this restitution lose so little that the gain of the contact corrections would count.
+// In an elastic impact the corrections gain (w dt)^4 / 20 of its energy, w^2 = K1 / m_eff, with w dt = pi /
+// 12 at 12 steps a contact (the onset in walton_braun_corrected-inl.hpp adds (w s)^4 / 4 at a touch s
+// before the force, s from 0 to dt). They are used where an impact loses twenty times that: 1 - e^2 >= (pi
+// / 12)^4, e < 0.9976.
 bool nearly_elastic(double restitution);
 
-// Steps in a free impact: at standard accuracy enough that velocity Verlet keeps the restitution within
-// 0.005, plain when the number is whole, with the contact corrections whatever it is; and that nearly elastic
-// grains keep their energy as those of a spring-dashpot do.
+// Number of steps in a free impact. At standard accuracy velocity Verlet then keeps the restitution within
+// 0.005: without contact corrections when the number is whole, with them at any number. Nearly elastic
+// grains keep their energy as well as those of a spring-dashpot do.
 int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy = Accuracy::standard);
 
-// The longest step times the fastest angular frequency: 2 for Verlet in all its forms, sqrt 2 for Gear's four
-// values, and what the amplification matrix of Omelyan's scheme gives.
+// The longest stable step times the fastest angular frequency: 2 for Verlet in all its forms, sqrt 2 for
+// Gear's four values; for Omelyan's scheme it follows from the amplification matrix.
 double stable_step(Integrator integrator);
 
 struct StepChoice {
@@ -75,13 +77,13 @@ struct StepChoice {
 };
 StepChoice plan_step(const Scene& scene, const Plan& plan);
 
-// Lines for the user: values that are hardly meant, such as a density of 7.8 kg/m3.
+// Warnings of values that are hardly meant, such as a density of 7.8 kg/m3.
 std::vector<std::string> likely_slips(const Scene& scene);
-// Warnings of contacts: too soft, too long, too stiff, or too few steps in one.
+// Warns of contacts: too soft, too long, too stiff, or too few steps in one.
 class Warnings;
 void warn_of_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings);
 void warn_of_few_steps(const Scene& scene, const Plan& plan, Warnings& warnings);
-// Lines for the user about what will run, but perhaps not as intended.
+// Warnings of what will run, but perhaps not as intended.
 std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, const BedPlan& bed,
                                        const StepChoice& step);
 // Warnings of what follows from the start file.

@@ -11,12 +11,15 @@
 namespace grainreel {
 namespace {
 
-// Free pairs keep well below the stable limit, so that the stiffest branch is followed too.
+// Factor on the step of free pairs: it stays well below the stable limit, so that the stiffest branch is
+// followed too.
 constexpr double pair_share = std::numbers::pi / 2 / 2.75;
-// A dense bed has its own fastest mode; it decides over stability only, not over accuracy.
+// Factor on the step that the bed's fastest mode allows. That mode decides over stability only, not over
+// accuracy.
 constexpr double bed_share = 1.2;
-// Shares of the step at which dashpots would let the motion grow. Dashpots along the contact end at Coulomb's
-// cap, and no bed has twelve contacts a grain: 300 grains blew up from 2.4 times that step on, at e = 0.165.
+// Factors on the step at which dashpots would let the motion grow. Along the contact Coulomb's law limits
+// their force, and no bed has twelve contacts a grain: 300 grains blew up from 2.4 times that step on, at e
+// = 0.165.
 constexpr double damped_share = 0.6, damped_sideways_share = 1.7;
 
 std::string pair_name(const Scene& scene, std::size_t a, std::size_t b) {
@@ -31,13 +34,14 @@ double share_of(double step, double omega) {
     return omega > 0 ? step / omega : std::numeric_limits<double>::infinity();
 }
 
-// What acts: a spring that may carry nothing adds no mode.
+// The tangential stiffness that acts: without friction the spring carries nothing and adds no mode.
 double tangential_stiffness(const PairPlan& pair) {
     return pair.friction > 0 ? pair.tangential_stiffness : 0;
 }
 
-// kg/s, of the dashpots of two with this effective mass. Hertz' grow as a^(1/4): as they are at an eighth of
-// the allowed overlap, which few contacts of a bed pass; K = 3/2 k sqrt(a) is that at the allowed one.
+// Damping constant (kg/s) of the normal dashpot between two bodies of this effective mass. Hertz' dashpot
+// grows as a^(1/4). It is taken at an eighth of the allowed overlap, which few contacts of a bed pass; K =
+// 3/2 k sqrt(a) is taken at the allowed overlap.
 double normal_dashpot(const PairPlan& pair, double mass) {
     if (pair.modulus > 0)
         return pair.hertz_damping * std::sqrt(mass * pair.loading_stiffness / 1.5 / std::sqrt(8));
@@ -49,9 +53,9 @@ double tangential_dashpot(const PairPlan& pair, double mass) {
     return pair.tangential_damping_rate(mass) * mass;
 }
 
-// The fastest mode of a grain of mass m among twelve others, three of them walls at most, or six of them
-// parts of rough walls: omega^2 = 8 K2 / m without friction, 40 K0 / m with spin coupled in (Gerschgorin's
-// bound of the stiffness matrix); dashpots take 8 C / m and 40 C / m, by the same bound.
+// The fastest mode of a grain of mass m among twelve others, of which at most three are walls, or six are
+// parts of rough walls. omega^2 is 8 K2 / m without friction, and 40 K0 / m with spin coupled in
+// (Gerschgorin's bound of the stiffness matrix); dashpots give 8 C / m and 40 C / m by the same bound.
 struct Mode {
     double omega2 = 0, damping = 0;  // 1/s2, 1/s
 };
@@ -60,7 +64,7 @@ struct BedModes {
     double fastest() const { return std::sqrt(std::max(normal.omega2, sideways.omega2)); }
 };
 
-// of: what a contact adds, from its numbers and the largest effective mass of such a grain in it.
+// `mass` is that of one grain. `of` gives what one contact adds, from its numbers and its effective mass.
 BedModes bed_modes(const Scene& scene, const Plan& plan, std::size_t species, double mass) {
     const auto most = [&](const auto& of) {
         double among = 0, at_wall = of(plan.wall[species], mass);
@@ -84,9 +88,10 @@ BedModes bed_modes(const Scene& scene, const Plan& plan, std::size_t species, do
     return modes;
 }
 
-// s: a dashpot takes its velocity from the steps before, and knows of its own contact only; where many act on
-// a grain, (omega dt / limit)^2 + damping dt <= 1 keeps the mode from growing. (The recurrence of the scheme
-// was tried for two to sixteen contacts and damping ratios from 0.01 to 20: it grows from 1.02 to 1.3 on.)
+// The longest step (s) with dashpots. A dashpot uses the velocity of the steps before and knows only its
+// own contact. Where many act on a grain, (omega dt / limit)^2 + damping dt <= 1 keeps the mode from
+// growing. (The recurrence of the scheme was tried for two to sixteen contacts and damping ratios from 0.01
+// to 20: it grows from 1.02 to 1.3 on.)
 double damped_limit(const Mode& mode, double limit) {
     if (mode.omega2 == 0) return share_of(1, mode.damping);
     const double rate = mode.omega2 / (limit * limit), half = 0.5 * mode.damping;
@@ -99,14 +104,15 @@ bool nearly_elastic(double restitution) {
     return 1 - restitution * restitution < std::pow(std::numbers::pi / 12, 4);
 }
 
-// Walton-Braun: measured over e and 200 onset phases, n = 9.5 - 8 ln e, at least 12, keeps the error of the
-// restitution below 0.005 for e >= 0.08 (0.0020 at e = 0.9; tests/scene integrates it). Without corrections
-// that holds for whole n only: onset and exit errors then cancel, at n = 12.5 they leave 0.008. The
-// spring-dashpot's force jumps when the grains meet, which leaves an error of first order: 45 steps leave
-// 0.003 at e = 0.9 and 0.013 at worst, 0.005 and 0.016 where the dashpot may pull. They keep the energy of a
-// vibrated bed to 0.1 %, which 40 do not with
-// Hertz. Nearly elastic grains of any law have as many: plain Verlet then gains and loses (w dt)^2 / 4 of an
-// impact's energy at most, by the phases of touch and exit, and an elastic gas drifts as with a
+// Walton-Braun: n = 9.5 - 8 ln e steps, at least 12, keep the error of the restitution below 0.005 for e >=
+// 0.08 (0.0020 at e = 0.9). This was measured over e and 200 onset phases; tests/scene integrates it.
+// Without corrections it holds for whole n only, where the errors of onset and exit cancel; at n = 12.5
+// they leave 0.008.
+// Spring-dashpot: the force jumps when the grains meet, which leaves an error of first order. 45 steps
+// leave 0.003 at e = 0.9 and 0.013 at worst, and 0.005 and 0.016 where the dashpot may pull. With Hertz, 45
+// steps keep the energy of a vibrated bed to 0.1 %, and 40 do not.
+// Nearly elastic grains of any law have 45 steps too: plain Verlet then gains and loses at most (w dt)^2 /
+// 4 of an impact's energy, by the phases of touch and exit, and an elastic gas drifts as with a
 // spring-dashpot.
 int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy) {
     const double more = accuracy == Accuracy::draft ? 0.7 : accuracy == Accuracy::reference ? 4 : 1;

@@ -16,8 +16,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double loose_fraction = 0.55;  // solid, of a bed between walls that are near
-constexpr double thrown_faster = 1.6;    // than the plate moves
+constexpr double loose_fraction = 0.55;  // solid share of a bed between near walls
+constexpr double thrown_faster = 1.6;    // speed of the highest grains over that of the plate
 constexpr double upright = 0.95;         // cosine of the largest angle between gravity and -z
 
 bool has_a_bed(const Scene& scene) {
@@ -29,7 +29,7 @@ bool has_a_bed(const Scene& scene) {
            -scene.gravity.z() >= upright * gravity;
 }
 
-// m: how far a drive throws the bed above where it rests.
+// How far (m) a drive throws the bed above where it rests.
 double throw_height(const Scene& scene) {
     const Drive& drive = scene.drive;
     if (!drive.present) return 0;
@@ -40,7 +40,7 @@ double throw_height(const Scene& scene) {
     return stroke + speed * speed / (2 * gravity);
 }
 
-// m: of grains placed by hand, where their own flight takes them.
+// Height (m) that listed grains reach by their own flight.
 double highest_listed(const Scene& scene) {
     double highest = 0;
     for (const ListedGrain& grain : scene.start.grains) {
@@ -51,7 +51,7 @@ double highest_listed(const Scene& scene) {
     return highest;
 }
 
-// m: of grains that come during the run, where they appear and how far they are thrown up from there.
+// Height (m) that fed grains reach: where they appear, and how far they are thrown up from there.
 double highest_fed(const Scene& scene) {
     double highest = 0;
     for (const Feed& feed : scene.feeds) {
@@ -77,14 +77,15 @@ std::optional<double> estimated_reach(const Scene& scene) {
 
 namespace {
 
-constexpr double most_of_a_grain = 0.1;  // that a rim moves in one step
+constexpr double most_of_a_grain = 0.1;  // of the smallest diameter, by which a rim may move in one step
 
 double distance_from_axis(const BodyTurn& turn, const Vec3& place) {
     const Vec3 from = place - turn.through;
     return (from - turn.axis.dot(from) * turn.axis).norm();
 }
 
-// m: of the container's farthest point. Corners of a box, or the two circles at the ends of a cylinder.
+// Distance (m) of the container's farthest point from the axis: a corner of a box, or a point of the two
+// circles at the ends of a cylinder.
 double farthest_from_axis(const Container& c, const BodyTurn& turn) {
     constexpr int places = 90;  // round a circle
     const bool round = c.shape == Container::Shape::cylinder;
@@ -107,7 +108,7 @@ double smallest_diameter(const Scene& scene) {
     return smallest;
 }
 
-// Refused at the key that makes the wall so fast.
+// Throws at the key that makes the wall so fast.
 void check_rim(const Scene& scene, const std::string& key, const std::string& name, double speed,
                double step) {
     const double smallest = smallest_diameter(scene), moved = speed * step;

@@ -1,4 +1,5 @@
-// How high the grains get, as far as the scene tells it before the run.
+// How high the grains get, as far as the scene tells it before the run, and how fast walls move by
+// themselves.
 #pragma once
 
 #include <optional>
@@ -7,33 +8,35 @@
 
 namespace grainreel {
 
-// m above the floor's rest position: the top of the bed at rest. Empty where the grains' volume does not tell
-// it: in empty space, without gravity along -z, with planes of the scene's own.
+// Top of the bed at rest: m above the floor's rest position. Empty where the grains' volume does not tell
+// it: in empty space, without gravity along -z, or with planes of the scene's own.
 std::optional<double> resting_top(const Scene& scene);
 
-// m above the floor's rest position: what the grains reach in flight; empty as above. Shaken at more than g,
-// grains at the top of a bed leave it at up to 1.6 times the plate's speed a w, at most from the upper end of
-// the stroke. Measured in seven beds of 5 to 20 layers, restitution 0.6 to 0.9 and Gamma 3 to 4: 99 of 100
-// grains stayed below what 1.2 to 1.7 times that speed gives.
+// The height that grains reach in flight: m above the floor's rest position. Empty as above.
+// Where the bed is shaken at more than g, grains at its top leave it at up to 1.6 times the plate's speed a
+// w, at most from the upper end of the stroke. This was measured in seven beds of 5 to 20 layers,
+// restitution 0.6 to 0.9 and Gamma 3 to 4: 99 of 100 grains stayed below what 1.2 to 1.7 times that speed
+// gives.
 // Shallow beds that carry waves throw single crests higher or less high than that, and no simple rule was
-// found: in a box of 150 mm, 2,200 grains of 2 mm at Gamma 3 reached what 2.2 times the plate's speed gives
-// at 12 Hz, 2.1 times at 18 Hz, 2.6 times with restitution 0.9 in place of 0.7, but 1,100 grains at Gamma 4.5
-// what 1.15 times gives.
+// found. In a box of 150 mm, 2,200 grains of 2 mm at Gamma 3 reached what 2.2 times the plate's speed gives
+// at 12 Hz, 2.1 times at 18 Hz, and 2.6 times with restitution 0.9 in place of 0.7; but 1,100 grains at
+// Gamma 4.5 reached only what 1.15 times gives.
 std::optional<double> estimated_reach(const Scene& scene);
 
 // Walls with a motion of their own: how fast they are.
 
-// m/s: of the fastest point of a mesh, by its turn, its velocity or its path; 0 where it only follows the
-// drive. A path may move and turn it at the same time.
+// Speed (m/s) of the fastest point of a mesh, by its turn, its velocity or its path; a path may move and
+// turn it at the same time. 0 where the mesh only follows the drive.
 double own_speed(const SceneMesh& mesh);
 
-// m/s: of the fastest point of the container, where it turns. An open one counts up to its rim.
+// Speed (m/s) of the fastest point of the container, where it turns. An open container counts up to its
+// rim.
 double own_speed(const Container& container);
 
-// m/s: the largest of all these. Planes are not counted: their velocities are in the scene as they are.
+// The largest of these speeds (m/s). Planes are not counted: the scene gives their velocities as they are.
 double fastest_own_speed(const Scene& scene);
 
-// Throws UserError where a wall moves by itself further within `step` (s) than a tenth of the smallest
+// Throws UserError where a wall moves by itself, within `step` (s), further than a tenth of the smallest
 // grain's diameter.
 void check_rims(const Scene& scene, double step);
 

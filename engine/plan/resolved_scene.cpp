@@ -9,7 +9,7 @@ double stiffness_of(const PairPlan& plan) {
     return plan.model.normal == NormalForce::hertz ? plan.modulus : plan.loading_stiffness;
 }
 
-// The contact of grains of one species with glued grains of the other; null: none are glued.
+// The contact of grains of one species with glued grains of the other; nullptr where none are glued.
 const PairPlan* glued_plan(const Scene& scene, const Plan& plan, std::size_t a, std::size_t b) {
     if (plan.glued.empty()) return nullptr;
     const std::size_t glued = scene.container.wall_grains->species;

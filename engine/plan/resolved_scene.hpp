@@ -9,14 +9,15 @@
 
 namespace grainreel {
 
-// The scene says what the plan chose: the stiffness of every kind of contact, the step, and how often frames
-// and measures come.
+// Returns the scene with what the plan chose: the stiffness of every kind of contact, the step, and how
+// often frames and measures come.
 Scene with_choices(Scene scene, const Plan& plan);
-// Why the plan chose what the scene does not say itself.
+// Why the plan chose the values that the scene does not give itself.
 Reasons reasons_of(const Scene& scene, const Plan& plan);
 
-// Both as a scene file. read_scene gives the same Scene back, bit by bit, with the plan's choices filled in,
-// in a folder that has the kept files of the meshes; make_plan then gives the same Plan.
+// The scene with choices and reasons, as a scene file. In a folder that has the kept files of the meshes,
+// read_scene gives the same Scene back bit by bit, with the plan's choices filled in, and make_plan then
+// gives the same Plan.
 std::string resolved_scene(const Scene& scene, const Plan& plan);
 
 }  // namespace grainreel

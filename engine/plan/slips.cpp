@@ -74,7 +74,7 @@ void look_at_container(const Scene& scene, Warnings& warnings) {
             fmt::format("{0:.4g} m is larger than any container that is shaken; a number without a unit "
                         "is in m: did you mean \"{0:.4g} mm\"?",
                         size));
-        break;  // the others have the same slip
+        break;  // the other sizes have the same slip
     }
     if (!wedge) return;
     const auto smaller = [](const Species& a, const Species& b) {
@@ -106,7 +106,7 @@ void look_at_gravity(const Scene& scene, Warnings& warnings) {
                                             : "what is not held above leaves the container"));
 }
 
-// table: "drive", or that of a stage.
+// `table` is "drive" or the table of a stage.
 void look_at_motion(const Scene& scene, const std::string& table, const Drive& motion, Warnings& warnings) {
     if (motion.frequency > highest_frequency)
         warnings.add(
@@ -154,7 +154,7 @@ void look_at_drive(const Scene& scene, Warnings& warnings) {
                         1 / drive.frequency, scene.run.duration));
 }
 
-// The one place in [contact] where this key is written, or else the table.
+// The place of this key in the contact tables where it is written once, else [contact].
 std::string place_in_contact(const Scene& scene, const std::string& name) {
     std::vector<std::string> found;
     for (const auto& [path, at] : scene.written)
@@ -200,14 +200,14 @@ std::vector<std::string> likely_slips(const Scene& scene) {
     return warnings.take();
 }
 
-// A stiffness that a run takes over from the file it starts from may be less than its own drive wants.
+// A stiffness that a run takes over from its start file may be less than its own drive wants.
 
 namespace {
 
-constexpr double alarming_share = 4;  // overlaps are then twice as large as they are wanted
+constexpr double alarming_share = 4;  // overlaps are then twice as large as wanted
 
 struct Wanted {
-    double share = 0;  // over what there is
+    double share = 0;  // stiffness that is wanted over the stiffness there is
     double stiffness = 0, there = 0;
     bool hertz = false;
 };
@@ -216,7 +216,8 @@ bool is_of_file(const PairPlan& pair) {
     return pair.stiffness_reason.ends_with("start file");
 }
 
-// What the plan would choose by itself for one kind of contact, where it is more than all before.
+// Keeps in `most` what the plan would choose by itself for this kind of contact, where its share is the
+// largest yet.
 void look_at(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const PairContact& contact,
              const Species& a, const Species* b, Wanted& most) {
     if (!is_of_file(pair)) return;

@@ -12,7 +12,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double most_bytes = 2e9;  // of sums, in which each phase has its own
+constexpr double most_bytes = 2e9;  // for sums; each phase has its own
 
 }  // namespace
 
@@ -132,7 +132,8 @@ bool all_fit(const Drive& drive, double eighths) {
     });
 }
 
-// The schedule's times in steps. Each stretch begins where the one before it ends, which loses nothing.
+// Turns the schedule's times into steps. Each stretch begins where the one before it ends, so no time is
+// lost.
 PeriodTable in_steps(const PeriodTable& times, double step) {
     PeriodTable table;
     for (const PeriodStretch& time : times.stretches()) {

@@ -14,13 +14,13 @@ namespace grainreel {
 struct FieldTimes {
     static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-    // In ticks: a tick is a step, and of a drive that changes so large a part of each of its periods as a
-    // step is of the first one.
-    std::int64_t record = 1;  // of a record
-    double first = 0;         // until the first moment
+    // The times below are in ticks. A tick is a step; where a drive changes, a tick is the same part of
+    // each period as a step is of the first period.
+    std::int64_t record = 1;  // length of a record
+    double first = 0;         // from the start to the first moment
     double every = 1;         // from moment to moment, not always whole: the nearest tick is taken
     std::int64_t end = 0;     // step at which the last record ends, which may be a shorter one
-    std::int64_t phases = 1;  // so many moments, and they are at the first one's phase again
+    std::int64_t phases = 1;  // after so many moments the phase is that of the first again
     Clock clock = {};
 
     // The first moment, or end of a record, after `step`; kNever after the last one.
@@ -30,7 +30,7 @@ struct FieldTimes {
     bool ends_record(std::int64_t step) const;
     // The first end of a record at or after `step`; kNever after the last one.
     std::int64_t next_end(std::int64_t step) const;
-    // Where the record began that ends there.
+    // The step where the record began that ends at this step.
     std::int64_t begin_of_record(std::int64_t end_of_it) const;
 
   private:
@@ -40,13 +40,14 @@ struct FieldTimes {
     std::int64_t moment(std::int64_t number) const;
 };
 
-// For a run of so many steps.
+// Plans the moments for a run of so many steps.
 FieldTimes field_times(const FieldOutput& fields, const Clock& clock, std::int64_t steps);
 
 // Throws UserError when the fields that the scene asks for would not fit into memory.
 void check_field_size(const Scene& scene);
 
-// What comes again and again: every so many steps, or of a drive that changes every so many of its periods.
+// An event that comes again and again: every so many steps or, where a drive changes, every so many
+// periods.
 
 struct Rhythm {
     static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
@@ -56,10 +57,10 @@ struct Rhythm {
 
     Rhythm(double every_steps, double every_periods = 0) : steps(every_steps), periods(every_periods) {}
 
-    // The first step, not below this one (which is not negative), that is nearest to a multiple.
+    // The first step that is nearest to a multiple and not below `step` (which is not negative).
     std::int64_t next(std::int64_t step, const Clock& clock) const {
         if (periods > 0) {
-            // A step back, lest rounding skips one.
+            // The count begins one lower, so that rounding skips none.
             double count = std::max(0.0, std::floor(clock.cycles(step) / periods) - 1);
             while (clock.step_at(count * periods) < step) ++count;
             return clock.step_at(count * periods);
@@ -73,12 +74,13 @@ struct Rhythm {
 
 // The clock that goes with a drive: how many steps its periods have, throughout all stages.
 
-// The eighth of a period of the drive's own frequency in steps, `least` or somewhat more: the first with
-// which the periods of all stages have multiples of 8 steps too, and intervals between taps whole steps.
-// `least` where there is no such number within a few per cent; then phases lie between steps in some stages.
+// An eighth of a period of the drive's own frequency in steps: `least` or somewhat more. It is the first
+// number with which the periods of all stages are multiples of 8 steps too, and intervals between taps are
+// whole steps. Where there is no such number within a few per cent, it is `least`; then phases lie between
+// steps in some stages.
 double common_eighths(const Drive& drive, double least);
 
-// step: s. steps_per_period: of the drive's own frequency.
+// step is in s, steps_per_period is of the drive's own frequency.
 Clock drive_clock(const Drive& drive, double step, std::int64_t steps_per_period);
 
 }  // namespace grainreel

@@ -1,4 +1,5 @@
-// What will run, but perhaps not as one wishes. Failures that cannot stop a run are said before it.
+// Warnings of what will run, but perhaps not as one wishes. What goes wrong in a run without stopping it is
+// said before.
 #include "engine/plan/warnings.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace grainreel {
 namespace {
 
 constexpr double alarming_size_ratio = 10;
-constexpr double rounding = 1e-9;  // of decimals: what lies exactly at a bound is not beyond it
+constexpr double rounding = 1e-9;  // of decimal numbers: a value exactly at a bound is not beyond it
 
 double smallest_free_diameter(const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
@@ -26,17 +27,17 @@ double smallest_free_diameter(const Scene& scene) {
     return smallest;
 }
 
-// Nothing but the drive sets grains in motion: none flow out, come, or fly at the start.
+// Whether only the drive sets grains in motion: none flow out, come, or fly at the start.
 bool only_the_drive_moves(const Scene& scene) {
     return !scene.container.outlet && scene.feeds.empty() && scene.start.method != Start::Method::grains;
 }
 
-// A stage that begins at once takes the drive's place, and grows by itself.
+// Whether a stage that begins at once takes the drive's place. A stage grows by itself.
 bool is_replaced(const Drive& drive) {
     return drive.changes() && drive.stages.front().from <= 0;
 }
 
-// Two by two, and off every wall: what the drive puts in stays.
+// Whether no energy is lost, neither between grains nor at walls: then what the drive puts in stays.
 bool nothing_is_lost(const Scene& scene, const Plan& plan) {
     const std::vector<ContactKind> kinds = contact_kinds(scene, plan);
     return !kinds.empty() && std::all_of(kinds.begin(), kinds.end(), [](const ContactKind& kind) {
@@ -89,7 +90,7 @@ void warn_of_changes(const Scene& scene, Warnings& warnings) {
 void warn_of_kick(const Scene& scene, Warnings& warnings) {
     const Drive& drive = scene.drive;
     if (!drive.present || drive.ramp > 0 || is_replaced(drive) || scene.start.keep_clock) return;
-    if (scene.start.method == Start::Method::grains) return;  // nothing need lie on what moves
+    if (scene.start.method == Start::Method::grains) return;  // no grain need lie on what moves
     const double kick = drive.speed() * std::abs(std::cos(2 * std::numbers::pi * drive.phase));
     if (kick > 0.05 * drive.speed())
         warnings.add(
@@ -134,7 +135,7 @@ void warn_of_step(const Scene& scene, const Plan& plan, const BedPlan& bed, cons
                      "velocities are off by several per cent at any step; take velocity-verlet");
 }
 
-// The species whose grains most contacts have, and the one of the largest that move; they may be the same.
+// The species whose grains have most contacts, and the one with the largest grains; they may be the same.
 struct Sizes {
     const Species *usual, *largest;
     bool one() const { return usual == largest; }
@@ -210,8 +211,8 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
     return warnings.take();
 }
 
-// What contacts as they are planned will do to a bed. What is said of it is said of most of its contacts; a
-// few that are beyond a bound are named.
+// What the planned contacts will do to a bed. A message is about most contacts; a few that are beyond a
+// bound are named.
 
 namespace {
 
@@ -224,7 +225,7 @@ constexpr double fewest_last_places = 100;  // of a position, in the overlap of 
 
 using Kinds = std::vector<ContactKind>;
 
-// The mean of a number of each kind, over all contacts of grains, or over those at walls.
+// The mean of one number of each kind, over all contacts between grains, or over those at walls.
 template <class Of>
 double mean_over(const Kinds& kinds, bool at_wall, const Of& of) {
     double sum = 0, shares = 0;
@@ -236,7 +237,8 @@ double mean_over(const Kinds& kinds, bool at_wall, const Of& of) {
     return shares > 0 ? sum / shares : 0;
 }
 
-// " (0.1 s in most contacts, 0.2 s between "nut" and a wall)", where a few last much longer than the rest.
+// " (0.1 s in most contacts, 0.2 s between "nut" and a wall)", where one kind lasts much longer than the
+// mean.
 std::string longest_text(const Kinds& kinds, bool at_wall, double mean) {
     constexpr double much = 1.25;
     const ContactKind* longest = nullptr;
@@ -261,7 +263,8 @@ void warn_of_overlaps(const Plan& plan, Warnings& warnings) {
                                  plan.expected_overlap, plan.deepest, alarming_overlap, plan.usual_overlap));
 }
 
-// m/s, from which on grains of a kind pass through each other, in their slowest combination of sizes.
+// The speed (m/s) from which on grains of a kind pass through each other, for the sizes where it is
+// slowest.
 double tunnelling_speed(const ContactKind& kind) {
     double slowest = std::numeric_limits<double>::infinity();
     for (const Touching& t : extremes(kind.first, kind.other()))
@@ -294,7 +297,7 @@ void warn_of_softness(const BedPlan& bed, const Kinds& kinds, Warnings& warnings
             share, longest_text(kinds, false, lasts)));
 }
 
-// Contacts that last too long for what else happens meanwhile.
+// Warns of contacts that last too long against the shaking and against the flight of grains.
 void warn_of_long_contacts(const BedPlan& bed, const Kinds& kinds, Warnings& warnings) {
     const double at_walls = mean_over(kinds, true, [](const auto& kind) { return kind.mean_contact_time(); });
     if (bed.frequency * at_walls > alarming_turn)
@@ -315,7 +318,7 @@ void warn_of_long_contacts(const BedPlan& bed, const Kinds& kinds, Warnings& war
                                  flight));
 }
 
-// m: how far a grain of its weight sinks into another, or into a wall.
+// How far (m) a grain sinks by its weight into another, or into a wall.
 double resting_overlap(const PairPlan& pair, const Species& species, bool into_wall, double gravity) {
     const double diameter = species.diameter.smallest;
     const double weight = mass_of(species, diameter) * gravity;

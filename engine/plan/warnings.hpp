@@ -1,4 +1,4 @@
-// Lines for the user, each with its place: what will run, but perhaps not as one wishes. Internal to
+// The list of warnings of a plan: lines for the user, each with its place in the scene. Internal to
 // make_plan.
 #pragma once
 
