@@ -41,7 +41,7 @@ class FieldLayer {
     ColourScale scale_;
     ClippedCount clipped_;
     std::vector<double> solid_, mass_,
-        sum_;  // for each cell: solid fraction, kg/m3, and kg/m3 times the mean
+        sum_;  // by cell: solid fraction, kg/m3, kg/m3 times the mean
 };
 
 // The velocity (m/s) at a place (y, z) in m; none where too few grains are near.

@@ -273,7 +273,7 @@ class SideFinder {
     std::vector<Seen> patch_seen_, part_seen_;
     std::vector<char> part_closed_, visible_front_;
     std::vector<int> around_front_,
-        around_back_;                   // for each part: how many closed parts are around each side
+        around_back_;                   // by part: number of closed parts around each side
     std::optional<EnclosedRoom> room_;  // room of a vessel with closed parts
 };
 

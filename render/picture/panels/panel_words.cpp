@@ -50,8 +50,8 @@ WordBlock dial(const Writer& measure, const Drive& drive) {
             }};
 }
 
-// The kinds of marks that mean the same in all panels. scale: pixels a metre; 0 where panels have scales of
-// their own.
+// common_marks_of() has the kinds of marks that mean the same in all panels, and own_marks_of() has the
+// others. scale: pixels a metre; 0 where panels have scales of their own.
 MarkKinds common_marks_of(const Common& common, double scale) {
     MarkKinds kinds = common.marks;
     kinds.arrows = kinds.arrows && scale > 0;

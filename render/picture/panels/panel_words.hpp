@@ -40,7 +40,7 @@ double pace_height(const Writer& measure, const std::vector<Panel>& panels, cons
                    double width);
 // Writes the caption of time over one panel.
 TextSize pace_block(const Writer& writer, const std::string& words, double width);
-// Writes a panel's caption: a bold first line, and the other lines below it.
+// Writes a panel's caption: a first line in larger bold letters, and the other lines below it.
 TextSize caption_block(const Writer& writer, const std::string& caption, double width);
 // Writes a text whose lines stand in the middle of the width.
 TextSize write_in_middle(const Writer& writer, const std::string& text, const TextStyle& style,

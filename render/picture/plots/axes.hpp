@@ -1,4 +1,4 @@
-// Axes of plots: round numbers for their ticks and the words of these, titles, and the upright axis that all
+// Axes of plots: round numbers for their ticks, the words of ticks, titles, and the upright axis that all
 // plots have.
 #pragma once
 
@@ -15,9 +15,8 @@
 
 namespace grainreel {
 
-// The multiples of 1, 2 or 5 times a power of ten that lie inside [low, high]: of the finest step that gives
-// at most `most`
-// (>= 2) of them.
+// The multiples of a step that lie inside [low, high]. The step is 1, 2 or 5 times a power of ten: the finest
+// one that gives at most `most` (>= 2) multiples.
 std::vector<double> round_ticks(double low, double high, int most);
 
 // The ticks of an axis, and the distance that decides how many decimals they have.
@@ -25,7 +24,7 @@ struct AxisTicks {
     std::vector<double> at;
     double distance = 1;
 };
-// At most `most` (>= 2) round ticks from `low` to `high`. One tick does not make an axis: where only one lies
+// At most `most` (>= 2) round ticks from `low` to `high`. One tick does not make an axis. Where only one lies
 // inside, the axis has the first and the last of up to `finest` round ticks.
 AxisTicks axis_ticks(double low, double high, int most, int finest);
 
@@ -37,21 +36,21 @@ std::vector<double> power_ticks(double low, double high, int most);
 // ends are moved a little apart.
 std::array<double, 2> round_limits(double low, double high, int most);
 
-// The words of a tick: with as many decimals as the distance between ticks asks for, and a minus as wide as a
-// digit.
+// The words of a tick. They have as many decimals as the distance between ticks needs, and a minus as wide as
+// a digit.
 std::string tick_text(double value, double distance);
 
 inline double line_height(double letters) {
     return measure_text("0", {letters, false}).height;
 }
 
-// How many lines the title above the box may have: two where that leaves enough of the plot's height to the
-// box.
+// How many lines the title above the box may have. It may have two where these leave enough of the plot's
+// height to the box.
 inline int title_lines(int plot_height, const TypeScale& type) {
     return plot_height > 9 * type.main ? 2 : 1;
 }
 
-// Draws the title. On one line its letters shrink somewhat before it is cut short.
+// Draws the title. A title on one line shrinks its letters somewhat before it is cut short.
 inline void draw_title(cairo_t* on, const std::string& title, int width, int height, const TypeScale& type,
                        const Colour& colour) {
     constexpr double least_shrink = 0.75;
@@ -73,7 +72,7 @@ constexpr int most_axis_ticks = 4;
 AxisTicks upright_ticks(const PlotBox& box, const TypeScale& type, double low, double high);
 
 // Draws the upright axis: a faint line across the box at each tick, the words of the tick beside it, and the
-// axis. height_of: pixels, of a tick.
+// axis. height_of: height of a tick, pixels from the plot's corner.
 void draw_upright_axis(cairo_t* on, const PlotBox& box, const AxisTicks& ticks,
                        const std::function<double(double tick)>& height_of, const TypeScale& type,
                        const Palette& palette);

@@ -33,7 +33,7 @@ std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlo
 
 namespace {
 
-constexpr double least_room = 1e-12;  // above and below values that are all alike
+constexpr double least_room = 1e-12;  // room above and below values that are all alike
 
 }  // namespace
 
@@ -127,10 +127,10 @@ bool Plot::take(const Frame& frame) {
     return true;
 }
 
-// The mean of this row and those since a period ago; the row of a period ago is not counted. Has no value
-// before a period has passed.
+// The mean of this row and of the rows since a period ago. The row that is exactly a period old is not
+// counted. Before a period has passed there is no value (NaN).
 double Plot::mean_of_period(double cycles, double value) {
-    constexpr double hair = 1e-3;  // of a period: rows are whole steps
+    constexpr double hair = 1e-3;  // share of a period: rows are at whole steps
     period_.push_back({cycles, value});
     while (period_.front()[0] <= cycles - 1 + hair) period_.pop_front();
     double sum = 0, count = 0;
@@ -157,7 +157,7 @@ void Plot::widen(double value) {
     if (any_ && value >= limits_[0] && value <= limits_[1]) return;
     const double low = any_ ? std::min(limits_[0], value) : value;
     const double high = any_ ? std::max(limits_[1], value) : value;
-    // The first value alone gets room for a change by a tenth.
+    // A first value gets room for a change by a tenth.
     const double room = any_ ? 0 : std::max(0.1 * std::abs(value), least_room);
     const std::array<double, 2> wide =
         round_limits(frame_.from_zero ? 0 : low - room, high + room, most_axis_ticks + 1);

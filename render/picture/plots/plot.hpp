@@ -1,6 +1,6 @@
 // Plots beside the grains, which change in the course of the film: what all of them can do (SidePlot), and a
-// measure against time (Plot). Profiles are in profile_plot.hpp. What films keep as files of their own is
-// drawn by gnuplot.
+// measure against time (Plot). Profiles are in profile_plot.hpp. Charts that a run keeps as files are drawn
+// by gnuplot.
 #pragma once
 
 #include <cairo.h>
@@ -36,7 +36,7 @@ class SidePlot {
 };
 
 // place: only its size counts. end: s, where the axis of time ends. expected: SI, a value that the unit of a
-// column must suit, beside those that the scene lets expect.
+// column must suit, beside the values that the scene leads to expect.
 std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlot& plot,
                                          const Rectangle& place, double end, const TypeScale& type,
                                          const Palette& palette, double expected = 0);
@@ -85,7 +85,7 @@ class Plot final : public SidePlot {
         std::string text;
     };
     std::vector<TimeTick> time_ticks() const;
-    bool short_run() const { return frame_.time[1] < 0.1; }  // told in ms
+    bool short_run() const { return frame_.time[1] < 0.1; }  // time is shown in ms
     const std::array<double, 2>& span() const { return shown_ ? *shown_ : limits_; }
     void forget();
     void add(double time, double value);
@@ -97,16 +97,16 @@ class Plot final : public SidePlot {
     const PlotFrame frame_;
     const TypeScale type_;
     const Palette palette_;
-    double left_, right_, top_, bottom_;  // of the box, pixels
+    double left_, right_, top_, bottom_;  // pixels, of the box
     CairoSurface axes_;
-    std::optional<std::array<double, 2>> drawn_;  // limits of the axes as they are drawn
+    std::optional<std::array<double, 2>> drawn_;  // limits of the axes as drawn
     std::shared_ptr<const MeasureTable> table_;
     std::size_t rows_ = 0;
     std::deque<std::array<double, 2>> period_;  // periods and values of the last rows
     bool any_ = false;
     bool gap_ = true;                             // the last row has no value
     std::array<double, 2> limits_{0, 1};          // SI, of the rows
-    std::optional<std::array<double, 2>> shown_;  // in their place
+    std::optional<std::array<double, 2>> shown_;  // limits that show() has set in place of limits_
     std::array<double, 2> last_{0, 0};            // time and value
     std::vector<Slice> slices_;
 };

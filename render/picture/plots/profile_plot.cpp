@@ -16,13 +16,13 @@
 namespace grainreel {
 namespace {
 
-// Width and cells are those that fields.nc has by default.
+// The kernel's width and the cells are the defaults of fields.nc.
 FieldOutput resolution(const FilmedScene& scene) {
     const double width = 0.5 * mean_diameter(scene);
     return picture_fields(scene, width, width);
 }
 
-// m: the span of the axis of places, which is as high as the picture shows the grains, or as wide as the
+// m: the span of the axis of places. It is as high as the picture shows the container, or as wide as the
 // container.
 std::array<double, 2> places_of(const FilmedScene& scene, bool across) {
     const Extent extent = extent_of(scene);

@@ -1,6 +1,6 @@
 // A plot beside the grains of a profile at the picture's moment, over the height or over the width. The
-// height is then the upright axis. Profiles of species have the species' colours; others are of a mean
-// velocity.
+// height is then the upright axis. Profiles of species have the species' colours; all other profiles show a
+// mean velocity.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ class ProfilePlot final : public SidePlot {
     const Palette palette_;
     std::array<double, 2> places_;        // m, of the axis of places
     std::array<double, 2> range_;         // SI, of the axis of values
-    double left_, right_, top_, bottom_;  // of the box, pixels
+    double left_, right_, top_, bottom_;  // pixels, of the box
     CoarseGraining sums_;
     std::vector<std::vector<double>> curves_;  // one value for each place
 };

@@ -61,8 +61,8 @@ float farthest(const DepthRows& rows, const PixelBox& box) {
     return std::max(last, hn::GetLane(hn::MaxOfLanes(Floats(), most.value)));
 }
 
-// differs(at): lanes of the pixels from `at` on; those that are not 0 are marked. Bits past the end of the
-// row are 0.
+// differs(at) gives lanes for the pixels from `at` on; pixels whose lane is not 0 are marked. Bits past the
+// end of the row are 0.
 template <class Differs>
 HWY_INLINE void mark(int count, std::uint64_t* bits, const Differs& differs) {
     const hn::CappedTag<std::uint32_t, 16> d;

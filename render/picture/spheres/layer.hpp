@@ -9,13 +9,13 @@
 namespace grainreel {
 
 struct Layer {
-    // The part of a row from the first pixel that is not clear to after the last one.
+    // The part of a row from the first pixel that is not clear to just after the last such pixel.
     struct Span {
         int begin = 0, end = 0;
     };
     int width = 0, height = 0;
     std::vector<std::uint32_t> pixels;  // rows from the top; red in the lowest byte, alpha in the highest
-    std::vector<Span> spans;            // of each row; all beside it is clear
+    std::vector<Span> spans;            // one for each row; all pixels beside it are clear
 
     Layer(int w, int h)
         : width(w),

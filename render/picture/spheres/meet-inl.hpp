@@ -50,11 +50,11 @@ struct Ray {
 };
 
 // z of the point nearest to the centre, half the chord along z, and radius^2 - distance^2, which is < 0 for a
-// miss. The discriminant comes from the point of closest approach. It so keeps its digits when a sphere is
+// miss. The discriminant comes from the point of closest approach, so it keeps its digits when a sphere is
 // small against its distance (Haines et al. 2019, Ray Tracing Gems, ch. 7).
 struct Meeting {
     F along, half, rest;
-    Triple<F> miss;  // from the centre to that point
+    Triple<F> miss;  // from the centre to the point nearest to it
 };
 
 template <bool orthographic>
@@ -77,7 +77,7 @@ HWY_INLINE Meeting meet(const Ray<orthographic>& ray, F x, F y, F z, F radius) {
 // The part of a line of sight that is not cut away, by z.
 struct Kept {
     F low, high;
-    F plane;  // whose plane `low` lies in, 0 or 1; -1: the eye's own
+    F plane;  // number of the plane that `low` lies in, 0 or 1; -1: the eye's plane
 };
 
 template <bool orthographic>
@@ -98,7 +98,7 @@ HWY_INLINE Kept kept(const Ray<orthographic>& ray, const Cut& cut) {
     return k;
 }
 
-// z of the first point seen of a sphere, or kNowhere. From within it is on the far side.
+// z of the first point seen of a sphere, or kNowhere. An eye within the sphere sees its far side.
 template <bool orthographic>
 HWY_INLINE F seen_at(const Meeting& m) {
     const F entry = m.along - m.half;

@@ -1,6 +1,6 @@
-// Finds which grains share a pixel on an edge, and how large their shares are. At eight points in the pixel
-// all grains are met that may be seen there. So silhouettes and lines of intersection are exact, and smooth
-// to an eighth.
+// Finds which grains share a pixel on an edge, and how large their shares are. All grains that may be seen in
+// the pixel are met at eight points in it. So silhouettes and lines of intersection are exact, and smooth to
+// an eighth.
 #if defined(GRAINREEL_SPHERES_SETTLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_SETTLE_INL
 #undef GRAINREEL_SPHERES_SETTLE_INL

@@ -26,7 +26,7 @@ struct Sight {
     float slope_y(float pixel) const { return (centre_y - pixel) / focal; }
 };
 
-// What is kept of the grains: the half-spaces x . p >= d of up to two planes; a slab has two.
+// The half-spaces x . p >= d in which grains are kept, of up to two planes; a slab has two.
 struct Cut {
     struct Plane {
         float x = 0, y = 0, z = 0, d = 0;  // unit normal, m
@@ -53,11 +53,11 @@ struct PixelBox {
 // The rows of the picture that spheres are drawn into. Up to 15 pixels past the end of a row may be read and
 // written.
 struct DepthRows {
-    const float* slope_x;  // of the columns' middles
-    float* depth;          // z of what is nearest so far
-    std::uint32_t* seen;   // its number
+    const float* slope_x;  // slopes x of the columns' middles
+    float* depth;          // z of the nearest sphere so far
+    std::uint32_t* seen;   // number of that sphere
     std::size_t stride;
-    int first_row;  // of the picture, that `depth` and `seen` begin with
+    int first_row;  // row of the picture that `depth` and `seen` begin with
 };
 
 // Sixteen pixels on edges, and the grains that may be seen there.
@@ -67,23 +67,23 @@ constexpr int kPointBlock = 16, kCandidates = 4;
 constexpr int kPoints = 8;
 constexpr float kPointX[kPoints] = {1, -1, 5, -3, -5, -7, 3, 7};
 constexpr float kPointY[kPoints] = {-3, 3, 1, -5, 5, -1, 7, -7};
-constexpr float kNoGrain = 1e30f;  // m: depth where none is met
+constexpr float kNoGrain = 1e30f;  // m: depth where no grain is met
 struct alignas(64) EdgeBlock {
-    float x[kPointBlock], y[kPointBlock];  // pixels, of the middle
+    float x[kPointBlock], y[kPointBlock];  // pixels, of the pixel's middle
     ViewSphere candidate[kCandidates][kPointBlock];
     // Results: the share of the pixel that shows each candidate, and the mean place of the points that show
     // it, from the middle.
     float share[kCandidates][kPointBlock];
     float mean_x[kCandidates][kPointBlock], mean_y[kCandidates][kPointBlock];
-    float nearest[kPoints][kPointBlock];  // m, depth of what is seen at a point
-    int candidates = 0;                   // the most that any of the pixels has; unused ones have radius < 0
+    float nearest[kPoints][kPointBlock];  // m, depth of the grain seen at a point
+    int candidates = 0;                   // most candidates of any pixel; unused ones have radius < 0
 };
 
 // A grain near another one. x, y and z count from the centre of the other.
 struct NearGrain {
     float x, y, z, radius;
     float inverse_radius, square;  // 1/m, m2
-    float weight;                  // 0 to 1: fades out at the end of its reach
+    float weight;                  // how much light it takes; 0 at the end of its reach
     float unused = 0;
 };
 
@@ -111,9 +111,10 @@ struct SphereKernels {
                  std::uint32_t number);
     // The largest depth in a box.
     float (*farthest)(const DepthRows&, const PixelBox&);
-    // Both write a bit for each of `count` pixels of a row, 64 to a word and the first in the lowest bit.
-    // mark_changes sets it where a pixel differs from the one before it, mark_edges where it differs from one
-    // of its four neighbours. Pixels past the row's ends are read, see Visibility.
+    // These two write a bit for each of `count` pixels of a row, 64 to a word and the first in the lowest
+    // bit. mark_changes sets the bit where a pixel differs from the one before it, and mark_edges sets it
+    // where a pixel differs from one of its four neighbours. Pixels past the row's ends are read, see
+    // Visibility.
     void (*mark_changes)(const std::uint32_t* row, int count, std::uint64_t* bits);
     void (*mark_edges)(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below,
                        int count, std::uint64_t* bits);

@@ -1,4 +1,4 @@
-// Draws spheres into depth and number in bands of rows, nearest first. Hot code.
+// Draws the depth and number of spheres in bands of rows, nearest spheres first. Hot code.
 #include "render/picture/spheres/visibility.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-// Where a sphere's silhouette begins and ends along one axis of the picture, as x/z: at the tangents from the
-// eye, (c - s z)^2 = r^2 (1 + s^2) (after Mara & McGuire 2013). z must be larger than r.
+// Where a sphere's silhouette begins and ends along one axis of the picture, as x/z. It ends at the tangents
+// from the eye, (c - s z)^2 = r^2 (1 + s^2) (after Mara & McGuire 2013). z must be larger than r.
 struct Span {
     double low, high;
 };
@@ -38,7 +38,8 @@ Visibility::Visibility(int width, int height)
 PixelBox Visibility::bounds(const Sight& sight, const ViewSphere& sphere) const {
     const double x = sphere.x, y = sphere.y, z = sphere.z, r = sphere.radius;
     if (!sight.orthographic && z <= -r) return {};
-    if (!sight.orthographic && z <= r * 1.0001) return {0, 0, width_, height_};  // around the eye's plane
+    if (!sight.orthographic && z <= r * 1.0001)
+        return {0, 0, width_, height_};  // the sphere crosses the eye's plane
     const Span across = sight.orthographic ? Span{x - r, x + r} : tangents(x, z, r);
     const Span upward = sight.orthographic ? Span{y - r, y + r} : tangents(y, z, r);
     const auto pixel = [&](double centre, double slope, int size) {
@@ -87,8 +88,8 @@ void Visibility::fill_bands() {
         for (int band = box_[i].y0 / kBand; band * kBand < box_[i].y1; ++band) band_[band].push_back(i);
 }
 
-// Whether all tiles that the box touches are filled with what is nearer. The farthest depth of a tile is
-// found anew only now and then. An old one does no harm: it only draws grains that need not be drawn.
+// Whether all tiles that the box touches are filled with nearer spheres. The farthest depth of a tile is
+// found anew only now and then. An old depth does no harm: grains are then drawn that need not be drawn.
 bool Visibility::hidden(Worker& worker, int band, const PixelBox& box, float nearest, const DepthRows& rows) {
     constexpr int kStale = 6;  // grains
     for (int tile = box.x0 / kTile; tile * kTile < box.x1; ++tile) {

@@ -42,8 +42,8 @@ class RowBits {
     std::vector<std::uint64_t> words_;
 };
 
-// m: z of what stands before grains, in the middle of each pixel; infinite where there is nothing. Rows have
-// `stride` numbers.
+// m: z of solid things that may hide grains, in the middle of each pixel; infinite where there is nothing.
+// Rows have `stride` numbers.
 struct SolidDepth {
     const float* away = nullptr;  // null: nothing anywhere
     std::size_t stride = 0;
@@ -54,8 +54,8 @@ class Visibility {
     // width, height: pixels, >= 1.
     Visibility(int width, int height);
 
-    // The number of a grain is its index + 1. The result does not depend on the team's size. With something
-    // solid, grains are seen only where they are nearer than that, and depths are kept.
+    // The number of a grain is its index + 1. The result does not depend on the team's size. Where `solid` is
+    // given, grains are seen only where they are nearer than it, and depths are kept.
     void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team,
                 const SolidDepth& solid = {});
 
@@ -64,17 +64,17 @@ class Visibility {
     const std::uint32_t* row(int y) const {
         return seen_.data() + static_cast<std::size_t>(y) * stride_ + kPad;
     }
-    // m: z of what is seen in the middle of each pixel of a row, grain or solid. Only kept with something
-    // solid.
+    // m: z of the grain or solid that is seen in the middle of each pixel of a row. Depths are kept only
+    // where update() was given something solid.
     const float* depth(int y) const { return depth_.data() + static_cast<std::size_t>(y) * stride_ + kPad; }
-    std::size_t stride() const { return stride_; }  // from row to row
+    std::size_t stride() const { return stride_; }  // numbers from row to row
     // The indices of the grains that are seen at all, rising.
     const std::vector<std::uint32_t>& shown() const { return shown_; }
     // The pixels of this picture that a sphere covers.
     PixelBox bounds(const Sight& sight, const ViewSphere& sphere) const;
     // The pixels that a grain may be seen in; none for a grain that is cut away.
     const PixelBox& box(std::size_t grain) const { return box_[grain]; }
-    // The share of a grain's outline that shows it.
+    // The share of the area inside a grain's outline that shows the grain.
     double seen_share(std::size_t grain) const;
     int width() const { return width_; }
     int height() const { return height_; }
@@ -108,13 +108,13 @@ class Visibility {
     std::vector<float> slope_x_;
     std::vector<PixelBox> box_;
     std::vector<std::uint32_t> order_;
-    std::vector<std::vector<std::uint32_t>> band_;  // grains in it, nearest first
+    std::vector<std::vector<std::uint32_t>> band_;  // grains in each band, nearest first
     std::vector<Worker> workers_;
     std::vector<std::uint32_t> shown_;
 };
 
-// Puts pixel x, y and the different grains that it and its four neighbours show, which may be seen in it,
-// into place `at` of the block. who: gets their indices.
+// Puts pixel x, y into place `at` of the block, with the different grains that it and its four neighbours
+// show. These grains may be seen in the pixel. who: gets their indices.
 void take_candidates(const Visibility& visibility, const std::vector<ViewSphere>& spheres, int x, int y,
                      EdgeBlock& block, std::uint32_t (&who)[kCandidates][kPointBlock], int at);
 

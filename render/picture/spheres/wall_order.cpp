@@ -1,5 +1,5 @@
-// Finds the pixels in which grains reach through walls, and what walls and grains hide of each other there.
-// Hot code.
+// Finds the pixels in which grains reach through walls, and how much walls and grains hide of each other
+// there. Hot code.
 #include "render/picture/spheres/wall_order.hpp"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace grainreel {
 namespace {
 
-// Pixels by which grains may reach into walls without being seen there, as grains in contact do. Through
-// glass, which tints by a twentieth, more goes unseen.
+// Pixels by which grains may reach into walls, as grains in contact do, without a visible error. Glass, which
+// tints by a twentieth, allows more.
 constexpr double kUnseen = 0.25, kUnseenThroughGlass = 0.5;
 
 }  // namespace
@@ -23,7 +23,8 @@ bool WallOrder::Plate::disorders(const Vec3& centre, double radius) const {
     return true;
 }
 
-// For a cap of less than half of the grain it is a sphere around the cap's circle in the plane.
+// Returns the whole grain when its centre is on the wrong side. Otherwise the part is a cap of less than half
+// of the grain, and a sphere around the cap's circle in the plane is returned.
 ViewSphere WallOrder::Plate::wrong_part(const Vec3& centre, double radius) const {
     const double height = plane.height(centre), inside = before ? -height : height;
     const auto sphere = [](const Vec3& c, double r) {

@@ -1,8 +1,8 @@
-// Where walls and grains hide each other, pixel by pixel.
+// Finds where walls and grains hide each other, pixel by pixel.
 //
 // Walls are painted as two flat layers, one behind all grains and one before them. This is right while every
-// grain is inside. Where a grain reaches through a wall or lies on its other side, WallOrder finds what has
-// to be taken away from the grains and from the layer before them.
+// grain is inside. Where a grain reaches through a wall or lies on its other side, WallOrder finds which
+// shares of a pixel have to be taken away from the grains and from the layer before them.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace grainreel {
 
 struct WallFace {
-    std::vector<Vec3> corners;  // m, of a flat convex piece, in order around it
+    std::vector<Vec3> corners;  // m: corners of a flat convex piece, in order around it
     double opacity;             // 1 for a solid one
     bool before;                // whether it is in the layer before the grains
 };
@@ -25,7 +25,7 @@ struct WallFace {
 // A pixel in which the two layers are not right.
 struct WallPixel {
     int x, y;
-    float hidden;  // share of what is seen of grains that walls hide
+    float hidden;  // share of the visible grains that walls hide
     float bared;   // share of the walls before the grains that grains hide
 };
 
@@ -34,7 +34,7 @@ class WallOrder {
     // faces: in view coordinates. The result does not depend on the team's size.
     void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres,
                 const std::vector<WallFace>& faces, const Visibility& visibility, Team& team);
-    // In order from the top left on.
+    // Pixels in order from the top left on.
     const std::vector<WallPixel>& pixels() const { return pixels_; }
 
   private:
@@ -71,7 +71,7 @@ class WallOrder {
     void judge_block(const Sight& sight, const EdgeBlock& block, WallPixel* pixels, int count) const;
 
     std::vector<Plate> plates_;
-    std::vector<Finding> findings_;  // a thread
+    std::vector<Finding> findings_;  // one for each thread
     std::vector<WallPixel> pixels_;
 };
 

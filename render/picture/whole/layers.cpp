@@ -45,7 +45,7 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
 
 namespace {
 
-constexpr std::uint32_t kMost = 0xffff;  // of linear light; and of moments, which the sums have room for
+constexpr std::uint32_t kMost = 0xffff;  // of linear light, and of moments that the sums have room for
 
 // The linear light of each sRGB byte, 16 bits.
 const std::array<std::uint32_t, 256>& linear_of_byte() {
@@ -142,10 +142,10 @@ const Layer& SideLayer::draw(const ShapePainter& painter, const Shapes& shapes) 
     return layer_;
 }
 
-// Binds a target for a part of the port. It is no larger than need be, because to clear it takes as long as
-// to draw.
+// Binds a target for a part of the port. The target is no larger than needed, because clearing it takes as
+// long as drawing.
 void SideLayer::bind(const Rectangle& part) {
-    constexpr int kStep = 64;  // pixels, so that shapes that grow slowly do not want a new one each time
+    constexpr int kStep = 64;  // pixels; slowly growing shapes do not need a new target each time
     if (!target_ || part.width > target_->width() || part.height > target_->height()) {
         const auto room = [](int needed, int now) {
             return std::max(now, (needed + kStep - 1) / kStep * kStep);

@@ -1,4 +1,4 @@
-// The layers of a picture: those that OpenGL draws, how all of them are laid over each other, and how the
+// The layers of a picture: the layers that OpenGL draws, how all layers are laid over each other, and how the
 // moments of an open shutter become one picture.
 #pragma once
 
@@ -58,7 +58,7 @@ class SideLayer {
     // The layer is as large as the port.
     SideLayer(const gl::Functions& gl, const Rectangle& port);
 
-    // Draws the layer. What others change in it stays until the shapes change.
+    // Draws the layer. Changes that others make in it stay until the shapes change.
     const Layer& draw(const ShapePainter& painter, const Shapes& shapes);
     Layer& layer() { return layer_; }
 

@@ -86,12 +86,12 @@ struct Renderer::Impl {
         if (meshes.any()) mesh_painter.emplace(port.width, port.height);
     }
 
-    // What is deleted belongs to the context, so that must be current.
+    // The members that are deleted belong to the context, so the context must be current.
     ~Impl() {
         try {
             context->make_current();
         } catch (const RunError&) {
-            // Then nothing is current, and what the context owns goes with it.
+            // Then no context is current, and all that the context owns is deleted with it.
         }
     }
 
@@ -105,8 +105,9 @@ struct Renderer::Impl {
     std::unique_ptr<gl::Context> context;
     ShapePainter shape_painter;
     SideLayer behind, before;
-    std::optional<SideLayer> marks_alone;  // where grains hide parts of the walls before them
-    std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;  // of `before`: pixels as they were
+    std::optional<SideLayer> marks_alone;  // used where grains hide parts of the walls before them
+    std::vector<std::pair<std::uint32_t*, std::uint32_t>>
+        covered;  // pixels of `before` and their colours before the change
     std::optional<Ground> ground;
     Team team;
     // The grains that are not hidden, those of them that are no ghosts, and those that have marks.
@@ -118,13 +119,13 @@ struct Renderer::Impl {
     SpherePainter sphere_painter;
     std::optional<SpherePainter> ghost_painter;
     std::optional<Exposure> exposure;
-    bool started = false;  // the film: where grains were then is known
+    bool started = false;  // whether the film has begun, so that start heights are known
     ContainerShapes shapes;
     View eye;
     std::vector<PointForce> point_forces;
-    std::vector<char> labelled;  // of each label, whether its grain has been there
-    Picture words;               // beside the port, from picture to picture
-    Picture picture;             // of draw() without a place to draw into
+    std::vector<char> labelled;  // for each label, whether its grain has been in a frame
+    Picture words;               // words beside the port, kept from picture to picture
+    Picture picture;             // the picture that draw() returns
 
     void draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
               DrawTimes* times);

@@ -1,5 +1,5 @@
-// From a frame to a picture: the grains, the walls and the words around them. Everything in render/picture is
-// put together here; films and the library know only this header and few others. It includes nothing of
+// Makes a picture of a frame: the grains, the walls and the words around them. Everything in render/picture
+// is put together here; films and the library know only this header and few others. It includes nothing of
 // Cairo.
 #pragma once
 
@@ -18,9 +18,9 @@
 
 namespace grainreel {
 
-// ms that the stages of a frame take. They are measured only on demand, because OpenGL has to be waited for
-// after each stage. occlusion: to find the neighbours that shade a grain; shading: all light on grains;
-// shadow: that on the ground.
+// ms that the stages of a frame take. They are measured only on demand, because measuring waits for OpenGL
+// after each stage. occlusion: the search for neighbours that shade a grain; shading: all light on grains;
+// shadow: the shadow on the ground.
 struct DrawTimes {
     double upload = 0, spheres = 0, shading = 0, occlusion = 0, shadow = 0, walls = 0, overlay = 0,
            readback = 0;
@@ -43,18 +43,18 @@ class Renderer {
              gl::Provider provider);
     ~Renderer();
 
-    // Draws a frame in the size of the scene's film. playback: what the caption says of time ("slow motion,
-    // 1/10 speed"). film_time: s since the film's first frame, for a camera that moves.
+    // Draws a frame in the size of the scene's film. playback: the caption of time ("slow motion, 1/10
+    // speed"). film_time: s since the film's first frame, for a camera that moves.
     const Picture& draw(const Frame& frame, const std::string& playback, double film_time = 0);
 
     // Draws into a picture of the caller's: an empty one, or one that this renderer has drawn into before.
     void draw_into(Picture& picture, const Frame& frame, const std::string& playback, double film_time);
 
     const View& view() const;  // of the last picture
-    // Tells the film's first frame, which gives grains their heights at the start. Without a call it is the
-    // first one drawn.
+    // Gives the film's first frame, which decides the grains' heights at the start. Without a call the first
+    // frame that is drawn decides them.
     void start_from(const Frame& frame);
-    // Points these grains and forces out in all pictures from now on.
+    // Points out these grains and forces in all pictures from now on.
     void point_out(PointedOut what);
     // Takes a frame that is not drawn but leaves trails.
     void remember(const Frame& frame);
@@ -64,7 +64,7 @@ class Renderer {
     std::string last_note() const;
 
     std::string gl_description() const;  // vendor, renderer and version of the context
-    std::string gl_note() const;         // why it is not the context one would have expected; mostly empty
+    std::string gl_note() const;         // why it is not the expected kind of context; mostly empty
 
     // Draws the same picture and tells what each of its stages cost.
     DrawTimes draw_timed(const Frame& frame, const std::string& playback);

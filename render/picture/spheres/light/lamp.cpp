@@ -18,7 +18,7 @@ const ToneTable& ToneTable::get() {
     return table;
 }
 
-// The places in the table are found first, some at a time, because registers can do that.
+// The places in the table are found first, because registers find several of them at a time.
 void ToneTable::pixels(const float* red, const float* green, const float* blue, int count,
                        std::uint32_t* out) const {
     constexpr int kSome = 64;

@@ -1,4 +1,4 @@
-// The lamp that grains and the legend's spheres share, and the way from linear light to the bytes of a
+// The lamp that grains and the legend's spheres share, and the conversion from linear light to the bytes of a
 // picture.
 #pragma once
 
@@ -11,17 +11,17 @@ namespace grainreel {
 // directions in view coordinates (x right, y up, z away).
 struct Lamp {
     float to_key[3] = {-0.4793f, 0.6590f, -0.5792f};  // unit, towards the key light
-    float key = 0.78f;                                // share of the albedo where it falls straight
+    float key = 0.78f;     // share of the albedo where the key light falls straight on
     float spread = 0.05f;  // tangent of half the angle that it subtends: how soft shadows are
     float sky = 0.62f;     // ambient light from above
     float ground = 0.34f;  // ambient light from below
     float even = 0;        // share of the albedo that is the same everywhere
     float up[3] = {0, 1, 0};
-    float rim = 0.72f;        // what is left at the silhouette, so that grains stay separable
-    float rim_width = 0.45f;  // cosine between normal and line of sight where that ends
-    float shine = 0.12f;      // of the highlight
-    float tone = 0.40f;       // of the darker half of a two-tone grain
-    float cap = 0.80f;        // of what a cut face shows
+    float rim = 0.72f;        // share of the light left at the silhouette, which keeps grains apart
+    float rim_width = 0.45f;  // cosine between normal and line of sight at which the rim ends
+    float shine = 0.12f;      // strength of the highlight
+    float tone = 0.40f;       // share of the colour on the darker half of a two-tone grain
+    float cap = 0.80f;        // share of the albedo that a cut face shows
     bool occlusion = true, shadows = true;
 };
 

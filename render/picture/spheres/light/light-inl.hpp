@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// A point that is seen, from the grain's centre, with its normal and the direction to the eye.
+// A point that is seen, as a vector from the grain's centre, with its normal and the direction to the eye.
 struct SurfacePoint {
     Triple<F> at, normal, to_eye;
     F cap;  // 1 on a cut face, else 0
@@ -38,7 +38,7 @@ HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const 
             face = select(on, Triple<F>{F(-p.x), F(-p.y), F(-p.z)}, face);
         }
     }
-    // A point that just misses lies on the silhouette.
+    // A point whose line of sight just misses the grain lies on the silhouette.
     const F back = select(away == F(kNowhere), F(0), away - m.along);
     point.at = m.miss.plus(direction, back);
     point.normal = select(point.cap > F(0), face, point.at * F(1 / s.radius));
@@ -46,9 +46,9 @@ HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const 
     return point;
 }
 
-// The share of the light from all around, weighted by the cosine, that no neighbour takes. What one sphere
-// takes is exact when it stands wholly above the horizon. Where it reaches below, and where several overlap,
-// it is approximate (after I. Quilez, "sphere ambient occlusion").
+// The share of the light from all around, weighted by the cosine, that no neighbour takes. The share that one
+// sphere takes is exact when the sphere stands wholly above the horizon. Where it reaches below, and where
+// several spheres overlap, the share is approximate (after I. Quilez, "sphere ambient occlusion").
 HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours) {
     F open(1);
     for (int i = 0; i < neighbours.count; ++i) {
@@ -57,8 +57,9 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
         const F rise = point.normal.dot(to);
         if (none(rise > F(-n.radius))) continue;  // below the horizon
         const F inverse = inverse_root(to.squared());
-        const F share = smaller(F(n.square) * inverse * inverse, F(1));  // of the sphere's squared sine
-        const F sunk = rise * F(n.inverse_radius);                       // -1 to 1: it stands in the horizon
+        const F share = smaller(F(n.square) * inverse * inverse,
+                                F(1));  // square of the sine of the sphere's radius as seen from the point
+        const F sunk = rise * F(n.inverse_radius);  // -1 to 1: the sphere stands in the horizon
         const F whole = larger(rise, F(0)) * inverse * share;
         const F base = zero_to_one(F(0.5) * (sunk + F(1)) * share);
         const F part = base * base * inverse_root(larger(base, F(1e-12)));

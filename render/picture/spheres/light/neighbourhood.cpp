@@ -16,7 +16,7 @@ void LightGrid::set_axes(const Lamp& lamp) {
         for (int c = 0; c < 3; ++c) axis_[a][c] = axes[a][c];
 }
 
-// A cell is as wide as nearly all spheres. The few larger ones are put into all cells that they reach.
+// Makes cells as wide as nearly all spheres. The few larger spheres are put into all cells that they reach.
 void LightGrid::set_cells(const std::vector<ViewSphere>& spheres, float reach) {
     constexpr double kNearlyAll = 0.9, kMostCells = 4;  // cells a sphere
     std::vector<float> radii;
@@ -78,7 +78,7 @@ void LightGrid::fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, f
 namespace {
 
 constexpr std::size_t kMostCasters = 24;
-// Neighbours also stand for grains farther away.
+// A factor above 1 on the light that neighbours take, because neighbours also stand for grains farther away.
 constexpr float kFarther = 1.3f;
 
 NearGrain neighbour(const ViewSphere& own, const ViewSphere& other, float weight) {
@@ -89,8 +89,8 @@ NearGrain neighbour(const ViewSphere& own, const ViewSphere& other, float weight
 
 }  // namespace
 
-// How much light a neighbour takes: it falls from kFarther for grains that touch to 0 at the end of their
-// reach, so that no neighbour comes or goes at once.
+// How much light a neighbour takes. The weight falls from kFarther for grains that touch to 0 at the end of
+// their reach, so that no neighbour appears or vanishes suddenly.
 float Neighbourhood::weight(const ViewSphere& own, const ViewSphere& other) const {
     const float dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
     const float gap = std::sqrt(dx * dx + dy * dy + dz * dz) - own.radius - other.radius;

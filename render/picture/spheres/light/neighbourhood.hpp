@@ -1,5 +1,5 @@
-// Which grains take light from which: for each grain that is seen, those near it, which take ambient light,
-// and those between it and the key light, which throw shadows. The file is hot.
+// Finds for each grain that is seen the grains near it, which take ambient light from it, and the grains
+// between it and the key light, which throw shadows on it. The file is hot.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ class LightGrid {
     // reach: how far from its surface a sphere must be found, in its radii.
     void fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, float reach);
 
-    // Calls visit(index) for every sphere that may be within its own reach of `s`, also for `s` itself. It
+    // Calls visit(index) for every sphere that may be within its own reach of `s`, also for `s` itself. visit
     // may be called more than once for a large sphere.
     template <class Visit>
     void around(const ViewSphere& s, const Visit& visit) const {
@@ -88,11 +88,11 @@ class LightGrid {
 // Finds occluders and casters of the grains that are seen.
 class Neighbourhood {
   public:
-    // shown: indices of the grains that are seen. What is cut away takes no light.
+    // shown: indices of the grains that are seen. Grains that are cut away take no light.
     void update(const std::vector<ViewSphere>& spheres, const Cut& cut, const Lamp& lamp,
                 const std::vector<std::uint32_t>& shown, Team& team);
 
-    // What takes light from shown[slot]: occluders around it, and casters towards the lamp.
+    // The grains that take light from shown[slot]: occluders around it, and casters towards the lamp.
     NeighbourSpan occluders(std::size_t slot) const { return span(occluders_[slot]); }
     NeighbourSpan casters(std::size_t slot) const { return span(casters_[slot]); }
 
@@ -107,7 +107,7 @@ class Neighbourhood {
     struct Pool {
         std::vector<NearGrain> all;
         std::vector<std::uint32_t> found;
-        std::vector<std::uint64_t> met_by;  // of each grain: the number of the last search that came by it
+        std::vector<std::uint64_t> met_by;  // for each grain: number of the last search that met it
         std::uint64_t search = 0;
         void forget_met() { ++search; }
         bool has_met(std::uint32_t j) { return std::exchange(met_by[j], search) == search; }
@@ -119,7 +119,7 @@ class Neighbourhood {
     void find_casters(std::size_t slot, std::uint32_t pool);
     float weight(const ViewSphere& own, const ViewSphere& other) const;
 
-    // What the update that is under way works on.
+    // The arguments of the update that is under way.
     const std::vector<ViewSphere>* spheres_ = nullptr;
     const std::vector<std::uint32_t>* shown_ = nullptr;
     Cut cut_;

@@ -42,7 +42,7 @@ void BandPainter::make_room(std::size_t points) {
     for (auto* room : {&x_, &y_, &red_, &green_, &blue_}) room->resize(2 * points + kPointBlock);
 }
 
-// The rest of the last register must hold points of the grain, too.
+// Fills the rest of the last register with points of the grain, since kernels read whole registers.
 void BandPainter::pad(std::size_t points) {
     std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(points), kPointBlock, x_[0]);
     std::fill_n(y_.begin() + static_cast<std::ptrdiff_t>(points), kPointBlock, y_[0]);
@@ -164,7 +164,9 @@ void BandPainter::light_parts(const PaintJob& job) {
 }
 
 void BandPainter::add_parts(std::size_t begin, std::size_t end) {
-    const auto clipped = [](float linear) { return std::min(linear, 1.0f); };  // or highlights fray the edge
+    const auto clipped = [](float linear) {
+        return std::min(linear, 1.0f);
+    };  // without this highlights fray the edge
     for (std::size_t i = begin; i < end; ++i) {
         const Part& part = sorted_[i];
         Soft& pixel = soft_[part.pixel];
@@ -212,7 +214,8 @@ NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, c
         low = low.cwiseMin(at);
         high = high.cwiseMax(at);
     }
-    // Distances are taken beside the line of sight. The room is for what perspective shifts within the grain.
+    // Distances are measured across the line of sight. The room allows for the shift by perspective within
+    // the grain.
     const float room = job.sight.orthographic ? 0 : own.radius * own.radius / std::max(own.z, own.radius);
     const Eigen::Vector2f middle = 0.5f * (low + high);
     const float spread = 0.5f * (high - low).norm() + room;

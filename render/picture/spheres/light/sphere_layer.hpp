@@ -91,7 +91,7 @@ class SphereLayer {
   public:
     SphereLayer(int width, int height) : visibility_(width, height), layer_(width, height) {}
 
-    // These are called one after the other. The picture does not depend on the team's size.
+    // These are called in this order. The picture does not depend on the team's size.
     void find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team,
                       const SolidDepth& solid = {});
     // faces: in view coordinates.
