@@ -24,9 +24,9 @@ struct CodecSettings {
     std::string preset = "veryfast";
     int threads = 1;  // the bits may depend on it, so it is never left to the machine
     bool alpha = false;
-    // 0: a single pass of constant quality. 1 and 2: two passes over the same clip. The first pass writes
-    // what the second one needs to reach `bit_rate` into the file `log`; where `log` was empty, it becomes
-    // the text itself.
+    // 0: a single pass of constant quality. 1 and 2: two passes over the same clip. The first pass notes what
+    // the second one needs to reach `bit_rate`; `log` names the file of these notes, or, for encoders without
+    // such a file, is their text.
     int pass = 0;
     std::int64_t bit_rate = 0;  // bits/s; 0: constant quality
     std::string log;

@@ -85,7 +85,7 @@ class Joined {
 
     // To be called when the first packet of the first piece has been read.
     void begin(const PieceReader& like);
-    // frame: that it shows, of the whole film; place: in the order of coding.
+    // Adds a packet of the piece `of`. before: number of the film's frames in the pieces before this one.
     void add(AVPacket& packet, const PieceReader& of, std::int64_t before);
     void finish(const std::filesystem::path& to);
 
@@ -99,7 +99,7 @@ class Joined {
     const FilmContainer& container_;
     const AVRational frame_time_;
     OutputPtr output_;
-    std::int64_t delay_ = 0, bytes_ = 0, duration_ = 0;  // sums over the packets
+    std::int64_t delay_ = 0, bytes_ = 0, duration_ = 0;  // delay, bytes and duration of the packets
     bool begun_ = false;
 };
 

@@ -33,7 +33,7 @@ std::vector<std::int64_t> ordered(std::vector<std::int64_t> steps) {
     return steps;
 }
 
-// With the laws that are run.
+// The scene with the laws that are run.
 FilmedScene as_carried(FilmedScene scene, const CarriedScene& carried) {
     static_cast<Scene&>(scene) = carried.scene;
     return scene;
@@ -58,7 +58,7 @@ std::int64_t restart_to_go_on(const fs::path& run) {
     return *step;
 }
 
-// What is known of a run that was handed over before.
+// Reads what is known of a run that was handed over before.
 CarriedScene as_handed_over(const fs::path& run, const FilmedScene& scene, const Plan& plan) {
     const HandoverFacts facts = read_handover(run / ReturnedRun::kFolder);
     CarriedScene carried;
@@ -181,7 +181,7 @@ bool EngineRun::work() {
     return true;
 }
 
-// Packs, and writes all that the engine needs. False when told to stop.
+// Packs the grains and writes all that the engine needs. Returns false when told to stop.
 bool EngineRun::hand_over() {
     const auto timer = desk_.times.during("packing");
     const auto watcher = [&](const PackingProgress& now) {
@@ -205,17 +205,17 @@ bool EngineRun::hand_over() {
     return true;
 }
 
-// What the dump has of later steps comes again.
+// Prepares to go on from the restart file. What the dump has of later steps will come again.
 void EngineRun::take_up() {
     const HandoverFacts facts = read_handover(place());
     trim_dump(facts.dump, *restart_);
-    // What it said before is another run's; an error there is none of this one.
+    // The earlier output belongs to the earlier start of the engine: an error in it is no error of this one.
     std::error_code ignored;
     fs::rename(place() / EngineJob::kOutput, place() / "engine.before.txt", ignored);
     back_ = std::make_unique<ReturnedRun>(folder(), scene_, carried_.plan, facts, desk_.record.version);
 }
 
-// Until the engine has ended, and all that it wrote is read.
+// Follows the engine until it has ended and all that it wrote is read.
 void EngineRun::follow() {
     const auto timer = desk_.times.during("engine");
     desk_.listener.detail(job_.command());
@@ -258,7 +258,7 @@ void EngineRun::show_progress() {
     desk_.listener.progress(progress);
 }
 
-// From the run's own files, as `render` does.
+// Draws the film from the run's own files, as `render` does.
 bool EngineRun::draw() {
     if (!film_.wanted()) return true;
     constexpr bool replay = false;

@@ -1,5 +1,5 @@
-// A scene that another engine runs on this machine: it is handed over, its dump is followed while it grows,
-// and the folder is that of any run, with its film.
+// Runs a scene with another engine on this machine: the scene is handed over, and the engine's dump is read
+// while it grows. The result is an ordinary run's folder with its film.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,23 @@
 
 namespace grainreel {
 
-// Steps of all pictures of a run from step 0 on, with those that they are exposed over or averaged over; by
-// rising step.
+// Steps of all pictures of a run from step 0 on, and the steps over which the pictures are exposed or
+// averaged; rising.
 std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
-// carried.dumps also has the steps of the film's pictures; those of the trajectory are left out where both
-// together would end the engine's run too often.
+// Adds the steps of the film's pictures to carried.dumps. The trajectory's steps are left out when both
+// together would interrupt the engine's run too often.
 void want_pictures(CarriedScene& carried, const FilmedScene& scene);
 
 class EngineRun final : public FilmRun {
   public:
-    // scene: as it was read; it is run with the laws of `carried`. Throws UserError; nothing is on disk then.
+    // scene: the scene as it was read; it is run with the laws of `carried`. Throws UserError before anything
+    // is written.
     EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
               CarriedScene carried);
     // Goes on in the folder of such a run from the engine's last restart file: the dump is read again from
-    // its begin. scene, plan: of the folder's scene.toml. Throws UserError where there is nothing to go on
-    // from.
+    // its beginning. scene, plan: those of the folder's scene.toml. Throws UserError when there is nothing to
+    // go on from.
     EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
               std::shared_ptr<FolderLock> lock);
 
@@ -54,7 +55,7 @@ class EngineRun final : public FilmRun {
     void show_progress();
     bool draw();
 
-    std::optional<std::int64_t> restart_;  // the engine's step of the file that it goes on from
+    std::optional<std::int64_t> restart_;  // the engine's step in the restart file that it goes on from
     CarriedScene carried_;
     FilmedScene scene_;
     EngineJob job_;

@@ -50,7 +50,7 @@ void check(const PartsWanted& wanted, const FilmRequest& request, const FilmedSc
                         "add --max-size none, or draw it in one go");
 }
 
-// Text and numbers, one after the other.
+// A checksum of texts and numbers that are added one after another.
 class Digest {
   public:
     void add(const std::string& text) { sum_ = XXH64(text.data(), text.size(), sum_ + text.size()); }
@@ -154,7 +154,7 @@ std::string checksum_of_run(const FrameArchive& frames, const std::string& scene
 std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
                                  const std::vector<std::string>& captions) {
     FilmedScene drawn = scene;
-    drawn.run.threads = 0;  // of this machine
+    drawn.run.threads = 0;  // the number of threads depends on the machine
     tell_engine(drawn);
     Digest digest;
     digest.add(written_scene(drawn));
@@ -200,7 +200,7 @@ Part read_part(const fs::path& folder) {
     return {folder, *record};
 }
 
-// The parts by number. Throws where they are not each of one film's once.
+// Sorts the parts by number. Throws when they are not all the parts of one film, each once.
 std::vector<Part> in_order(std::vector<Part> parts) {
     const auto number = [](const Part& part) { return part.record.number; };
     std::stable_sort(parts.begin(), parts.end(),
@@ -269,7 +269,7 @@ void check_together(const std::vector<Part>& parts, RunListener& listener) {
         }
 }
 
-// A part stays as it is.
+// Throws when the film would be written into a part: parts stay as they are.
 void check_outside(const JoinRequest& request) {
     std::error_code error;
     const fs::path folder = request.out.has_parent_path() ? request.out.parent_path() : fs::path(".");

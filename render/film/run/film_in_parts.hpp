@@ -19,27 +19,28 @@
 
 namespace grainreel {
 
-// Encoders' bits depend on their threads: those of parts are the same on all machines.
+// The bits of encoders depend on their number of threads, so parts use the same number on all machines.
 constexpr int encoder_threads_of_parts = 2;
 
 class FilmInParts {
   public:
-    // times: s, simulated, of all pictures. Throws UserError for what cannot be had in parts: too few
-    // pictures, a GIF, a film with a cap, a part on stdout.
+    // times: simulated times (s) of all pictures. Throws UserError for films that cannot be drawn in parts:
+    // too few pictures, a GIF, a film with a cap, a part on stdout.
     FilmInParts(const PartsWanted& wanted, const FilmRequest& request, const FilmedScene& scene,
                 std::vector<double> times);
 
     bool is_part() const { return wanted_.number > 0; }
-    // Those that are drawn here, and the frames that this makes.
+    // The pictures that are drawn here, and the frames that they become.
     const FilmPart& here() const { return here_; }
-    // The first picture that a part must know of: trails begin there. That of the part where it needs none.
+    // The first picture that this part must know, since trails begin there. Without trails it is the part's
+    // own first picture.
     std::int64_t known_from() const;
     FilmExtent extent() const;
-    std::string folder_name() const;  // "-part-03", to stand behind the run's name
-    // What a part leaves out of the film's side files, for its user.
+    std::string folder_name() const;  // "-part-03", which is added to the run's name
+    // Warnings about side files of the film that a part does not make.
     std::vector<std::string> warnings() const;
 
-    // For run.json: all but the checksums.
+    // The part's entry in run.json, without the checksums.
     DrawnPart record() const;
 
   private:
@@ -51,28 +52,28 @@ class FilmInParts {
     FilmPart here_;
 };
 
-// What tells parts that they are of one run: a checksum of scene.toml, the moments, and the grains of the
-// first and the last moment that the run kept.
+// A checksum by which parts of one run are known: of scene.toml, the moments, and the grains of the first and
+// the last moment that the run kept.
 std::string checksum_of_run(const FrameArchive& frames, const std::string& scene);
-// What tells parts that they are of one film: the scene as it is drawn, and which moments are drawn with
-// which words.
+// A checksum by which parts of one film are known: of the scene as it is drawn, and of the moments and their
+// words.
 std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
                                  const std::vector<std::string>& captions);
 
 struct JoinRequest {
     std::vector<std::filesystem::path> parts;  // folders, in any order
     std::filesystem::path out;                 // the film's file
-    bool force = false;                        // a file of that name is replaced
+    bool force = false;                        // whether a file of that name is replaced
 };
 
-// Joins the parts into one film, which has the bytes of the same film drawn in one go with --parts. False
-// when asked to stop. Throws UserError with one line where parts are missing, doubled, of another run, drawn
-// or encoded otherwise, incomplete or damaged; RunError when the film cannot be written. In all these cases
-// nothing has the film's name that had not before.
+// Joins the parts into one film, which has the same bytes as the film drawn in one go with --parts. Returns
+// false when asked to stop. Throws UserError when parts are missing, doubled, of another run, drawn or
+// encoded otherwise, incomplete or damaged, and RunError when the film cannot be written. In all these cases
+// no new file gets the film's name.
 bool join_parts(const JoinRequest& request, RunListener& listener);
 
-// Whether parts in that format can be joined to such a file. Throws UserError where it is in the way, or has
-// another ending.
+// Checks that parts in that format can be joined to the file `film`. Throws UserError when the file exists
+// and may not be replaced, or has another ending.
 void check_joined(const std::filesystem::path& film, FilmFormat format, bool force);
 
 }  // namespace grainreel

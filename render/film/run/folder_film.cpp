@@ -24,7 +24,8 @@ void FolderFilm::check(const FilmedScene& scene, std::int64_t frames) const {
 
 void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr start, DrawerMaker draw) {
     if (!wanted()) return;
-    desk_.folder->lock().check_there();  // else the film would begin in whatever has its name now
+    desk_.folder->lock()
+        .check_there();  // otherwise the film might begin in another folder that has its name now
     FilmOptions film;
     film.folder = desk_.folder->path();
     film.film = request_.film;
@@ -66,7 +67,7 @@ void FolderFilm::describe(RunJson& record) const {
     record.raster_threads = wanted() ? threads_.raster : 0;
     record.encoder_threads = wanted() ? threads_.encoder : 0;
     record.film_frames = report_.frames;
-    if (film_) record.film_frames.reset();  // what of it is on disk shows when it is closed
+    if (film_) record.film_frames.reset();  // how much of it is on disk is known when it is closed
     record.encoder = report_.encoder;
 }
 
@@ -96,9 +97,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double shown_for = 2;  // s of simulated time that the caption stays
+constexpr double shown_for = 2;  // s of simulated time for which the caption stays
 
-// Whether each picture shows one moment, and nothing that the kept moment lacks.
+// Whether each picture shows a single moment and nothing that a kept moment lacks.
 bool is_of_single_moments(const Film& film) {
     const bool spans =
         std::any_of(film.segments.begin(), film.segments.end(),
@@ -106,8 +107,8 @@ bool is_of_single_moments(const Film& film) {
     return !spans && !needs_displacement(film.shows) && !needs_touches(film.shows);
 }
 
-// The first step before `end` at which the film that is to be made and the pictures whose moments were kept
-// differ; `end` when there is none. A locked picture may have been left out.
+// The first step before `end` at which the planned film differs from the pictures whose moments were kept;
+// `end` when there is none. A locked picture may have been left out.
 std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
                                const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t end) {
     const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);
@@ -127,7 +128,8 @@ std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
     return k < kept.size() ? std::min(end, kept[k]) : end;
 }
 
-// Captions do not overlap: the one that is there then ends, and the next one comes when it did.
+// Adds a caption from `time` on. Captions do not overlap: one that is shown at that time ends there, and the
+// next one begins when it did before.
 void add_caption(FilmedScene& scene, double time, const std::string& text) {
     std::vector<FilmCaption>& captions = scene.film.captions;
     const auto next = std::find_if(captions.begin(), captions.end(),

@@ -1,4 +1,4 @@
-// The film that a run makes in its folder, with all that stands beside it: poster, contact sheet, pictures.
+// The film that a run makes in its folder, with the files beside it: poster, contact sheet, pictures.
 #pragma once
 
 #include <cstdint>
@@ -26,26 +26,26 @@ class FolderFilm final : public SideWork {
     FolderFilm(FilmRequest request, RunDesk& desk) : request_(std::move(request)), desk_(desk) {}
 
     const FilmRequest& request() const { return request_; }
-    // Whether pictures are asked for at all.
+    // Whether any pictures are asked for.
     bool wanted() const { return request_.film || request_.frames; }
-    // What scene and options ask of the film's file. Throws UserError.
+    // Checks what scene and options ask of the film's file. Throws UserError.
     void check(const FilmedScene& scene, std::int64_t frames) const;
     void use_threads(const ThreadPlan& threads) { threads_ = threads; }
     const ThreadPlan& threads() const { return threads_; }
 
-    // For a film in parts, before open(). frames: how many are made here.
+    // To be called before open() for a film in parts. frames: number of frames that are made here.
     void use_extent(FilmExtent extent, std::int64_t frames) {
         extent_ = std::move(extent);
         frames_here_ = frames;
     }
-    // pictures: how many come, of the whole film. start: from which start heights are counted; null: from the
-    // film's first picture. draw: what makes pictures; none for the Renderer. Nothing happens where no
-    // pictures are wanted.
+    // Opens the film; does nothing where no pictures are wanted. pictures: number of the whole film's
+    // pictures. start: frame from which start heights are counted; null: the film's first picture. draw:
+    // makes the drawer; empty for the Renderer.
     void open(const FilmedScene& scene, std::int64_t pictures, FramePtr start = nullptr,
               DrawerMaker draw = {});
-    // Takes pictures while it is open.
+    // The film maker, which takes pictures while the film is open.
     FilmMaker& maker() { return *film_; }
-    // Progress of what is drawn alone.
+    // Shows the progress of a run that only draws.
     void show_progress();
 
     std::int64_t frames_done() const { return film_ ? film_->frames_done() : 0; }
@@ -65,14 +65,14 @@ class FolderFilm final : public SideWork {
     RunDesk& desk_;
     ThreadPlan threads_;
     std::unique_ptr<FilmMaker> film_;
-    std::int64_t frames_planned_ = 0;  // pictures, and those that are held for captions
+    std::int64_t frames_planned_ = 0;  // frames of the film, with those that are held for captions
     FilmExtent extent_;
     std::optional<std::int64_t> frames_here_;
     FilmReport report_;
     bool made_ = false;
 };
 
-// What fills a folder with a film of frames that it does not run itself.
+// A run that fills a folder with a film, of frames that it does not compute itself.
 
 class FilmRun : public FolderRun {
   protected:
@@ -84,16 +84,17 @@ class FilmRun : public FolderRun {
     FolderFilm film_;
 };
 
-// Whether the run's folder has a film, or the beginning of one.
+// Whether the run's folder has a film or the beginning of one.
 bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
 
-// A film is drawn again: from the kept moments of its pictures up to the checkpoint, and from there on as the
-// run goes. So a film whose pictures show more than a moment, or one whose moments were not kept, lets the
-// run go on from its beginning. The scene and the plan must outlive what is returned.
+// How far the kept frames let a run with a film be resumed. Its film is drawn again: up to the checkpoint
+// from the kept moments of its pictures, and from there on as the run goes. So the run starts from its
+// beginning when pictures of its film show more than one moment, or when their moments were not kept. The
+// scene and the plan must outlive the result.
 FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan);
 
-// A caption that says from `time` (s of simulated time) on what has changed; the engine is told. Nothing
-// without a text.
+// Adds a caption that says what has changed, from `time` (s of simulated time) on. Does nothing without a
+// text.
 void add_caption_of_change(FilmedScene& scene, double time, const std::string& text);
 
 }  // namespace grainreel

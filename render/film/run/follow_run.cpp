@@ -22,14 +22,14 @@ double seconds_since(Steady::time_point begin) {
     return std::chrono::duration<double>(Steady::now() - begin).count();
 }
 
-// Short naps, so that Ctrl-C is noticed.
+// Sleeps in short naps, so that Ctrl-C is noticed.
 void nap(double seconds, const RunListener& listener) {
     const Steady::time_point begin = Steady::now();
     while (seconds_since(begin) < seconds && listener.stop_signal() == 0)
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
-// The files as they are now; null while they hold no whole frame.
+// Opens the files as they are now; null while they hold no complete frame.
 std::unique_ptr<ForeignArchive> opened(const FollowRequest& what) {
     std::error_code ignored;
     if (!is_foreign(what.from)) return nullptr;
@@ -44,14 +44,14 @@ std::unique_ptr<ForeignArchive> first_frames(const FollowRequest& what, RunListe
         try {
             if (auto frames = opened(what)) return frames;
         } catch (const UserError& not_yet) {
-            why = not_yet.what();  // a head that is half written looks like a mistake
+            why = not_yet.what();  // a half-written header looks like a mistake
         }
         nap(0.5, listener);
     }
     throw UserError(fmt::format("{} (--follow waited {:.3g} s)", why, what.idle));
 }
 
-// The scene that an import of these frames would have.
+// The scene that these frames would get when imported.
 FilmedScene scene_of(const FollowRequest& what, const FilmRequest& request) {
     ImportRequest import;
     import.from = what.from;
@@ -91,7 +91,8 @@ FollowRun::FollowRun(const FilmRequest& request, const FollowRequest& what, RunL
     make_folder({scene_.name + "-render", what.beside, request.out, request.force});
 }
 
-// A table says nowhere how many rows a moment has: its last moment waits for the next one, or for the end.
+// Number of complete frames. A table does not say how many rows a moment has, so its last moment counts only
+// when the next one has begun, or at the end.
 std::size_t FollowRun::whole_frames(bool at_end) const {
     const bool open = frames_->format().starts_with("table") && frames_->files().size() == 1;
     return frames_->moments().size() - (open && !at_end ? 1 : 0);
@@ -110,7 +111,7 @@ bool FollowRun::draw_new(bool at_end) {
     return true;
 }
 
-// Shows how many of the pictures that are known so far are drawn.
+// Shows how many of the known pictures are drawn.
 void FollowRun::show_progress() {
     Progress progress;
     progress.stage = Progress::Stage::drawing;
@@ -128,7 +129,7 @@ void FollowRun::look_again() {
         now = opened(what_);
         if (!now) wrong_ = what_.from.string() + ": is not there any more, or holds no frame";
     } catch (const UserError& why) {
-        wrong_ = why.what();  // half written, as it seems; the next look sees more
+        wrong_ = why.what();  // the file is half written, it seems; the next look sees more
     }
     if (!now) return;
     if (now->moments().size() < drawn_)
@@ -163,7 +164,7 @@ bool FollowRun::work() {
         }
         const Steady::time_point begin = Steady::now();
         look_again();
-        // Looking takes long where there are many files, and must not be all that is done.
+        // Looking takes long where there are many files; the pause keeps it from taking all the time.
         nap(std::clamp(5 * seconds_since(begin), 0.5, 0.25 * what_.idle + 0.5), desk_.listener);
         if (desk_.listener.stop_signal() != 0) return false;
     }

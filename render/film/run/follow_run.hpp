@@ -1,5 +1,5 @@
-// A film of files that another program is still writing: each frame is drawn once it is whole. The film ends
-// when nothing new has come for a while, or with Ctrl-C.
+// Makes a film of files that another program is still writing: each frame is drawn once it is complete. The
+// film ends when nothing new has come for a while, or with Ctrl-C.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +17,15 @@ namespace grainreel {
 struct FollowRequest {
     std::filesystem::path from;  // a file, a pattern, a folder
     ReadingOptions reading{};
-    Assignments sets{};            // other values for keys of the film
-    std::filesystem::path beside;  // where the film goes without --out
+    Assignments sets{};            // values given to keys of the film
+    std::filesystem::path beside;  // the folder in which the film lies without --out
     double idle = 60;              // s without a new frame, after which the film ends
 };
 
 class FollowRun final : public FilmRun {
   public:
-    // Waits for the first frame, as long as `idle` allows. Throws UserError where none comes, and for what is
-    // wrong with files and options; nothing is on disk then.
+    // Waits for the first frame, as long as `idle` allows. Throws UserError, before anything is written, when
+    // no frame comes and when files or options are wrong.
     FollowRun(const FilmRequest& request, const FollowRequest& what, RunListener& listener);
 
   private:
@@ -36,14 +36,14 @@ class FollowRun final : public FilmRun {
     // Draws all frames that have come. False when told to stop.
     bool draw_new(bool at_end);
     void show_progress();
-    // Looks for more; throws RunError where files were truncated or replaced.
+    // Looks for more frames; throws RunError when files were truncated or replaced.
     void look_again();
 
     FollowRequest what_;
     std::unique_ptr<ForeignArchive> frames_;
     FilmedScene scene_;
     std::size_t drawn_ = 0;
-    std::string wrong_;  // with the files at the last look; empty: nothing
+    std::string wrong_;  // what was wrong with the files at the last look; empty: nothing
 };
 
 }  // namespace grainreel

@@ -17,10 +17,10 @@ namespace grainreel {
 
 class MovieRun final : public SceneFolderRun {
   public:
-    // Throws UserError for what scene, plan or options get wrong; nothing is on disk then.
+    // Throws UserError, before anything is written, when scene, plan or options are wrong.
     MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan);
-    // The run in the folder request.out, which is locked, goes on from that point. Throws UserError or
-    // RunError; nothing in the folder has changed then.
+    // Resumes the run in the folder request.out, which is locked, from `point`. Throws UserError or RunError
+    // before anything in the folder has changed.
     MovieRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
              ResumePoint point, std::shared_ptr<FolderLock> lock);
 
@@ -48,7 +48,7 @@ class MovieRun final : public SceneFolderRun {
     const Pictures pictures_;
     FolderFilm film_;
     SceneRun source_;
-    CaptionHolds holds_;  // for film_times_
+    CaptionHolds holds_;  // which frames film_times_ holds for captions
     FilmTimesTable film_times_;
 };
 

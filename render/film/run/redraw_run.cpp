@@ -17,7 +17,8 @@ namespace grainreel {
 
 namespace {
 
-// The run's folder is what is drawn from: it is neither replaced nor written to.
+// Throws when the film would go into the run's own folder: it is drawn from, and neither replaced nor written
+// to.
 void check_out(const FilmRequest& request, const std::filesystem::path& run) {
     std::error_code error;
     if (request.out && std::filesystem::equivalent(*request.out, run, error))
@@ -82,7 +83,7 @@ std::vector<Shot> RedrawRun::drawn() const {
     return {first, first + parts_->here().pictures};
 }
 
-// The film's, from one moment to another.
+// Chooses the film's pictures between two moments.
 void RedrawRun::choose_pictures(const RenderRequest& what) {
     constexpr double hair = 1e-9;  // s
     const FilmOfRun& film = source_.film();
@@ -103,7 +104,7 @@ void RedrawRun::choose_pictures(const RenderRequest& what) {
     show_what_there_is();
 }
 
-// What cannot be had gives way to the kept moment that is nearest, once.
+// Replaces moments that cannot be had by the nearest kept moment. Each kept moment is shown once.
 void RedrawRun::show_what_there_is() {
     std::vector<Shot> shown;
     std::set<std::size_t> uneven;
@@ -128,7 +129,7 @@ void RedrawRun::show_what_there_is() {
     }
 }
 
-// Frames of the trajectory have a pace of their own.
+// Chooses frames of the trajectory. They have a pace of their own.
 void RedrawRun::choose_kept(const RenderRequest& what) {
     const std::vector<Frame> moments = chosen_moments(what, source_.record().frames());
     const std::optional<FilmSegment> segment = pacing_of(moments, scene_.drive, scene_.film.rate);
@@ -176,7 +177,8 @@ std::string RedrawRun::caption_of(const Taken& picture) const {
     return playback_caption(rule, scene_.drive, film.rate);
 }
 
-// Start heights are those of the film's first picture, of which this film may have but a part.
+// The frame of the film's first picture, from which start heights are counted. A film that shows only a part
+// may lack that picture.
 FramePtr RedrawRun::first_of_film(const FrameSource::GoOn& go_on) {
     if (kept_alone_) return std::make_shared<const Frame>(source_.record().frames().first_whole());
     return source_.grains(source_.shown(source_.film().shots().front().step), go_on);
@@ -209,7 +211,7 @@ bool RedrawRun::work() {
     film_.open(scene_, static_cast<std::int64_t>(shots_.size()), start);
     source_.watch_replay([this](double) { return film_.show_progress(), true; });
     const std::int64_t first = parts_ ? parts_->here().first_picture : 0;
-    std::int64_t number = parts_ ? parts_->known_from() : 0;  // of the next picture in the film
+    std::int64_t number = parts_ ? parts_->known_from() : 0;  // number of the next picture in the film
     const std::vector<Shot> seen(shots_.begin() + number, shots_.begin() + first + std::ssize(moments));
     source_.start(seen, segments_of(scene_.film));
     const auto next = [&] {
@@ -235,7 +237,7 @@ void RedrawRun::identify_part() {
     desk_.record.part->settings = checksum_of_settings(scene_, shots_, captions_);
 }
 
-// A part whose film is whole says so by its checksum.
+// Adds the checksum of a part whose film is complete.
 void RedrawRun::side_work_closed() {
     if (!desk_.record.part || !film_.made() || !film_.report().complete || film_.report().file.empty())
         return;

@@ -1,5 +1,5 @@
-// A film of a run that lies on disk: its film once more, with other words, from another side, or cut; or the
-// frames that its trajectory kept, one after the other.
+// Draws a film of a run that lies on disk. It is the run's film once more, with other words, from another
+// side, or cut; or it shows the frames of the trajectory one after another.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ namespace grainreel {
 
 class RedrawRun final : public FilmRun {
   public:
-    // Throws UserError for what the options get wrong; nothing is on disk then.
+    // Throws UserError, before anything is written, when options are wrong.
     RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
               RevisitedRun& source);
-    // Throws the same errors, and does nothing else.
+    // Throws the same errors and does nothing else.
     static void check(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
                       RevisitedRun& source);
 
@@ -32,7 +32,7 @@ class RedrawRun final : public FilmRun {
     void side_work_closed() override;
     void identify_part();
     void choose_parts(const PartsWanted& wanted);
-    // Those of the shots that are drawn.
+    // The shots that are drawn.
     std::vector<Shot> drawn() const;
     void choose_pictures(const RenderRequest& what);
     void choose_kept(const RenderRequest& what);
@@ -42,13 +42,13 @@ class RedrawRun final : public FilmRun {
     std::string caption_of(const Taken& picture) const;
 
     RevisitedRun& source_;
-    FilmedScene scene_;        // the run's, with a film of those
-    std::vector<Shot> shots_;  // of the film, each as it is shown
+    FilmedScene scene_;        // the run's scene, with a film of these pictures
+    std::vector<Shot> shots_;  // the film's shots, each at the step that is shown
     std::optional<FilmInParts> parts_;
     bool kept_alone_ = false;                                     // frames of the trajectory
-    std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // of the shots
+    std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // numbers of shots
     std::vector<std::string>
-        captions_;  // of segments whose pictures are not where they should be; else empty
+        captions_;  // for segments whose pictures are not where they should be; else empty
 };
 
 }  // namespace grainreel

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Beside the run: "wedge-1.250s.png", and a number when that is taken.
+// A free name beside the run: "wedge-1.250s.png", with a number when that is taken.
 fs::path free_name(const FilmedScene& scene, const fs::path& beside, double time) {
     const std::string stem = fmt::format("{}-{}s", scene.name, seconds_in_names(time));
     fs::path path = beside / (stem + ".png");
@@ -46,14 +46,15 @@ void check_free(const fs::path& path, bool force) {
                                     path.string()));
 }
 
-// What is drawn, and how it is told.
+// The moment that is drawn, and the words about it.
 struct Chosen {
     std::int64_t step = 0;
     std::string from;                    // "frame 4 of 7 of trajectory.nc"
-    std::optional<std::string> instead;  // of what was asked for, a warning
+    std::optional<std::string> instead;  // a warning, when the moment stands for the one that was asked for
 };
 
-// One that stands for another lies no further from it than the kept moments do from each other.
+// Chooses the moment. A kept moment may stand for the wanted one only when it is no further away than the
+// kept moments are from each other.
 Chosen choose(const RenderRequest& what, const RevisitedRun& source) {
     const RecordedRun& run = source.record();
     MomentRequest request{.at = what.at, .frame = what.frame, .frame_of_file = what.frame_of_file};
@@ -91,7 +92,8 @@ ReplayWatcher watcher_of(RunListener& listener) {
     return replay_progress([&listener](const Progress& progress) { listener.progress(progress); });
 }
 
-// The film's pictures that reach no further back than its trails do, less those that cannot be had.
+// Steps of the film's pictures before `step`, back to where its trails begin. Those that cannot be had are
+// left out.
 std::vector<std::int64_t> before(std::int64_t step, double duration, const RevisitedRun& source) {
     constexpr double room = 1.001;
     std::vector<std::int64_t> steps;
@@ -102,8 +104,8 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Revis
     return steps;
 }
 
-// What a picture shows of the film before it: where grains were at first, and trails. False when told to
-// stop.
+// Gives the renderer what the picture shows of the film before it: where grains were at first, and trails.
+// Returns false when told to stop.
 bool remember_what_was(Renderer& renderer, std::int64_t step, RevisitedRun& source,
                        const FrameSource::GoOn& go_on) {
     const std::vector<Shot> film = source.film().shots();
@@ -143,7 +145,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, const RenderReque
     for (const std::string& line : film_warnings(source.scene(), 1)) listener.warning(line);
     source.watch_replay(watcher_of(listener));
     const auto go_on = [&] { return listener.stop_signal() == 0; };
-    // A camera that moves is where it would be in the film.
+    // A moving camera stands where it would be in the film.
     const FilmOfRun::Place place = source.film().place_of(chosen.step);
     FilmedScene scene = source.scene();
     fit_to_paper(scene.film, what.print);

@@ -1,4 +1,4 @@
-// One moment of a finished run as a PNG file.
+// Draws one moment of a finished run as a PNG file.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace grainreel {
 
-// Draws the run at what.at (s), as its film would show that moment; where it was not kept and cannot be
-// brought back, the kept moment nearest to it, with a warning. Gives the file; none when the listener asked
-// to stop. Throws UserError, with nothing written, when the run has no such moment, or the file is there
-// already (and may not be replaced) or cannot be.
+// Draws the run at what.at (s), as its film would show that moment. When the moment was not kept and cannot
+// be brought back, it draws the nearest kept moment, with a warning. Returns the file; none when the listener
+// asked to stop. Throws UserError, with nothing written, when the run has no such moment, or when the file
+// exists and may not be replaced, or cannot be written.
 std::optional<std::filesystem::path> draw_still(const FilmRequest& request, const RenderRequest& what,
                                                 RunListener& listener, RevisitedRun& source);
 
-// "1.250", and as many digits as a time (s) needs that has more of them.
+// Writes a time (s) for a file's name: "1.250", with more digits when the time needs them.
 std::string seconds_in_names(double time);
 
 }  // namespace grainreel

@@ -1,5 +1,6 @@
-// From the pictures of a film to its frames: frames that are held so that a caption can be read, which frames
-// a part of the film has, and film_times.csv, which says what moment each frame shows.
+// Turns the pictures of a film into its frames: some pictures are held for several frames so that a caption
+// can be read, and a film can be drawn in parts. Also writes film_times.csv, which says what moment each
+// frame shows.
 #pragma once
 
 #include <cmath>
@@ -13,7 +14,7 @@
 
 namespace grainreel {
 
-// Frames that one caption's hold adds to the film.
+// Number of frames that one caption's hold adds to the film.
 inline std::int64_t held_frames(const FilmCaption& caption, double rate) {
     return std::llround(caption.hold * rate);
 }
@@ -23,13 +24,13 @@ inline std::int64_t held_frames(const Film& film) {
     return frames;
 }
 
-// Counts what is added picture by picture.
+// Counts the added frames picture by picture.
 class CaptionHolds {
   public:
     explicit CaptionHolds(const Film& film) : captions_(film.captions), rate_(film.rate) {}
 
-    // How often the picture at this simulated time (s; they come by rising time) is shown again: it is the
-    // first with its caption, or it is not.
+    // How many more times the picture at this simulated time (s) is shown: only the first picture with a
+    // caption is held. To be called by rising time.
     std::int64_t begin_at(double time) {
         for (; next_ < captions_.size() && time >= captions_[next_].from - rounding; ++next_)
             if (shows_caption(captions_[next_], time)) return held_frames(captions_[next_++], rate_);
@@ -43,8 +44,8 @@ class CaptionHolds {
     std::size_t next_ = 0;
 };
 
-// Frames that these pictures are, with those that are held. times: s, simulated, from the film's first
-// picture on.
+// Number of frames that these pictures become, with the held ones. times: simulated times (s) from the film's
+// first picture on.
 inline std::int64_t frames_of(const Film& film, const std::vector<double>& times) {
     CaptionHolds holds(film);
     auto frames = static_cast<std::int64_t>(times.size());
@@ -52,20 +53,20 @@ inline std::int64_t frames_of(const Film& film, const std::vector<double>& times
     return frames;
 }
 
-// What one part of a film has that is drawn in parts.
+// The pictures and frames of one part, when a film is drawn in parts.
 struct FilmPart {
     std::int64_t first_picture = 0, pictures = 0;  // of the film's
-    std::int64_t first_frame = 0, frames = 0;      // of the film's, with those that are held for captions
+    std::int64_t first_frame = 0, frames = 0;      // in the film, with those that are held for captions
 };
 
-// Fewer pictures than these are no group of an encoder that codes them out of order.
+// An encoder that codes pictures out of order needs at least this many for a group.
 constexpr std::int64_t least_pictures_of_part = 4;
 
-// As even as they can be, and none of them empty. times: s, simulated, of the film's pictures; rising, and at
-// least least_pictures_of_part times as many as parts.
+// Divides a film into parts that are as even as they can be; none is empty. times: simulated times (s,
+// rising) of the film's pictures; there must be at least least_pictures_of_part for each part.
 std::vector<FilmPart> film_parts(const Film& film, const std::vector<double>& times, int parts);
 
-// The picture that stands for the whole film, of those at these times. duration: s, of the run.
+// Number of the picture that stands for the whole film. times: of all pictures, s. duration: of the run, s.
 std::int64_t poster_picture(const Film& film, double duration, const std::vector<double>& times);
 
 // The file that says which moment of the run each frame of its film shows.
@@ -73,7 +74,7 @@ inline constexpr const char* kFilmTimes = "film_times.csv";
 
 class FilmTimesTable {
   public:
-    // The next picture, which the film shows in so many frames.
+    // Adds the next picture, which the film shows in so many frames.
     void add(const Frame& picture, std::int64_t frames);
     // Writes the times of the film's first `frames`. Throws RunError.
     void write(const std::filesystem::path& path, std::int64_t frames) const;
@@ -83,7 +84,7 @@ class FilmTimesTable {
         std::int64_t step = 0;
         double time = 0;  // s
     };
-    std::vector<Row> rows_;  // one a frame of the film
+    std::vector<Row> rows_;  // one row for each frame of the film
 };
 
 }  // namespace grainreel

@@ -16,12 +16,14 @@
 namespace grainreel {
 namespace {
 
-// A third of what the emptiest film needs at the least legible quality: two balls at 640x360 take 0.013, and
-// four times the pixels 2.8 times the bytes.
+// A film with fewer bits for each pixel cannot be read. This is a third of what the emptiest film needs at
+// the least legible quality: two balls at 640x360 take 0.013, and four times the pixels take 2.8 times the
+// bytes.
 constexpr double least_bits_a_pixel = 0.002;
 
-// Bits a pixel of the default film, a wedge of which grains fill a quarter, at quality 20. MP4: of all its
-// 352 frames; the others over MP4 as in its 29 frames from 0 to 2.4 s, one a period.
+// Bits a pixel of the default film, a wedge of which grains fill a quarter, at quality 20. MP4 was measured
+// on all its 352 frames. The ratios of the others to MP4 were measured on its 29 frames from 0 to 2.4 s, one
+// a period.
 double bits_a_pixel(FilmFormat format) {
     switch (format) {
         case FilmFormat::mp4:
@@ -39,7 +41,7 @@ double bits_a_pixel(FilmFormat format) {
         case FilmFormat::y4m:
             break;
     }
-    return 12;  // exactly: yuv420p
+    return 12;  // exact for yuv420p
 }
 
 bool has_quality(FilmFormat format) {
@@ -50,13 +52,14 @@ double pixels_of(const Film& film, std::int64_t frames) {
     return static_cast<double>(film.width) * film.height * static_cast<double>(frames);
 }
 
-// Bytes, by pixels, format and quality: 6 of crf halve the rate.
+// Bytes of a film by its pixels, format and quality: 6 more of crf halve the rate.
 double size_at(const Film& film, std::int64_t frames, int quality) {
     const double halvings = has_quality(film.format) ? (20 - quality) / 6.0 : 0;
     return bits_a_pixel(film.format) * std::exp2(halvings) * pixels_of(film, frames) / 8;
 }
 
-// Where small digits may read wrong, and where the film may not fit under its cap because they must not.
+// Warns where small digits may be misread, and where the film may not fit under its cap because its digits
+// must stay legible.
 void warn_of_digits(const FilmedScene& scene, std::int64_t frames, std::vector<std::string>& warnings) {
     const Film& film = scene.film;
     if (!has_quality(film.format)) return;
@@ -106,7 +109,7 @@ double estimated_film_size(const Film& film, std::int64_t frames) {
 }
 
 void check_schedule(const FilmedScene& scene, const std::vector<SegmentCount>& counts) {
-    double shots = 0, moments = 0;  // doubles: sums of what may be anything
+    double shots = 0, moments = 0;  // doubles, since the sums may be very large
     std::size_t longest = 0, most = 0;
     const auto moments_of = [&](std::size_t i) {
         return static_cast<double>(counts[i].shots) * static_cast<double>(counts[i].moments_a_shot);

@@ -1,4 +1,4 @@
-// What can be said of a film's file before it is made.
+// What can be said of a film's file before it is made: its size, its limits, and warnings.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace grainreel {
 
-// Bytes of a film of so many frames, good to a factor of two or three: by pixels, format and quality, and not
-// more than its cap.
+// Bytes of a film of so many frames, estimated from pixels, format and quality, and no more than its cap. It
+// is good to a factor of two or three.
 double estimated_film_size(const Film& film, std::int64_t frames);
 
-// At 30 a second such a film plays for four days; its schedule takes 160 MB.
+// At 30 frames a second such a film plays for four days; its schedule takes 160 MB.
 constexpr std::int64_t most_frames = 10'000'000;
-// Earlier moments that the pictures are exposed over or averaged from; their lists take 2 GB at worst.
+// Limit for the earlier moments over which pictures are exposed or averaged; their lists take 2 GB at worst.
 constexpr std::int64_t most_moments = 20'000'000;
 
-// Throws UserError when the film would have more of either; names the segment that makes most of them.
+// Throws UserError when the film would have more of either. The error names the segment that makes most of
+// them.
 void check_schedule(const FilmedScene& scene, const std::vector<SegmentCount>& counts);
 
 // Throws UserError when film.max_size leaves so few bits for a pixel that no film could be read.
 void check_max_size(const FilmedScene& scene, std::int64_t frames);
 
-// Words that the picture has no room for, and letters that no font has; where a film for a journal is not
-// what the journals take.
+// Warnings: words that the picture has no room for, letters that no font has, and films for a journal that
+// journals do not take.
 std::vector<std::string> film_warnings(const FilmedScene& scene, std::int64_t frames);
 
 }  // namespace grainreel

@@ -18,7 +18,7 @@ constexpr std::int64_t means_a_period = 16;
 constexpr double rounding_of_cycles = 1e-9;
 constexpr double longest_exposure = 9e15;  // steps; up to there a double counts exactly
 
-// Ends of the segments in simulated time, s; none beyond `total`.
+// Ends of the segments in simulated time, s; none lies beyond `total`.
 std::vector<double> segment_ends(const std::vector<FilmSegment>& segments, double total) {
     double given = 0;
     for (const FilmSegment& s : segments) given += s.duration.value_or(0);
@@ -32,20 +32,20 @@ std::vector<double> segment_ends(const std::vector<FilmSegment>& segments, doubl
     return ends;
 }
 
-// The shots of one segment, told without making them: they lie at first + k spacing, k = 0, 1, ...
+// The shots of one segment, described without making them: they lie at first + k spacing, k = 0, 1, ...
 struct Stretch {
     int segment = 0;
-    double start = 0;        // s, where it begins; motion
-    double frame = 0;        // s of simulated time a frame; motion
+    double start = 0;        // s, where the segment begins; for motion
+    double frame = 0;        // s of simulated time for each frame; for motion
     std::int64_t first = 0;  // step
     std::int64_t every = 0;  // steps between shots; 0: those nearest to start + k frame, or by periods
-    double cycles = 0;       // of the first shot; locked to a drive that changes
-    int periods = 0;         // of a locked segment, between shots; else 0
-    std::int64_t stop = 0;   // step that the segment does not reach
-    std::int64_t count = 0;  // shots, at most: motion may round two to one step
+    double cycles = 0;       // cycles at the first shot; for segments locked to a drive that changes
+    int periods = 0;         // periods between shots of a locked segment; else 0
+    std::int64_t stop = 0;   // first step behind the segment
+    std::int64_t count = 0;  // number of shots, at most: motion may round two to one step
 };
 
-// Finer than half a step, every step is nearest to some frame's time.
+// With a spacing below half a step, every step is the nearest one to some frame's time.
 bool takes_every_step(double spacing) {
     return spacing < 0.5;
 }
@@ -98,7 +98,8 @@ Stretch locked_stretch(const FilmSegment& rule, std::int64_t start, std::int64_t
     return stretch;
 }
 
-// Throws UserError when a segment is locked but the clock has no periods.
+// Describes the shots of all segments. Throws UserError when a segment is locked but the clock has no
+// periods.
 std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     const std::vector<double> ends = segment_ends(segments, clock.time(steps));
@@ -106,7 +107,7 @@ std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, 
     double start = 0;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const bool last = i + 1 == segments.size();
-        // A segment hands its last step on to the next one; only the last keeps it.
+        // The last step of a segment belongs to the next one; only the last segment keeps it.
         const std::int64_t end = std::min<std::int64_t>(steps, std::llround(ends[i] / clock.step));
         const std::int64_t stop = last ? end + 1 : end;
         if (segments[i].kind == FilmSegment::Kind::motion) {
@@ -125,8 +126,8 @@ std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, 
     return stretches;
 }
 
-// A step that is not later than the last one taken is left out (slow motion finer than the step, or two
-// segments that meet).
+// Makes the shots. A step that is not later than the last one taken is left out (in slow motion finer than
+// the step, or where two segments meet).
 void make(const Stretch& stretch, const Clock& clock, std::vector<Shot>& shots) {
     for (std::int64_t k = 0;; ++k) {
         double at = static_cast<double>(stretch.first + k * stretch.every);
@@ -141,30 +142,31 @@ void make(const Stretch& stretch, const Clock& clock, std::vector<Shot>& shots) 
     }
 }
 
-// Locked pictures stay in phase: the shutter opens once a period at most.
+// Locked pictures stay in phase: their shutter opens once a period at most.
 bool stays_in_phase(const FilmSegment& segment, const Clock& clock) {
     return segment.kind == FilmSegment::Kind::locked && clock.steps_per_period > 0;
 }
 
-// Steps, or those of the periods at `step` where pictures stay in phase, from one opening to the next.
+// Steps from one opening of the shutter to the next: 1, or the steps of whole periods where pictures stay in
+// phase.
 double exposed_unit(const FilmSegment& segment, const Clock& clock, std::int64_t step, int periods = 1) {
     return stays_in_phase(segment, clock) ? periods * clock.period_at(step) : 1;
 }
 
-// How many of those a segment's shutter is open.
+// For how many of these units a segment's shutter is open.
 std::int64_t exposed_span(const FilmSegment& segment, double unit, const Clock& clock) {
     const double span = segment.exposure / (clock.step * unit);
     return std::llround(std::min(span, longest_exposure / unit));
 }
 
-// The step so many periods before another.
+// The step that lies so many periods before `step`.
 std::int64_t periods_before(std::int64_t step, double periods, const Clock& clock) {
     if (clock.changes.empty())
         return step - std::llround(periods * static_cast<double>(clock.steps_per_period));
     return clock.step_at(clock.cycles(step) - periods);
 }
 
-// "1/10", "1/2.5" or "0.35": whichever a reader takes in at a glance.
+// "1/10", "1/2.5" or "0.35": the form that is easiest to read.
 std::string speed_words(double playback) {
     const double slower = 1 / playback;
     const double tenths = std::round(slower * 10) / 10;
@@ -173,7 +175,7 @@ std::string speed_words(double playback) {
     return fmt::format("{:.3g}", playback);
 }
 
-// To three digits, never below: a playback that is a little too small would bring its warning back.
+// Rounds up to three digits: a playback that is a little too small would cause the same warning again.
 double rounded_up(double playback) {
     const double digit = std::pow(10, std::floor(std::log10(playback)) - 2);
     return std::ceil(playback / digit - 1e-9) * digit;
@@ -192,7 +194,7 @@ std::string pace_words(const FilmSegment& segment, const Drive& drive, double fi
                        film_rate * segment.every / drive.frequency);
 }
 
-// What each picture shows when it is not one moment.
+// Words for what each picture shows when it is not one moment.
 std::string span_words(const FilmSegment& segment) {
     if (segment.average == 1) return ", mean of a period";
     if (segment.average > 1) return fmt::format(", mean of {} periods", segment.average);
@@ -308,7 +310,7 @@ double apparent_frequency(double frequency, double frames) {
 
 namespace {
 
-// Hz, of what vibrates between two times, s.
+// The highest frequency of the drive in Hz between two times in s.
 double highest_frequency(const Drive& drive, double from, double to) {
     if (!drive.changes()) return drive.frequency;
     const DriveSchedule schedule(drive);
@@ -332,8 +334,8 @@ std::vector<std::string> strobe_warnings(const Film& film, const Drive& drive, d
     for (std::size_t i = 0; i < segments.size(); ++i) {
         if (segments[i].kind == FilmSegment::Kind::locked) continue;
         const double f = highest_frequency(drive, i > 0 ? ends[i - 1] : 0, ends[i]);
-        const double frames = film.rate / segments[i].playback;  // per simulated second
-        // A hair of tolerance: exactly 8 frames a period must not warn for rounding.
+        const double frames = film.rate / segments[i].playback;  // for each simulated second
+        // A small tolerance keeps rounding from causing a warning at exactly 8 frames a period.
         if (frames >= least_frames_a_period * f * (1 - 1e-12)) continue;
         warnings.push_back(fmt::format(
             "film segment {} shows {:.3g} frames a period: the {:.4g} Hz drive will seem to move "

@@ -70,7 +70,7 @@ std::vector<Shot> shots_at(const std::vector<Instant>& instants, const std::vect
 
 namespace {
 
-// Turns and periods, of which a step is never less than 1e-7: what is closer is the same.
+// Turns and periods that are closer than this are the same: a step is never less than 1e-7 of them.
 constexpr double hair = 1e-9;
 
 double mean_interval(const std::vector<Frame>& moments) {
@@ -84,7 +84,7 @@ bool even(const std::vector<Frame>& moments) {
     return interval > 0;
 }
 
-// Turns between two phases, the shorter way round.
+// Distance of two phases in turns, the shorter way round.
 double turn_between(double a, double b) {
     const double turns = a - b;
     return std::abs(turns - std::round(turns));
@@ -95,7 +95,8 @@ double half_a_step(const std::vector<Frame>& moments) {
     return steps > 0 ? 0.5 * (moments.back().time - moments.front().time) / steps : 0;
 }
 
-// A phase of a drive that changes may lie between two steps, and frames lie on steps.
+// Whether all moments are at one phase. Frames lie on steps, but a phase of a drive that changes may lie
+// between two steps.
 bool same_phase(const std::vector<Frame>& moments, const Drive& drive) {
     const double between_steps =
         drive.changes() ? 2.01 * half_a_step(moments) * drive.highest_frequency() : 0;
@@ -108,7 +109,7 @@ double mean_periods(const std::vector<Frame>& moments) {
     return (moments.back().cycles - moments.front().cycles) / static_cast<double>(moments.size() - 1);
 }
 
-// One frame every so many periods, which may differ in length.
+// Whether the frames come one every so many periods. The periods may differ in length.
 bool even_in_periods(const std::vector<Frame>& moments) {
     const double periods = mean_periods(moments);
     for (std::size_t i = 1; i < moments.size(); ++i)
@@ -116,10 +117,10 @@ bool even_in_periods(const std::vector<Frame>& moments) {
     return periods > 0.5;
 }
 
-// Frames lie on steps, so the interval that was asked for is known to half a step at best: within that, the
-// plain factor is the one that was meant.
+// The plain factor that was probably meant. Frames lie on steps, so the interval that was asked for is known
+// to half a step at best, and a plain factor within that tolerance is taken.
 double plain_factor(double playback, double tolerance) {
-    for (const double parts : {1.0, 2.0}) {  // 1/2, 1/3 ...; then 1/2.5 and the like
+    for (const double parts : {1.0, 2.0}) {  // tries 1/2, 1/3 ..., then 1/2.5 and so on
         const double slower = std::round(parts / playback) / parts;
         if (slower >= 1 && std::abs(playback * slower - 1) <= tolerance) return 1 / slower;
     }
@@ -166,7 +167,8 @@ std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive
 
 std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive) {
     if (moments.size() < 2 || !drive.present || same_phase(moments, drive)) return std::nullopt;
-    const double frames = 1 / mean_interval(moments), f = drive.highest_frequency();  // a simulated second
+    const double frames = 1 / mean_interval(moments),
+                 f = drive.highest_frequency();  // frames for each simulated second
     if (frames >= least_frames_a_period * f * (1 - hair)) return std::nullopt;
     return fmt::format(
         "{:.3g} frames a period are drawn: the {:.4g} Hz drive will seem to move at {:.4g} Hz; take one "
