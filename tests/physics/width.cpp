@@ -1,4 +1,5 @@
-// All tests of this folder with the kernels of one instruction set: GRAINREEL_TEST_WIDTH=AVX2, SSE4 or plain.
+// Runs all tests of this folder with the kernels of one instruction set: GRAINREEL_TEST_WIDTH=AVX2, SSE4 or
+// plain.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -18,7 +19,7 @@ class Width : public testing::Environment {
         const std::string width = wanted;
         ASSERT_TRUE(width == "AVX2" || width == "SSE4" || width == "plain") << width;
         std::int64_t target = width == "AVX2" ? HWY_AVX2 : width == "SSE4" ? HWY_SSE4 : kPlain;
-        // A processor without it goes on with the plain ones.
+        // A processor without this instruction set uses the plain kernels.
         if (!(hwy::SupportedTargets() & target)) target = kPlain;
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(target);
@@ -26,7 +27,7 @@ class Width : public testing::Environment {
         ASSERT_NE(used_.find(target == kPlain ? "plain" : width), std::string::npos) << used_;
     }
 
-    // Nothing between has chosen otherwise: a look at what the processor supports does so.
+    // Checks that nothing has chosen another instruction set: a look at what the processor supports does so.
     void TearDown() override {
         if (!used_.empty()) {
             EXPECT_EQ(vector_instructions(), used_);

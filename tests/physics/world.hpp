@@ -1,4 +1,4 @@
-// A few grains, faces and laws, put together by hand: what the closed forms are tested on.
+// A few grains, faces and laws, put together by hand, on which closed forms are tested.
 #pragma once
 
 #include <cmath>
@@ -63,7 +63,7 @@ inline PairPlan walton_braun_pair(double e, double friction, double tangential_r
     return p;
 }
 
-// Where GRAINREEL_TEST_PRECISION=mixed asks for it, worlds follow their laws in floats.
+// If GRAINREEL_TEST_PRECISION=mixed asks for it, worlds compute their laws in floats.
 inline bool mixed_precision() {
     const char* wanted = std::getenv("GRAINREEL_TEST_PRECISION");
     return wanted && std::string(wanted) == "mixed";
@@ -72,18 +72,18 @@ inline bool mixed_precision() {
 inline Precision tested_precision() {
     return mixed_precision() ? Precision::mixed : Precision::full;
 }
-// What a scene's own settings, which go first, leave to the test's.
+// Puts the tested precision before the settings of a scene, which may override it.
 inline std::vector<std::string> with_tested_precision(std::vector<std::string> sets) {
     if (mixed_precision()) sets.insert(sets.begin(), "run.precision=mixed");
     return sets;
 }
 
-// What rounding leaves of a quantity: in doubles, or with laws in floats.
+// The bound for rounding of a quantity: in doubles, or with laws in floats.
 inline double of_rounding(double in_doubles, double in_floats) {
     return mixed_precision() ? in_floats : in_doubles;
 }
 
-// One species, the same contact everywhere, nothing around it.
+// A world of one species with the same contact everywhere and nothing around it.
 inline World make_world(PairPlan pair, double step, NormalForce normal = NormalForce::walton_braun,
                         TangentialLaw tangential = TangentialLaw::incremental_slip) {
     World w;

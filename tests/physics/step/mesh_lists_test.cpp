@@ -43,7 +43,7 @@ TEST(MeshLists, HoldAllTrianglesWithinReachWhereverTheGrainGoes) {
     }
 }
 
-// In a box the two triangles of a side lie in one plane, and those around the corner in others.
+// The triangles of a box's side lie in one plane, and those around the corner in others.
 TEST(MeshLists, FlatNeighboursStandBehindTheFirst) {
     const auto surface = surface_of(box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1), 4));
     MeshLists lists;

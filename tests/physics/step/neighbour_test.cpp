@@ -1,4 +1,4 @@
-// Neighbour lists against all pairs, for sizes that go through several grids.
+// Tests of neighbour lists against a search over all pairs, for sizes that need several grids.
 #include <gmock/gmock.h>
 #include <hwy/targets.h>
 
@@ -19,7 +19,7 @@ Team alone(1);
 
 using Pairs = std::multiset<std::pair<std::int32_t, std::int32_t>>;
 
-// Radii from 1 to 20 mm in a column three times as high as wide, a fifth of them above it, far out.
+// Radii go from 1 to 20 mm in a column three times as high as wide; a fifth of the grains are far above it.
 Grains of_all_sizes(unsigned seed) {
     std::mt19937 random(seed);
     const auto between = [&](double low, double high) {
@@ -43,7 +43,7 @@ Pairs listed(const NeighbourList& list) {
     return pairs;
 }
 
-// Who tells candidates from contacts relies on it.
+// Whether the neighbours in the list rise. Code that tells candidates from contacts relies on it.
 bool rise(const NeighbourList& list, std::int32_t i) {
     return std::is_sorted(list.partner.begin() + list.start[i], list.partner.begin() + list.start[i + 1]);
 }
@@ -88,10 +88,10 @@ TEST_P(Neighbours, AreAllPairsThatAreNear) {
     }
 }
 
-// Periods: none; that of the bed; one of which the largest grain's neighbourhood takes most.
+// The periods are: none; that of the bed; and one that the largest grain's neighbourhood nearly fills.
 INSTANTIATE_TEST_SUITE_P(Periods, Neighbours, testing::Values(0.0, 0.1, 0.06));
 
-// All that a grain has says whose it is.
+// Gives every value of a grain a number that tells whose it is.
 void mark(Grains& grains) {
     const std::size_t n = grains.size();
     grains.rounded.resize(n), grains.orientation.resize(n), grains.derivatives.resize(n);
@@ -134,7 +134,7 @@ TEST(Order, TakesAllThatAGrainHasWithIt) {
     }
 }
 
-// Or every grain would look at twice as many others.
+// Otherwise every grain would look at twice as many others.
 TEST(Cells, LeadingLevelStandsInItsGridsOrder) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         for (const double period : {0.0, 0.1}) {
@@ -153,7 +153,7 @@ TEST(Cells, LeadingLevelStandsInItsGridsOrder) {
     }
 }
 
-// The same on each instruction set.
+// The neighbours are the same on each instruction set.
 TEST(NeighboursAtWidths, AreTheSame) {
     Grains grains = of_all_sizes(7);
     Cells cells;
@@ -171,7 +171,7 @@ TEST(NeighboursAtWidths, AreTheSame) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-// Candidates are the offered pairs that are no contacts, whichever these are.
+// Candidates are the offered pairs that are no contacts, whichever pairs these are.
 TEST(ContactTable, TellsCandidatesFromContacts) {
     std::mt19937 random(3);
     for (int round = 0; round < 20; ++round) {
@@ -206,8 +206,8 @@ TEST(ContactTable, TellsCandidatesFromContacts) {
     }
 }
 
-// Pairs that part slowly after a fast impact: lists that are made for the speed of before would last hundreds
-// of steps, and contacts that are none any more be computed in each of them.
+// Pairs part slowly after a fast impact. Lists made for the speed before the impact would last hundreds of
+// steps, and contacts that have ended would be computed in each of them.
 TEST(Lists, DropContactsThatHaveParted) {
     constexpr int pairs = 60, patience = 40;  // steps: of half a contact a grain, 16 are worth a refresh
     for (const int threads : {1, 3}) {

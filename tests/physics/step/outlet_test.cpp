@@ -1,5 +1,5 @@
-// An open outlet: plates that end at edges. Closed forms of a grain at an edge, and the account of mass and
-// energy of a bed that runs out.
+// Tests of an open outlet, where plates end at edges: closed forms of a grain at an edge, and the account of
+// mass and energy of a bed that runs out.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -87,14 +87,14 @@ TEST(Outlet, WallsEndBelow) {
 // An outlet as wide as the floor leaves the slants' edges alone.
 TEST(Outlet, MayTakeTheWholeFloor) {
     Container c = container_with(Container::Shape::wedge, Outlet::Shape::slot);
-    c.outlet->half_width = c.floor_half_width() * (1 - 1e-12);  // but for rounding
+    c.outlet->half_width = c.floor_half_width() * (1 - 1e-12);  // all of the floor but for rounding
     const auto faces = open_faces(c);
     const Vec3 centre(0, c.floor_half_width() - 0.001, 0);
     EXPECT_GT(distance_to(named(faces, "floor"), Vec3::Zero(), centre).distance, 1e6);
     EXPECT_NEAR(distance_to(named(faces, "right slant"), Vec3::Zero(), centre).distance, 0.001, 1e-15);
 }
 
-// What the step computes by registers is what the formulas say, at all faces and edges.
+// The vectorised step computes what the formulas say, at all faces and edges.
 TEST(Outlet, ContactsHaveOverlapAndNormalOfTheFormula) {
     for (const auto& [shape, outlet] : {std::pair{Container::Shape::box, Outlet::Shape::slot},
                                         {Container::Shape::box, Outlet::Shape::hole},
@@ -108,7 +108,7 @@ TEST(Outlet, ContactsHaveOverlapAndNormalOfTheFormula) {
             for (int y = -20; y <= 20; ++y)
                 for (int z = -2; z <= 2; ++z)
                     w.grains.add(id++, 0, Vec3(1.7e-3 * x, 2.6e-3 * y, 1.1e-3 * z + 2e-4), 0.8e-3, kDensity);
-        // Far apart from each other: only walls are looked at.
+        // The grains are far from each other, so only walls are looked at.
         w.plan.grain[0].loading_stiffness = w.plan.grain[0].unloading_stiffness = 1e-9;
         w.around.skin = 1e-4;
         w.start();
@@ -130,7 +130,7 @@ TEST(Outlet, ContactsHaveOverlapAndNormalOfTheFormula) {
     }
 }
 
-// A ball at the edge of a slot or of a wide hole, resting at an angle (rad) from the vertical.
+// A ball at rest at the edge of a slot or of a wide hole, at an angle (rad) from the vertical.
 World at_the_edge(double angle, double friction, Outlet::Shape shape = Outlet::Shape::slot) {
     PairPlan pair = walton_braun_pair(1, friction);
     World w = make_world(pair, 0.05 * std::sqrt(sphere_mass() / kStiffness), NormalForce::spring_dashpot,
@@ -145,10 +145,10 @@ World at_the_edge(double angle, double friction, Outlet::Shape shape = Outlet::S
     return w;
 }
 
-// Let go at rest at theta0, a ball that turns about the edge keeps
-//   (1 + q) r w^2 / 2 = g (cos theta0 - cos theta), with q = 2/5 if it rolls and 0 if it slides,
-// and is pressed against the edge by m (g cos theta - r w^2). It leaves at cos theta = 2 cos theta0 / (3 +
-// q).
+// A ball that is let go at rest at theta0 and turns about the edge keeps
+//   (1 + q) r w^2 / 2 = g (cos theta0 - cos theta), where q is 2/5 if it rolls and 0 if it slides,
+// and is pressed against the edge by m (g cos theta - r w^2). It leaves where
+//   cos theta = 2 cos theta0 / (3 + q).
 TEST(Outlet, ABallLeavesTheEdgeAtTheAngleOfTheClosedForm) {
     for (const double friction : {0.0, 1e3})
         for (const Outlet::Shape shape : {Outlet::Shape::slot, Outlet::Shape::hole}) {
@@ -173,8 +173,8 @@ TEST(Outlet, ABallLeavesTheEdgeAtTheAngleOfTheClosedForm) {
         }
 }
 
-// A ball rolls down a floor that leans, over its edge. The friction that holds it, 2/7 of m g sin(lean), acts
-// on across the edge: the contact is one and the same.
+// A ball rolls down a floor that leans, and over its edge. The friction that holds it, 2/7 of m g sin(lean),
+// goes on across the edge because the contact stays the same one.
 TEST(Outlet, FrictionGoesOnFromTheFloorToItsEdge) {
     const double lean = 0.3;
     World w = at_the_edge(0, 1e3);
@@ -184,7 +184,7 @@ TEST(Outlet, FrictionGoesOnFromTheFloorToItsEdge) {
     w.start();
     const double weight = sphere_mass() * 9.81, before = w.energy();
     bool on_floor = false, on_edge = false;
-    double held = 0;  // averaged over the spring's own swing
+    double held = 0;  // mean over the spring's own swing
     while (w.position(0).y() < -kGap + 0.05 * kRadius) {
         w.run(1);
         w.loop->visit_contacts(w.step, [&](const ContactView& c) {
@@ -201,8 +201,8 @@ TEST(Outlet, FrictionGoesOnFromTheFloorToItsEdge) {
     EXPECT_NEAR(w.energy(), before, of_rounding(1e-5, 1e-3) * std::abs(before));
 }
 
-// An open floor has two faces: what comes from below, in a tray that is full, bounces off it as what comes
-// from above. It comes back with -e v, and no floor lets it through.
+// An open floor has two faces: a grain that comes from below, in a tray that is full, bounces off it like one
+// from above. It comes back with -e v, and the floor lets no grain through.
 TEST(Outlet, TheFloorIsAWallFromBelowToo) {
     const double e = 0.7, speed = 0.4, natural = std::sqrt(sphere_mass() / kStiffness);
     for (const double side : {1.0, -1.0}) {
@@ -233,8 +233,8 @@ TEST(Outlet, TheGateDoesNotPushAnyMoreOnceItIsOpen) {
     EXPECT_NEAR(w.velocity(0).z() - before, -9.81 * 100 * w.plan.clock.step, 1e-9);
 }
 
-// How the law is told that a contact turns: Cayley's vector of the turn from the normal before the step to
-// the one after it, 0.5 n x n' for a small turn, as distance_to() has the two.
+// The law gets the turn of a contact as Cayley's vector of the turn from the normal before the step to the
+// normal after it. For a small turn this is 0.5 n x n', with normals from distance_to().
 TEST(Outlet, ContactsTurnAsTheirNormalsDo) {
     const double step = 1e-6;
     const Vec3 velocity(0.7, -0.5, 0.9);
@@ -249,7 +249,7 @@ TEST(Outlet, ContactsTurnAsTheirNormalsDo) {
         walls.set(faces, Pose(), Pose(), step);
         for (std::size_t f = 0; f < faces.size(); ++f)
             for (int k = 0; k < 400; ++k) {
-                // Around the floor's rim and the foot of the walls.
+                // The place goes around the floor's rim and the foot of the walls.
                 const double angle = 0.37 * k, z = 3e-4 * (k % 11 - 5) + 7e-5;
                 const double out = (k % 2 == 0 ? kGap : c.floor_half_width()) - 8e-4 * (k % 3) - 1.3e-4;
                 Grains grains;
@@ -303,7 +303,7 @@ Scene scene_of(std::vector<std::string> sets = {}) {
     return read_scene_text(kBox, "outlet.toml", with_tested_precision(std::move(sets)));
 }
 
-// A single grain above the outlet: it leaves in the first step n with z0 - g (n dt)^2 / 2 < -exit_depth.
+// A single grain above the outlet leaves in the first step n with z0 - g (n dt)^2 / 2 < -exit_depth.
 TEST(Outlet, AGrainThatFallsThroughLeavesInTheStepOfFreeFall) {
     const Scene scene = read_scene_text(R"(
 title = "one"
@@ -379,7 +379,7 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
     }
 }
 
-// Every grain is there or has left, and what was lost of the energy never comes back.
+// Every grain is there or has left, and energy that was lost never comes back.
 TEST(Outlet, MassAndEnergyAreAccountedFor) {
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);
@@ -412,8 +412,8 @@ TEST(Outlet, MassAndEnergyAreAccountedFor) {
     EXPECT_GT(run.traffic().left, 80);
 }
 
-// Grains that a feed gives while others leave: the columns of the instrument are those of the departures, in
-// one go and from a checkpoint on.
+// A feed gives grains while others leave. The columns of the instrument are those of the departures, in one
+// go and from a checkpoint on.
 TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
     const std::string text = std::string(kBox) + "[[feed]]\nrate = 700\nuntil = \"0.09 s\"\n" +
                              "[output]\ninstruments = [\"outflow\"]\nmeasures_interval = \"5 ms\"\n";
@@ -457,7 +457,7 @@ TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
     std::filesystem::remove(half);
 }
 
-// Term by term; an outlet that opens below a bed at rest is in the account too.
+// The energy balances term by term, also if an outlet opens below a bed at rest.
 TEST(Outlet, OpeningBalances) {
     const Scene scene = scene_of({"drive={}", "container.outlet.opens=0 s"});
     const Plan plan = make_plan(scene);

@@ -15,7 +15,7 @@ Vec3 capped(const Vec3& force, double limit) {
     return force.norm() > limit ? Vec3(force * (limit / force.norm())) : force;
 }
 
-// Cayley's rotation by q = tan(angle / 2) along the axis.
+// Cayley's rotation of t by q = tan(angle / 2) along the axis.
 Vec3 turned(const Vec3& t, const Vec3& q, const Vec3& k) {
     return across(t + 2 / (1 + q.squaredNorm()) * (q.cross(t) + q.cross(q.cross(t))), k);
 }
@@ -70,7 +70,7 @@ void ReferenceStep::meet_grain(std::size_t i, std::size_t j) {
     c.radius = a.radius * b.radius / (a.radius + b.radius);
     const double first_arm = 0.5 * (d + (a.radius * a.radius - b.radius * b.radius) / d);
     const double second_arm = d - first_arm;
-    // The velocities are those of the step's middle: there the normal was k + change.
+    // The velocities are those of the step's middle, where the normal was k + change.
     const Vec3 centres = a.velocity - b.velocity, sideways = across(centres, c.k);
     const Vec3 change = sideways * dt_ / (2 * d);
     c.velocity = centres;
@@ -78,7 +78,8 @@ void ReferenceStep::meet_grain(std::size_t i, std::size_t j) {
         c.velocity -= change * c.k.dot(centres);
         c.velocity += (a.spin * first_arm + b.spin * second_arm).cross(c.k + change);
     }
-    const Vec3 back = change * (1 - c.k.dot(centres) * dt_ / d);  // d: was larger by what they have closed
+    const Vec3 back =
+        change * (1 - c.k.dot(centres) * dt_ / d);  // d was larger by the distance that they have closed
     c.turn = back.cross(c.k) + 0.25 * dt_ * (a.spin + b.spin).dot(c.k) * (c.k + back);
     c.rolled = across(a.spin - b.spin, c.k) * dt_;
     met_ += memory_.count(key) == 0;
@@ -115,7 +116,7 @@ void ReferenceStep::meet_wall(std::size_t i, std::size_t f) {
     c.radius = a.radius;
     const Vec3 wall = (displacement(face, step_) - displacement(face, step_ - 1)) / dt_;
     const Vec3 centres = a.velocity - wall;
-    // A plane's normal stands still, that of a cylinder goes round with the grain.
+    // The normal of a plane stands still, and that of a cylinder goes round with the grain.
     Vec3 change(0, 0, 0), back(0, 0, 0);
     if (round) {
         change = -across(centres, c.k) * dt_ / (2 * out);
@@ -135,8 +136,8 @@ void ReferenceStep::meet_wall(std::size_t i, std::size_t f) {
     a.torque -= distance * c.k.cross(push_on_wall.tangential) + push_on_wall.rolling;
 }
 
-// Dashpots take the velocity half a step later than it is known: it goes on as over the last step, and the
-// contact's own force has changed since.
+// Dashpots need the velocity half a step later than it is known. It goes on as over the last step, except
+// that the contact's own force has changed since.
 ReferenceStep::Push ReferenceStep::push(const PairPlan& p, Memory& m, Meeting c) const {
     const double root = std::sqrt(c.radius * c.overlap);
     const bool hertz = p.model.normal == NormalForce::hertz;
@@ -184,7 +185,7 @@ ReferenceStep::Push ReferenceStep::push(const PairPlan& p, Memory& m, Meeting c)
     return f;
 }
 
-// acts: of the step, the share that the spring's force counts for; touched: s, of the step.
+// acts: share of the step in which the spring's force counts. touched: s, part of the step after the touch.
 double ReferenceStep::normal_force(const PairPlan& p, Memory& m, const Meeting& c, double speed, double& acts,
                                    double& touched) const {
     if (p.model.normal == NormalForce::walton_braun_corrected)
@@ -214,7 +215,7 @@ double ReferenceStep::corrected_force(const PairPlan& p, Memory& m, const Meetin
     m.softness = e2 / k1 + (1 - e2) * dt_ * dt_ / (4 * c.mass);  // 1/K2'
     const bool loads = a > m.largest_overlap;
     m.largest_overlap = loads ? a : std::max(m.largest_overlap, m.peak);
-    const double rest = a - m.largest_overlap * (1 - k1 * m.softness);  // above the residual overlap
+    const double rest = a - m.largest_overlap * (1 - k1 * m.softness);  // overlap beyond the residual one
     const double spring = std::max(0.0, std::min(k1 * a, rest / m.softness));
     const double now = speed - 0.5 * spring * touched / c.mass;
     if (loads) m.peak = std::sqrt(a * a + c.mass * now * now / k1);

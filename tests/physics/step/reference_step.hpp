@@ -1,6 +1,7 @@
-// The step as the documentation has it, plain: every pair and every wall is looked at in every step, one
-// number at a time, and forces are summed as they come. It shares no code with engine/step and engine/laws.
-// Formulas: docs/reference/theory.md, with the sources there. Velocity Verlet only; no periodic depth.
+// A plain step that follows the documentation. It looks at every pair and every wall in every step, computes
+// one number at a time, and sums forces as they come. It shares no code with engine/step and engine/laws.
+// Formulas: docs/reference/theory.md, with the sources there. It has only velocity Verlet and no periodic
+// depth.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,8 @@ struct ReferenceGrain {
     Vec3 force{0, 0, 0}, torque{0, 0, 0};                      // N, N m
 };
 
-// Walls at rest, or shaken by amplitude x sin(2 pi frequency t) along `direction`, t counting from step 0.
+// Walls are at rest, or shaken by amplitude x sin(2 pi frequency t) along `direction`, where t counts from
+// step 0.
 struct ReferenceShaking {
     double amplitude = 0, frequency = 0;  // m, Hz
     Vec3 direction{0, 0, 1};
@@ -28,7 +30,7 @@ struct ReferenceShaking {
 
 class ReferenceStep {
   public:
-    // The grains touch nothing at first. plan: pairs and walls by species, clock.step.
+    // The grains touch nothing at first. plan: gives pairs and walls by species, and clock.step.
     ReferenceStep(const Plan& plan, std::vector<Face> faces, const Vec3& gravity, ReferenceShaking shaking,
                   std::vector<ReferenceGrain> grains);
 
@@ -46,13 +48,13 @@ class ReferenceStep {
         Vec3 velocity_before{0, 0, 0};                       // m/s: dashpots
         double force_before = 0;                             // N: dashpots
     };
-    // Two bodies that touch, between the last forces and these.
+    // Two bodies that touch, and their motion between the last forces and these.
     struct Meeting {
         Vec3 k;                        // unit, from the first to the second
         double overlap, mass, radius;  // m; effective mass and radius: kg, m
-        Vec3 velocity;                 // m/s, of the first surface against the second
+        Vec3 velocity;                 // m/s, of the first surface relative to the second
         Vec3 turn;                     // Cayley's vector of the contact's turn
-        Vec3 rolled;                   // rad, of the first against the second, across k
+        Vec3 rolled;                   // rad, of the first relative to the second, across k
     };
     struct Push {
         double normal;             // N, repulsive
@@ -76,7 +78,7 @@ class ReferenceStep {
     const double dt_;
     std::vector<ReferenceGrain> grains_;
     std::map<std::pair<std::size_t, std::int64_t>, Memory>
-        memory_;  // of (grain, grain) and (grain, -1 - face)
+        memory_;  // by (grain, grain) and (grain, -1 - face)
     std::int64_t step_ = 0, met_ = 0;
 };
 

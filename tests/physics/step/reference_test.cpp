@@ -1,5 +1,5 @@
-// The fast step against the plain one of reference_step.hpp, which looks at all pairs: each law over a bed
-// that settles, one that is shaken and one that flies.
+// Tests of the fast step against the plain one of reference_step.hpp, which looks at all pairs: each law over
+// a bed that settles, one that is shaken and one that flies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ double mass_of(int species) {
     return sphere_mass(kSizes[species]);
 }
 
-// Contacts of two species, or of one and the wall, with numbers that differ from kind to kind.
+// Contacts of two species, or of one species and the wall, with numbers that differ from kind to kind.
 PairPlan pair_of(const Laws& laws, int kind) {
     PairPlan p = walton_braun_pair(0.6 + 0.1 * kind, 0.2 + 0.15 * kind);
     for (double* stiffness : {&p.loading_stiffness, &p.unloading_stiffness, &p.tangential_stiffness})
@@ -124,8 +124,8 @@ Plan plan_of(const Laws& laws, const Bed& bed) {
 }
 
 struct Apart {
-    double position = 0, velocity = 0, spin = 0;  // m, m/s, rad/s: the largest difference of any grain
-    std::int64_t met = 0;                         // contacts
+    double position = 0, velocity = 0, spin = 0;  // m, m/s, rad/s; the largest difference of any grain
+    std::int64_t met = 0;                         // number of contacts
 };
 
 Apart apart(const Plan& plan, const Plan& plain_plan, const Bed& bed) {
@@ -150,9 +150,9 @@ const Vec3 kDown(0, 0, -9.81), kNone(0, 0, 0);
 const Bed kBeds[] = {{"settling", kDown, {0, 0, -0.6}, Container::Shape::wedge, {}, 2500},
                      {"shaken", kDown, {0, 0, -0.3}, Container::Shape::box, {1e-3, 125, {0, 0.6, 0.8}}, 2500},
                      {"flying", kNone, kNone, Container::Shape::cylinder, {}, 2500}};
-// Differences of lengths, against the largest radius; of velocities, against 1 m/s; of spins, against 1 m/s
-// over the smallest radius. Rounding, 1e-16, grows with each collision by about the free path over the
-// radius; measured are 1e-11, 1e-10 and 1e-10 at most.
+// Differences of lengths are divided by the largest radius, differences of velocities by 1 m/s, and
+// differences of spins by 1 m/s over the smallest radius. Rounding, 1e-16, grows with each collision by about
+// the free path over the radius; measured differences are at most 1e-11, 1e-10 and 1e-10.
 constexpr double kTolerance = 1e-8;
 
 class ReferenceStepAgrees : public testing::TestWithParam<Laws> {};
@@ -168,7 +168,7 @@ TEST_P(ReferenceStepAgrees, OverSettlingShakenAndFlyingBeds) {
     }
 }
 
-// The tolerance is small enough to see a formula that is wrong by one part in a million.
+// The tolerance is small enough that a formula that is wrong by one part in a million is noticed.
 TEST(ReferenceStepTells, FrictionAndStiffnessThatAreOffByOneInAMillion) {
     const Laws laws{"", NormalForce::walton_braun_corrected, TangentialLaw::incremental_slip};
     const Bed& bed = kBeds[0];

@@ -1,4 +1,5 @@
-// Grains glued to walls: where they are, how a grain bounces off them, and what they leave alone.
+// Tests of grains glued to walls: where they are, how a grain bounces off them, and what they leave
+// unchanged.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ Scene scene_of(std::vector<std::string> sets = {}) {
     return read_scene_text(kWedge, "rough.toml", with_tested_precision(std::move(sets)), measurable_in);
 }
 
-// The same grains in a cylinder.
+// Returns a scene with the same grains in a cylinder.
 std::string in_a_cylinder() {
     std::string text = kWedge;
     const std::size_t from = text.find("shape"), to = text.find("[drive]");
@@ -65,7 +66,7 @@ outlet = { diameter = "10 mm" }
 )");
 }
 
-// A slot is as long as the container is deep, a hole is round.
+// Distance from the opening: a slot is as long as the container is deep, and a hole is round.
 double from_opening(const Scene& scene, const Vec3& at) {
     const Outlet& outlet = *scene.container.outlet;
     const bool slot = outlet.shape == Outlet::Shape::slot;
@@ -99,7 +100,7 @@ TEST(RoughWalls, GluedGrainsStandInTheirFacesAndInsideTheContainer) {
     }
 }
 
-// In a triangular lattice each has sqrt(3) / 2 of the spacing squared to itself.
+// In a triangular lattice each grain has the area sqrt(3) / 2 times the spacing squared.
 TEST(RoughWalls, SpacingSaysHowManyThereAre) {
     for (const double spacing : {0.0008, 0.0015, 0.004}) {
         const Scene scene = scene_of({fmt::format("container.wall_grains.spacing={}", spacing),
@@ -123,12 +124,12 @@ TEST(RoughWalls, FollowTheSeed) {
     };
     EXPECT_TRUE(same(places({}), places({})));
     EXPECT_FALSE(same(places({}), places({"run.seed=2"})));
-    // A face has the same grains whatever other faces have some.
+    // A face has the same glued grains whatever other faces have some.
     const auto alone = places({"container.wall_grains.faces=[\"floor\"]"}), all = places({});
     EXPECT_TRUE(same(alone, LargeArray<Place>(all.begin(), all.begin() + std::ssize(alone))));
 }
 
-// A world of one free grain, and one that is glued to a plane far below.
+// A world of one free grain and one that is glued to a plane far below.
 World beside_glued(const PairPlan& pair, double step, const Vec3& from, const Vec3& velocity,
                    NormalForce normal = NormalForce::walton_braun,
                    TangentialLaw tangential = TangentialLaw::incremental_slip) {
@@ -146,8 +147,8 @@ World beside_glued(const PairPlan& pair, double step, const Vec3& from, const Ve
     return w;
 }
 
-// Head-on against a body that cannot move: v' = -e v after (pi / 2) (1 + e) sqrt(m / K1), with the whole mass
-// of the grain.
+// A head-on impact on a body that cannot move has v' = -e v after (pi / 2) (1 + e) sqrt(m / K1), with the
+// whole mass of the grain.
 TEST(RoughWalls, AGrainReboundsWithTheRestitutionOfThePair) {
     const double e = 0.6, speed = 0.3, natural = std::sqrt(sphere_mass() / kStiffness);
     const Vec3 along = Vec3(2, -1, 2) / 3;
@@ -165,11 +166,12 @@ TEST(RoughWalls, AGrainReboundsWithTheRestitutionOfThePair) {
     w.run(static_cast<std::int64_t>(0.1 * takes / w.plan.clock.step));
     EXPECT_LT((w.velocity(0) - e * speed * along).norm(), of_rounding(1e-3, 2e-3) * speed);
     EXPECT_LT(w.spin(0).norm(), of_rounding(1e-6, 1e-4) * speed / kRadius);
-    w.run(static_cast<std::int64_t>(2 * natural / w.plan.clock.step));  // out of what is left of the overlap
+    w.run(
+        static_cast<std::int64_t>(2 * natural / w.plan.clock.step));  // until the residual overlap has ended
     w.loop->visit_contacts(w.step, [&](const ContactView&) { ADD_FAILURE() << "they have parted"; });
 }
 
-// An oblique impact is that on a second grain which is so heavy that it stays where it is.
+// An oblique impact is the same as one on a second grain that is so heavy that it stays in its place.
 TEST(RoughWalls, AGrainBouncesAsOffAGrainOfInfiniteMass) {
     const double step = 0.02 * std::sqrt(sphere_mass() / kStiffness);
     const Vec3 from(0.8 * kRadius, -0.5 * kRadius, 2.4 * kRadius), velocity(-0.2, 0.35, -0.5);
@@ -201,7 +203,8 @@ TEST(RoughWalls, AGrainBouncesAsOffAGrainOfInfiniteMass) {
         }
 }
 
-// A wall that comes with speed V throws a grain at rest away with (1 + e) V, and its work is what that has.
+// A wall that comes with speed V throws a grain at rest away with (1 + e) V, and the wall's work is the
+// grain's energy.
 TEST(RoughWalls, MoveAndWorkAsTheirWallDoes) {
     const double speed = 0.3, step = 0.01 * std::sqrt(sphere_mass() / kStiffness);
     World w = make_world(walton_braun_pair(1, 0), step, NormalForce::spring_dashpot, TangentialLaw::none);
@@ -234,7 +237,7 @@ TEST(RoughWalls, AreMetAcrossThePeriod) {
     EXPECT_NEAR(overlap, 0.5 * kRadius, 1e-3 * kRadius);
 }
 
-// Nothing overlaps them when the bed is packed, however it is packed.
+// However the bed is packed, no grain overlaps a glued one.
 TEST(RoughWalls, NothingIsPackedIntoThem) {
     for (const char* method : {"layers", "rain"}) {
         const Scene scene = scene_of({fmt::format("start.method={}", method), "start.settle_limit=0.2 s"});
@@ -285,7 +288,7 @@ TEST(RoughWalls, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
     }
 }
 
-// Weight and walls, glued grains among them, are all that changes the momentum of the grains.
+// Only weight and walls, with their glued grains, change the momentum of the grains.
 TEST(RoughWalls, TheirForcesAreThoseOfTheirFace) {
     const Scene scene = scene_of({"output.instruments=[\"walls\"]", "species.small.count=60"});
     const Plan plan = make_plan(scene);
@@ -322,8 +325,8 @@ TEST(RoughWalls, TheirForcesAreThoseOfTheirFace) {
     EXPECT_GT(at_slants, 0);
 }
 
-// Term by term, with the drive at work, in steps that are short against the integrator's own error. A grain
-// often touches several glued grains of one face, each of which has an account of its own.
+// The energy balances term by term under the drive, in steps that are short against the integrator's own
+// error. A grain often touches several glued grains of one face, each of which has an account of its own.
 TEST(RoughWalls, EnergyBalances) {
     const Scene scene = scene_of({"run.steps_per_contact=60", "drive.direction=[0.3, 1, 0.5]"});
     World w;

@@ -1,5 +1,5 @@
-// The shortest period that a scene may have, 2.5 diameters of the largest grain: each grain meets the nearest
-// image of every other. So a bed goes the same way as twice the bed in twice the period.
+// Tests of the shortest period that a scene may have, 2.5 diameters of the largest grain. Each grain meets
+// the nearest image of every other. So a bed moves in the same way as twice the bed in twice the period.
 #include <gtest/gtest.h>
 
 #include <cmath>

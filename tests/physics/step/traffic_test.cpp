@@ -1,5 +1,5 @@
-// Grains that leave and enter: the step in which they do, the same bits on any number of threads, and the
-// account of their energy.
+// Tests of grains that leave and enter: the step in which they do, the same bits on any number of threads,
+// and the account of their energy.
 #include "engine/state/traffic.hpp"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ void expect_same(const std::vector<Departure>& a, const std::vector<Departure>& 
 struct Fall {
     const char* name;
     Integrator integrator;
-    // Steps of free fall after which v and half a step more of it have been added up: the original program's
-    // leapfrog has z_n = z_0 + v n dt - g dt^2 n (n + 1) / 2, the others the parabola itself.
+    // Number of steps of free fall that are counted in addition: leapfrog of the original program has z_n =
+    // z_0 + v n dt - g dt^2 n (n + 1) / 2, and the others have the parabola itself.
     double lag;
 };
 class FreeFall : public testing::TestWithParam<Fall> {};
@@ -98,8 +98,8 @@ TEST(Exits, ARegionIsWhereAllItsHalfSpacesAre) {
     EXPECT_FALSE(Exit().holds(Vec3(0, 0, 0)));
 }
 
-// Grains slide along a rough plane under gravity that leans, fifty times that of the Earth, and leave at a
-// line: together and alone, in contact and free.
+// Grains slide along a rough plane under gravity that leans and is fifty times that of the Earth. They leave
+// at a line, together and alone, in contact and free.
 constexpr double kExitLine = 0.02;  // m
 World chute(int threads, double restitution = 0.7, double friction = 0.3,
             Integrator integrator = Integrator::velocity_verlet) {
@@ -122,7 +122,7 @@ World chute(int threads, double restitution = 0.7, double friction = 0.3,
     return w;
 }
 
-// Schemes that move grains after the forces do not know who leaves when a step's forces are computed.
+// Schemes that move grains after the forces do not know which grains leave when a step's forces are computed.
 class AnyScheme : public testing::TestWithParam<Integrator> {};
 TEST_P(AnyScheme, IsTheSameOnAnyNumberOfThreads) {
     std::vector<Departure> gone;
@@ -132,7 +132,7 @@ TEST_P(AnyScheme, IsTheSameOnAnyNumberOfThreads) {
         w.run(4000);
         const std::vector<Departure> now = w.loop->take_departures();
         ASSERT_GT(now.size(), 60u);
-        // None was inside at the end of an earlier step: it came no farther than a step takes it.
+        // No grain was inside at the end of an earlier step: it came no farther than a step takes it.
         for (const Departure& one : now)
             EXPECT_LT(one.position.y() - kExitLine, 1.01 * one.velocity.y() * w.plan.clock.step + 1e-9);
         if (threads == 1) gone = now, bits = state_of(w);
@@ -166,7 +166,7 @@ TEST(Traffic, IsTheSameOnAnyNumberOfThreadsWhoeverLooks) {
     }
 }
 
-// No force acts between what is far apart, and what leaves takes its energy along.
+// No force acts between grains that are far apart, and a grain that leaves takes its energy along.
 TEST(Traffic, OfFreeGrainsClosesToTheLastDigits) {
     World w = make_world(walton_braun_pair(0.9, 0.3), 1e-4);
     w.around.gravity = {0, 0, -kGravity};
@@ -185,7 +185,7 @@ TEST(Traffic, OfFreeGrainsClosesToTheLastDigits) {
     EXPECT_EQ(w.grains.size(), 0u);
 }
 
-// Elastic and smooth: what collisions turn over stays, up to the error of the step.
+// Grains are elastic and smooth, so the energy that collisions exchange stays, up to the error of the step.
 TEST(Traffic, OfCollidingGrainsKeepsTheEnergy) {
     World w = chute(1, 1, 0);
     const double before = w.energy();
@@ -199,8 +199,9 @@ TEST(Traffic, OfCollidingGrainsKeepsTheEnergy) {
     EXPECT_GT(w.loop->traffic().left, 60);
 }
 
-// With losses, term by term: the bound is that of the vibrated bed (energy_balance_test), over the energy
-// that was turned over. What a leaving grain's contacts held goes with it and is not friction.
+// With losses the energy balances term by term. The bound is that of the vibrated bed (energy_balance_test),
+// divided by the energy that was exchanged. Energy in the contacts of a grain that leaves goes with it and is
+// not friction.
 TEST(Traffic, BalancesTermByTerm) {
     World w = chute(1);
     EnergyBalance balance(w.around, w.grains, *w.loop, 0, w.plan.clock.step);
@@ -239,7 +240,7 @@ World drop(int threads) {
     w.grains.add(0, 0, Vec3(0, 0, kRadius), kRadius, kDensity);
     return w;
 }
-// With the second grain there from the start.
+// Returns the world in which the second grain is there from the start.
 World dropped() {
     World w = drop(1);
     w.grains.add(1, 0, falling(0).position, kRadius, kDensity);
@@ -254,7 +255,8 @@ void expect_close(const World& w, const World& wanted) {
     }
 }
 
-// As if it had been there all the time: long before the two meet, and two steps before.
+// The grain acts as if it had been there all the time, whether it comes long before the two meet or two steps
+// before.
 TEST(Traffic, ANewGrainIsLikeOneThatWasAlwaysThere) {
     const World always = dropped();
     ASSERT_LT(always.velocity(0).x(), -1e-3) << "it has been hit";
@@ -281,7 +283,8 @@ TEST(Traffic, ANewGrainIsLikeOneThatWasAlwaysThere) {
     }
 }
 
-// Those that left stood before the others in every list: the two meet as if nobody had been there.
+// Grains that leave stand before the others in every list; the two grains meet as if the others had never
+// been there.
 TEST(Traffic, ListsCloseUpBehindThoseThatLeave) {
     const World alone = dropped();
     const double dt = alone.plan.clock.step;
@@ -309,7 +312,7 @@ TEST(Traffic, ListsCloseUpBehindThoseThatLeave) {
     }
 }
 
-// Two grains are pressed together and fly freely. When one leaves, nothing pushes the other any more: it
+// Two grains are pressed together and fly freely. When one leaves, nothing pushes the other any more, so it
 // keeps the velocity that it has then.
 TEST(Traffic, ForcesOfAGrainThatHasLeftDoNotAct) {
     for (const Integrator integrator :
@@ -339,7 +342,7 @@ TEST(Traffic, NoIdIsUsedTwice) {
     EXPECT_EQ(w.loop->insert({grain}), 4);
     w.loop->remove({0, 2, 4}, 0);
     EXPECT_EQ(w.grains.size(), 0u);
-    w.run(10);  // of nobody
+    w.run(10);  // no grain is there
     EXPECT_EQ(w.loop->insert({grain, grain}), 5);
     w.run(10);
     EXPECT_EQ(w.grains.id, (std::vector<std::int32_t>{5, 6}));
@@ -349,7 +352,7 @@ TEST(Traffic, NoIdIsUsedTwice) {
     EXPECT_EQ(gone[1].id, 3);
 }
 
-// Into a run that begins with nobody, on more threads than there are grains.
+// Grains enter a run that begins without any, on more threads than there are grains.
 TEST(Traffic, MayBeginWithNobody) {
     std::uint64_t bits = 0;
     for (const int threads : {1, 2, 3}) {
@@ -373,7 +376,7 @@ TEST(Traffic, MayBeginWithNobody) {
     }
 }
 
-// Saved after some left, and between an insertion and the step that follows it.
+// The run is saved after some grains left, and between an insertion and the step that follows it.
 TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
     const auto add_some = [](World& w) {
         std::vector<NewGrain> rain;
@@ -409,7 +412,7 @@ TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
         on.step = other.step;
         on.run(800);
         EXPECT_EQ(state_of(on), state_of(whole)) << threads << " threads";
-        // Half an account is none.
+        // Half of an account is refused.
         Bytes cut(std::string_view(bytes).substr(0, bytes.size() - 8));
         on.loop->load(cut, other.step);
         EXPECT_TRUE(cut.failed());

@@ -1,4 +1,4 @@
-// A tray below an outlet catches what flows out.
+// Tests of a tray below an outlet, which catches what flows out.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ const Face& named(const std::vector<Face>& faces, const std::string& name) {
     throw std::runtime_error(name);
 }
 
-// The walls end at the floor's lowest place: above it a grain meets their edge only.
+// The walls end at the floor's lowest place: above it a grain meets only their edge.
 TEST(Tray, HasAFloorWithoutEndAndWallsThatEndAbove) {
     for (const bool shaken : {false, true}) {
         const Scene scene =
@@ -90,7 +90,7 @@ tray = {}
     EXPECT_NEAR(distance_to(named(faces, "tray floor"), Vec3::Zero(), {0, 0, -0.04}).distance, 0, 1e-15);
 }
 
-// All grains stay in the run. What has fallen into the tray counts as outflow.
+// All grains stay in the run. Grains that have fallen into the tray count as outflow.
 TEST(Tray, KeepsAllThatFlowsOut) {
     const Scene scene = scene_of({"output.instruments=[\"outflow\"]"});
     const Plan plan = make_plan(scene);

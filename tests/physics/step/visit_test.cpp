@@ -1,4 +1,4 @@
-// The order in which contacts are shown.
+// Tests of the order in which contacts are shown.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -9,8 +9,7 @@
 namespace grainreel {
 namespace {
 
-// Two pairs meet, the second one ten steps before the first. The grains are shared out so that with two
-// threads each has a pair.
+// Two pairs meet, the second one ten steps before the first. With two threads each thread has one pair.
 World two_pairs(int threads) {
     constexpr double kStep = 1e-6, kSpeed = 0.5, kApart = 0.05;  // s, m/s, m
     World w = make_world(walton_braun_pair(0.9, 0), kStep, NormalForce::walton_braun, TangentialLaw::none);

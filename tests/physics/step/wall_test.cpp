@@ -1,4 +1,4 @@
-// Walls: distances on all faces and in corners, and their motion.
+// Tests of walls: distances on all faces and in corners, and their motion.
 #include <gtest/gtest.h>
 
 #include "engine/state/wall_motion.hpp"
@@ -62,7 +62,7 @@ TEST(Wedge, MovesWithItsWalls) {
     }
 }
 
-// A frictionless ball pressed into the corner of slant and floor by gravity leans on both.
+// Gravity presses a frictionless ball into the corner of slant and floor, and the ball leans on both.
 TEST(Wedge, BallInACornerTouchesBothFaces) {
     const Container c = wedge();
     PairPlan pair = walton_braun_pair(0.9, 0);
@@ -72,7 +72,7 @@ TEST(Wedge, BallInACornerTouchesBothFaces) {
     w.around.faces = container_faces(c, Drive{});
     const double lean = 0.2;
     w.around.gravity = 9.81 * Vec3(0, std::sin(lean), -std::cos(lean));
-    // Centre at distance r from the floor and from the right slant.
+    // The centre has the distance r from the floor and from the right slant.
     const double y =
         c.half_width - (c.slant_height - kRadius) * std::tan(c.half_angle) - kRadius / std::cos(c.half_angle);
     w.grains.add(0, 0, Vec3(0, y, kRadius), kRadius, kDensity);
@@ -82,7 +82,7 @@ TEST(Wedge, BallInACornerTouchesBothFaces) {
     w.loop->visit_contacts(w.step, [&](const ContactView& v) {
         (w.around.faces[-1 - v.second].name == "floor" ? floor : slant) = v.normal_force;
     });
-    // Balance: slant's normal (0, -cos t, sin t): S cos t = m g sin lean; F + S sin t = m g cos lean.
+    // The slant's normal is (0, -cos t, sin t). Balance: S cos t = m g sin lean; F + S sin t = m g cos lean.
     const double weight = sphere_mass() * 9.81;
     const double expected_slant = weight * std::sin(lean) / std::cos(c.half_angle);
     EXPECT_NEAR(slant, expected_slant, 1e-3 * weight);
@@ -102,7 +102,8 @@ TEST(Cylinder, DistanceIsRadial) {
     EXPECT_NEAR(d.normal.y(), -0.8, 1e-12);
 }
 
-// Pressed sideways against the wall, a ball leans on it with its weight, wherever around the axis.
+// A ball that is pressed sideways against the wall leans on it with its weight, wherever around the axis it
+// is.
 TEST(Cylinder, HoldsABallByItsWeightOverStiffness) {
     PairPlan pair = walton_braun_pair(0.7, 0);
     pair.unloading_stiffness = pair.loading_stiffness;
@@ -120,12 +121,12 @@ TEST(Cylinder, HoldsABallByItsWeightOverStiffness) {
     w.run(300000);
     const double sink = sphere_mass() * 9.81 / kStiffness;
     const Vec3 rest = wall.point + (wall.radius - kRadius + sink) * outwards;
-    // Along the wall gravity holds it softly: by R for each radian that the normal is off.
+    // Along the wall gravity holds the ball softly: it moves by R for each radian that the normal is off.
     EXPECT_LT((w.position(0) - rest).norm(), of_rounding(1e-4 * sink, 1e-7 * wall.radius));
 }
 
-// A ball that rolls without slip on a plate shaken sideways follows it by 2/7: m a = T, I w' = -T r and
-// a - r w' = a_plate give a = 2/7 a_plate. The plate's velocity is all that the ball feels of it.
+// A ball that rolls without slip on a plate shaken sideways follows it by 2/7: m a = T, I w' = -T r and a - r
+// w' = a_plate give a = 2/7 a_plate. Only the plate's velocity acts on the ball.
 TEST(Drive, DragsARollingBallByTwoSeventhsOfItsMotion) {
     Drive drive;
     drive.present = true;
@@ -173,7 +174,8 @@ TEST(Drive, FollowsItsSineAndItsVelocityIsItsDerivative) {
         const double phase = 2 * std::numbers::pi * (1000.0 / 8000 + drive.phase);
         const double start = ramp > 0 ? 0 : std::sin(2 * std::numbers::pi * drive.phase);
         EXPECT_NEAR(motion.at(late).offset.z(), drive.amplitude * (std::sin(phase) - start), 1e-15);
-        // The phase is counted, not summed up: after a billion periods it is the same to the bit.
+        // The phase is computed from a count and not by adding up: after a billion periods it is the same to
+        // the bit.
         EXPECT_EQ(motion.at(late).offset.z(), motion.at(late + 8000 * std::int64_t{1000000000}).offset.z());
     }
     // The ramp is twice differentiable: no kick at its start.
@@ -183,7 +185,7 @@ TEST(Drive, FollowsItsSineAndItsVelocityIsItsDerivative) {
     EXPECT_LT(std::abs(WallMotion(drive, clock).at(80).velocity.z()), bound);
 }
 
-// The formulas: those of the drive for what follows it, and v t for a plane's own velocity.
+// Places follow the formula of the drive for bodies that follow it, and v t for a plane's own velocity.
 TEST(Bodies, AreWhereTheirFacesAre) {
     FreeWall still, sliding, shaken;
     sliding.velocity = Vec3(0, 0.3, -0.1);
@@ -215,7 +217,7 @@ TEST(Bodies, AreWhereTheirFacesAre) {
             EXPECT_EQ(face.displacement(stroke), body.place) << face.name;
             EXPECT_EQ(face.velocity_at(stroke), body.velocity) << face.name;
         }
-        // A file of an earlier version says of container and floor alone.
+        // A file of an earlier version has only the poses of container and floor.
         std::vector<BodyPose> earlier(poses.begin(), poses.begin() + kFirstPlaneBody);
         add_planes(planes, stroke.time, earlier);
         EXPECT_EQ(earlier, poses);
