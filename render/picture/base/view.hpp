@@ -68,8 +68,8 @@ class Framing {
     const bool orthographic_;
     const double half_width_, half_height_, focal_;
     double farthest_aside_ = 0, back_aside_ = 0, reach_ = 0;  // m
-    double highest_ = -1e300,
-           lowest_ = 1e300;  // m: ends of y; of y - k z and y + k z in perspective
+    // m: the extremes of y; in perspective those of y - k z and y + k z.
+    double highest_ = -1e300, lowest_ = 1e300;
 };
 
 // The view with the nearest eye in the camera's direction from which all `points` lie inside the port,

@@ -63,8 +63,8 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
         draw_at(tray_container(scene), {below, below, below}, shapes);
     }
     draw_at(container_at(scene.container, frame.time), sketches, shapes);
-    for (std::size_t w = 0; w < scene.walls.size();
-         ++w) {  // free walls are inside, so over the container's far walls
+    // Free walls are inside the container, so they are painted over its far walls.
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const BodyPose pose = frame.body(kFirstPlaneBody + w);
         draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, pose}, shapes);
     }

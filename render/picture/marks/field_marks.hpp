@@ -40,8 +40,8 @@ class FieldLayer {
     Quantities quantities_;
     ColourScale scale_;
     ClippedCount clipped_;
-    std::vector<double> solid_, mass_,
-        sum_;  // by cell: solid fraction, kg/m3, kg/m3 times the mean
+    // For each cell: solid fraction, kg/m3, and kg/m3 times the mean.
+    std::vector<double> solid_, mass_, sum_;
 };
 
 // The velocity (m/s) at a place (y, z) in m; none where too few grains are near.

@@ -272,8 +272,8 @@ class SideFinder {
     std::vector<std::size_t> part_of_patch_;
     std::vector<Seen> patch_seen_, part_seen_;
     std::vector<char> part_closed_, visible_front_;
-    std::vector<int> around_front_,
-        around_back_;                   // by part: number of closed parts around each side
+    // For each part: how many closed parts are around each side.
+    std::vector<int> around_front_, around_back_;
     std::optional<EnclosedRoom> room_;  // room of a vessel with closed parts
 };
 

@@ -40,7 +40,7 @@ class SceneMeshes {
     std::vector<std::size_t> mesh_;  // numbers of the scene's meshes
     std::vector<std::vector<std::array<float, 3>>> colours_;
     ClippedCount clipped_;
-    std::vector<std::size_t> body_;  // numbers
+    std::vector<std::size_t> body_;  // numbers of their bodies
 };
 
 MeshPaints mesh_paints(const Palette& palette, const Vec3& up, int picture_height);

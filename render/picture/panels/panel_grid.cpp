@@ -34,8 +34,8 @@ double least_wide(double minor) {
 
 // There are no plots where they would be too small or leave too little room for the grains.
 PlotGrid plot_grid(const std::vector<Panel>& panels, const Film& film, int width, int height, PlotsAt at) {
-    constexpr double usual_height = 0.2, usual_width = 0.3,
-                     most = 0.45;  // shares of a panel: one plot, all plots
+    // Shares of a panel: of one plot, and of all plots together.
+    constexpr double usual_height = 0.2, usual_width = 0.3, most = 0.45;
     std::size_t most_plots = 0;
     for (const Panel& panel : panels) most_plots = std::max(most_plots, panel.scene.film.shows.plots.size());
     const auto count = static_cast<int>(most_plots);

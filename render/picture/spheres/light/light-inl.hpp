@@ -57,8 +57,8 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
         const F rise = point.normal.dot(to);
         if (none(rise > F(-n.radius))) continue;  // below the horizon
         const F inverse = inverse_root(to.squared());
-        const F share = smaller(F(n.square) * inverse * inverse,
-                                F(1));  // square of the sine of the sphere's radius as seen from the point
+        // share: the square of the sine of the sphere's angular radius, seen from the point.
+        const F share = smaller(F(n.square) * inverse * inverse, F(1));
         const F sunk = rise * F(n.inverse_radius);  // -1 to 1: the sphere stands in the horizon
         const F whole = larger(rise, F(0)) * inverse * share;
         const F base = zero_to_one(F(0.5) * (sunk + F(1)) * share);

@@ -164,9 +164,8 @@ void BandPainter::light_parts(const PaintJob& job) {
 }
 
 void BandPainter::add_parts(std::size_t begin, std::size_t end) {
-    const auto clipped = [](float linear) {
-        return std::min(linear, 1.0f);
-    };  // without this highlights fray the edge
+    // Without a limit highlights would fray the edge.
+    const auto clipped = [](float linear) { return std::min(linear, 1.0f); };
     for (std::size_t i = begin; i < end; ++i) {
         const Part& part = sorted_[i];
         Soft& pixel = soft_[part.pixel];
