@@ -201,7 +201,7 @@ std::int64_t count_in_tray(const Frame& frame) {
                          [&](const Vec3& at) { return at.z() < floor; });
 }
 
-// The line of the time, then those below it.
+// The lines of the clock: the time first, then the lines below it.
 std::vector<std::string> clock_lines(const FilmedScene& scene, const Frame& frame) {
     const WordKinds& kinds = scene.film.word_kinds;
     std::vector<std::string> lines;
@@ -249,12 +249,12 @@ TextSize note_block(const Writer& writer, const std::string& text, double x, dou
 
 namespace {
 
-// The floor's displacement from the middle of its stroke, in amplitudes. A drive that starts without a ramp
-// in the middle of a period moves about a place that is not the rest position.
+// The floor's displacement from the middle of its stroke, in amplitudes. The middle is not the rest position
+// where a drive starts without a ramp in the middle of a period.
 double share_of_stroke(const Drive& drive, const DriveSchedule::Now& now, const Frame& frame) {
     if (now.amplitude <= 0) return 0;
     const double place = frame.floor().place.dot(drive.direction) / now.amplitude;
-    if (now.kind == DriveStage::Kind::taps) return place - 1;  // from the lower end of the stroke
+    if (now.kind == DriveStage::Kind::taps) return place - 1;  // taps count from the lower end of the stroke
     const double middle = drive.ramp > 0 ? 0 : -std::sin(2 * std::numbers::pi * drive.phase);
     return place - middle;
 }
@@ -352,8 +352,8 @@ TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame
         draw_still_part(writer, dial, pen);
         return size;
     }
-    if (frame->time < 0) return size;  // the drive is off: no hand
-    // Close to the period's end the disc is empty, as the phase beside it is 0.00.
+    if (frame->time < 0) return size;  // the drive is off, so there is no hand
+    // Close to the period's end the disc is empty, because the phase beside it reads 0.00.
     const double phase = shown_cycle(*frame).phase > 0 ? frame->phase : 0;
     const DriveSchedule::Now now = drive_now(drive, frame->cycles);
     const Eigen::Vector2d tip = dial.tip(phase), floor = dial.on_bar(share_of_stroke(drive, now, *frame));

@@ -19,7 +19,7 @@
 namespace grainreel {
 
 struct Writer {
-    cairo_t* on = nullptr;  // null: only measures
+    cairo_t* on = nullptr;  // null: the writer only measures
     const TypeScale& type;
     const Palette& palette;
 
@@ -33,7 +33,7 @@ struct Writer {
         return on ? draw_text(on, x, y, text, style, colour, wrap, lines)
                   : measure_text(text, style, wrap, lines);
     }
-    // Writes a line below those that `size` has already, which begin at (x, y), and adds it to the size.
+    // Writes a line below the lines that begin at (x, y) and take `size`, and adds the line to the size.
     void write_below(TextSize& size, double x, double y, const std::string& line, const TextStyle& style,
                      const Colour& colour, double wrap = 0, int lines = 1) const {
         const TextSize part = write(x, y + size.height, line, style, colour, wrap, lines);
@@ -48,21 +48,21 @@ std::vector<std::string> lines_of(const std::string& text);
 // nothing to say has the size 0.
 TextSize title_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap);
 // The legend has as many columns as `wrap` has room for; with wrap 0 it has one column of any width. room:
-// pixels of height; 0: no limit. Where there is no room for all species, it says how many more there are;
-// where there is no room for one, it is left out.
+// pixels of height; 0: no limit. Where there is no room for all species, the legend says how many more there
+// are; where there is no room for one, the legend is left out.
 TextSize legend_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap,
                       double room = 0);
 std::size_t species_in_legend(const Writer& writer, const FilmedScene& scene, double wrap, double room);
-// Where the colours lie in a colour bar's block, in whole pixels. Beside an end that also stands for all
-// values beyond it lies the tip of an arrow.
+// Where the colours lie in a colour bar's block, in whole pixels. An end of the bar that also stands for all
+// values beyond it has the tip of an arrow.
 struct ColourBarPlace {
     int x = 0, y = 0, width = 0, height = 0;
-    int tip_below = 0, tip_above = 0;  // length; 0: no tip
+    int tip_below = 0, tip_above = 0;  // lengths of the tips; 0: no tip
 };
 // y: where the words above the bar end.
 ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type, double x, double y,
                                 double width);
-// The scales that the film has colour bars for: that of grains, unless they are coloured by species, and that
+// The scales that the film has colour bars for: one of grains, unless they are coloured by species, and one
 // of walls.
 std::vector<ColourScale> colour_scales(const Film& film);
 inline bool has_colour_bar(const Film& film) {
@@ -77,12 +77,12 @@ TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scal
 TextSize scale_block(const Writer& writer, double scale, double x, double y, double longest);
 // The directions of gravity and of the drive as the camera sees them. view: null while measuring.
 TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
-// x, y and z as the camera sees them, where the film wants them. view: null while measuring.
+// The directions x, y and z as the camera sees them, where the film wants them. view: null while measuring.
 TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
 // f, Gamma and amplitude of the drive, and by how much its motion is exaggerated. frame: null to measure the
 // longest lines.
 TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame* frame, double x, double y);
-// By how much the motion is exaggerated, alone.
+// Says only by how much the motion is exaggerated.
 TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
 // A dial whose hand turns once a period, and beside it the place of the floor in its stroke. Without a frame
 // only what stands still is drawn. view: tells right from left for a drive that goes sideways; null: seen

@@ -36,7 +36,7 @@ std::vector<std::string> vibration_lines(double frequency, double amplitude, dou
     return lines;
 }
 
-// Rounds a value of a drive that grows to as many decimals as the value that it grows to.
+// Rounds the present value of a growing drive to as many decimals as its final value has.
 double rounded_as(double value, double full) {
     if (full <= 0) return value;
     const double digit = std::pow(10, std::floor(std::log10(full)) - 2);
@@ -82,7 +82,7 @@ std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
         for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
             if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
     };
-    // No share has longer numbers than these.
+    // These shares have the longest numbers.
     if (scene.drive.ramp > 0)
         for (const double share : {0.888, 0.0888}) take(growing_lines(scene, share));
     if (!scene.drive.changes()) return longest;
@@ -109,7 +109,7 @@ std::string frequency_text(double hertz) {
 
 std::string time_text(double seconds, double duration) {
     const Unit unit = duration < 0.1 ? Unit{0.001, "ms"} : Unit{1, "s"};
-    // The minus is as wide as a digit, and there is no "-0.000".
+    // The minus sign is as wide as a digit, and a value that rounds to zero has none.
     const double value = seconds / unit.size, shown = std::abs(value) < 0.0005 ? 0 : value;
     return fmt::format("t = {}{:.3f} {}", shown < 0 ? "−" : "", std::abs(shown), unit.name);
 }
@@ -139,13 +139,13 @@ ShownCycle shown_cycle(const Frame& frame) {
 
 std::string playback_text(const Film& film, const Frame& frame, const std::string& playback) {
     if (!film.word_kinds.playback) return "";
-    if (!(frame.time < 0)) return playback;  // NaN where it is not known
+    if (!(frame.time < 0)) return playback;  // time is NaN where it is not known
     return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
 }
 
 namespace {
 
-// Joins parts of a note, with an empty line between them.
+// Joins two parts of a note, with an empty line between them.
 std::string joined(const std::string& one, const std::string& other) {
     return one.empty() || other.empty() ? one + other : one + "\n\n" + other;
 }
@@ -156,8 +156,8 @@ std::string mass_text(double kilograms) {
                                   : fmt::format("{:.3g} mg", 1e6 * kilograms);
 }
 
-// Says of how many grains only where all are there from the start; where grains are fed, some are yet to
-// come.
+// Gives the total number of grains only where all of them are there from the start. Where grains are fed,
+// some are yet to come.
 std::string outflow_text(const FilmedScene& scene, const FlowedOut& out) {
     const std::int64_t all = scene.grains();
     const std::string grains = scene.grains_at_start() == all ? fmt::format("{} of {} out", out.grains, all)

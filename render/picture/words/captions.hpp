@@ -22,12 +22,12 @@ std::string time_text(double seconds, double duration);
 std::string diameter_text(const SizeSpread& diameter);
 // m: the largest of 1, 2 or 5 times a power of ten that is not longer than `longest`.
 double round_length(double longest);
-// Lines that say what the drive does in a frame: f, Gamma and amplitude, which are those of the moment while
-// the drive grows or goes from one stage to another.
+// Lines that say what the drive does in a frame: f, Gamma and amplitude. While the drive grows or goes from
+// one stage to another, these are the values of the moment.
 std::vector<std::string> drive_lines(const FilmedScene& scene, const Frame& frame);
 // Whether these lines differ from frame to frame.
 bool drive_lines_change(const Drive& drive);
-// As many lines, about as long as any of them get in the course of the film.
+// Lines as many and about as long as drive_lines() gives at most in the course of the film.
 std::vector<std::string> longest_drive_lines(const FilmedScene& scene);
 // The place of a frame in the drive's period as it is shown: the phase in hundredths of a turn, never 1.00,
 // and the cycle that this phase belongs to.
@@ -36,11 +36,12 @@ struct ShownCycle {
     double phase;
 };
 ShownCycle shown_cycle(const Frame& frame);
-// The caption of time, which also says when the grains still settle. Empty where the film does not show it.
+// The caption of time, which also says so while the grains still settle. Empty where the film does not show
+// it.
 std::string playback_text(const Film& film, const Frame& frame, const std::string& playback);
-// What has flowed out, the scene's own words (film.text, with the last values of measures until the frame),
-// and the caption of this time. longest_notes() gives them about as long as they get: with each caption, or
-// once without any.
+// What has flowed out, the scene's own words (film.text, with the latest values of measures), and the caption
+// shown at this time. longest_notes() gives texts about as long as these get: one with each caption, or a
+// single one without captions.
 std::string note_text(const FilmedScene& scene, const Frame& frame);
 std::vector<std::string> longest_notes(const FilmedScene& scene);
 // How many lines of the gutter each line of a note may take.

@@ -18,8 +18,8 @@ class Column {
   public:
     Column(double x, double y, double room, FirstPart& part)
         : box_{x, y, 0, 0}, y_(y), room_(room), part_(part) {}
-    // Adds block(writer, x, y), or leaves it out when it does not fit. It is first called with a writer that
-    // measures.
+    // Adds block(writer, x, y), or leaves it out when it does not fit. `block` is first called with a writer
+    // that only measures.
     template <class Block>
     void add(const Writer& writer, const char* name, double gap_before, const Block& block) {
         const Writer measure{nullptr, writer.type, writer.palette};
@@ -88,8 +88,8 @@ class Blocks {
     const double scale_;
 };
 
-// Adds a legend with as many species as there is room for. Where some are missing, a part of it counts as
-// left out.
+// Adds a legend with as many species as there is room for. Where some species are missing, a part of the
+// legend counts as left out.
 void add_legend(Column& column, const Writer& writer, const Blocks& blocks, double gap, double wrap,
                 double room, FirstPart& part) {
     if (!blocks.scene().film.word_kinds.legend) return;
@@ -102,8 +102,8 @@ void add_legend(Column& column, const Writer& writer, const Blocks& blocks, doub
         part.left_out.emplace_back("a part of the legend");
 }
 
-// In an upright picture: the title; the legend beside scale and axes; the colour bar beside the marks. Axes
-// are the first to be left out.
+// The layout for an upright picture: the title; the legend beside scale and axes; the colour bar beside the
+// marks. Axes are left out first.
 FirstPart upright_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
@@ -138,7 +138,7 @@ FirstPart upright_part(const Writer& writer, const Blocks& blocks, double inner,
     return part;
 }
 
-// Above a wide picture: title, legend, colour bar, marks, axes and scale beside each other.
+// The layout above a wide picture: title, legend, colour bar, marks, axes and scale beside each other.
 FirstPart row_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
@@ -176,7 +176,8 @@ FirstPart row_part(const Writer& writer, const Blocks& blocks, double inner, dou
     return part;
 }
 
-// At the left: what is seen stands at the upper end, and directions and lengths stand at the lower end.
+// The layout at the left: words about what is seen stand at the upper end, and directions and lengths stand
+// at the lower end.
 FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
@@ -190,7 +191,7 @@ FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, 
     FirstPart part;
     Column upper(x, type.margin, room - below, part);
     upper.add(writer, "title", 0, blocks.title(inner));
-    // What the colours mean is more important than the last of the species.
+    // The meaning of the colours is more important than the last species of the legend.
     const double after = with_gap(height(blocks.colour_bar(inner))) + with_gap(height(blocks.marks(inner)));
     const double least = upper.end() + 1.2 * type.gap + 5 * type.main;
     add_legend(upper, writer, blocks, 1.2 * type.gap, inner,

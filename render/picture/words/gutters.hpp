@@ -1,5 +1,5 @@
 // The words in the two gutters. The first one, at the left or above the container, says what is seen and how
-// large it is (first_gutter.cpp). The second one, at the right or below, has what changes with time
+// large it is (first_gutter.cpp). The second one, at the right or below, has the words that change with time
 // (second_gutter.cpp).
 #pragma once
 
@@ -19,11 +19,11 @@ struct FirstPart {
     std::vector<Block> blocks;
     double height = 0;                  // pixels that it takes, without margins
     std::vector<WordBox> boxes;         // around what stands together
-    std::vector<std::string> left_out;  // what there was no room for
+    std::vector<std::string> left_out;  // names of blocks that there was no room for
     bool empty() const { return blocks.empty() && left_out.empty(); }
 };
-// Puts title, legend, colour bar, marks, scale bar, axes and arrows into the first gutter, as many as its
-// height has room for. A gutter of height 0 takes whatever they need. view: null while measuring.
+// Puts title, legend, colour bar, marks, scale bar, axes and arrows into the first gutter, as many of them as
+// its height has room for. A gutter of height 0 takes whatever they need. view: null while measuring.
 FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View* view,
                      const PictureLayout& layout, double width);
 
@@ -38,7 +38,7 @@ struct NumbersPlan {
     WordPoint clock, caption, note, dial, drive, arrows;
     double caption_wrap = 1, note_wrap = 1;
     int caption_lines = 0;
-    // What changes is drawn anew within these parts. None of them lies over another.
+    // Words that change are drawn anew within these parts. None of the parts lies over another.
     Rectangle clock_part, caption_part, note_part, dial_part;
     Rectangle drive_part;                     // empty unless the drive changes
     std::vector<Rectangle> plots;             // as many as there is room for

@@ -34,7 +34,7 @@ namespace {
 
 constexpr double endless = 1e9;
 constexpr double shrinks[] = {1, 0.9, 0.8};
-constexpr double least_port = 0.36;  // over the picture's height, between gutters above and below
+constexpr double least_port = 0.36;  // share of the picture's height between gutters above and below
 
 // Pixels: the height of the container where the picture's width decides its scale.
 double natural_height(const FilmedScene& scene, const TypeScale& type, int width) {
@@ -43,7 +43,7 @@ double natural_height(const FilmedScene& scene, const TypeScale& type, int width
     return framed_height(scene, tall) + 2 * type.margin;
 }
 
-// Gutters above and below. Plots take the height that the container does not need.
+// The layout with gutters above and below. Plots take the height that the container does not need.
 PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
     const int width = scene.film.width, height = scene.film.height;
@@ -87,7 +87,7 @@ double least_column(const FilmedScene& scene, const Writer& measure, const std::
     return std::min((width < 1.4 * scene.film.height ? 0.22 : 0.17) * width, 9 * measure.type.title);
 }
 
-// Gutters at the left and right.
+// The layout with gutters at the left and right.
 PictureLayout side_by_side(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
     const int width = scene.film.width, height = scene.film.height;
@@ -111,10 +111,10 @@ PictureLayout side_by_side(const FilmedScene& scene, PictureLayout layout, const
 struct Judged {
     PictureLayout layout;
     double scale = 0;  // pixels a metre of the container
-    bool fits = true;  // the words that must be there
+    bool fits = true;  // whether the words that must be there fit
 };
 
-// Judges a layout, and writes the names of what it has no room for into it.
+// Judges a layout, and writes into it the names of the blocks that it has no room for.
 Judged judged(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     layout.left_out = first_part(measure, scene, nullptr, layout, layout.first.width).left_out;
     const NumbersPlan plan =

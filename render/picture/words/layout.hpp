@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-// A frame whose words are as long as they get.
+// A frame whose words are as long as words get.
 Frame widest_frame();
 
 // The layout that film.words asks for. Gutters are as wide as their words need, and at most about a third of

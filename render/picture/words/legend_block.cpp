@@ -1,5 +1,5 @@
-// Blocks of the overlay that say what colours mean: the legend, which grains are which, and the colour bars
-// of grains and walls. Both are declared in blocks.hpp.
+// Blocks of the overlay that say what colours mean: the legend of species, and the colour bars of grains and
+// walls. Both are declared in blocks.hpp.
 #include "render/picture/words/blocks.hpp"
 
 #include <fmt/format.h>
@@ -41,8 +41,8 @@ Colour lit(const Vec3& normal, const Colour& albedo) {
     return {channel(albedo.red), channel(albedo.green), channel(albedo.blue)};
 }
 
-// A small sphere of the legend, lit as the grains are, as a picture of the lit hemisphere that is cut out by
-// a smooth circle. (x, y): centre; pixels.
+// Draws a small sphere of the legend, lit as the grains are: a picture of the lit hemisphere, cut out by a
+// smooth circle. (x, y): centre, pixels.
 void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour& colour) {
     const int side = 2 * static_cast<int>(std::ceil(radius)) + 2;
     const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, side);
@@ -72,7 +72,7 @@ void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour&
     cairo_surface_destroy(ball);
 }
 
-constexpr std::size_t most_species = 12;  // more are summed up in a last line
+constexpr std::size_t most_species = 12;  // a last line sums up all others
 
 // The entries of a legend: the first `shown` species have one each, and the others have one together.
 class Entries {
@@ -107,8 +107,8 @@ class Entries {
     Entries measured() const { return {{nullptr, writer_.type, writer_.palette}, scene_, wrap_}; }
 
   private:
-    // The lines that say how many grains a species has: where the number changes, how many there are at the
-    // start and how many are fed in the course of the run. A species may be there for the walls alone.
+    // The lines that say how many grains a species has. Where grains are fed, they say how many there are at
+    // the start and how many are fed in the course of the run. A species may be there for the walls alone.
     std::vector<std::string> numbers_of(const Species& species) const {
         const std::string wide = diameter_text(species.diameter);
         if (species.all() == 0) return {fmt::format("{}, glued to walls", wide)};
@@ -196,7 +196,7 @@ void paint_tip(cairo_t* on, const Colour& colour, const Colour& edge, double x, 
     cairo_close_path(on);
     set_colour(on, own);
     cairo_fill_preserve(on);
-    set_colour(on, edge);  // light tips are lost on a light background
+    set_colour(on, edge);  // the edge shows light tips on a light background
     cairo_set_line_width(on, std::max(1.0, 0.06 * height));
     cairo_stroke(on);
 }
@@ -211,7 +211,7 @@ void paint_tips(const Writer& writer, const ColourScale& scale, const ColourBarP
 }
 
 struct BarTick {
-    double share;  // of the bar, from its low end
+    double share;  // share of the bar, from its low end
     std::string words;
 };
 

@@ -1,4 +1,4 @@
-// Finds letters that no font has, their scripts and the packages that have them.
+// Finds letters that no font has, their scripts, and the packages with fonts for them.
 #include "render/picture/words/missing_letters.hpp"
 
 #include <glib.h>
@@ -15,7 +15,7 @@
 namespace grainreel {
 namespace {
 
-constexpr std::size_t most_named = 20;  // letters of a script, in a message
+constexpr std::size_t most_named = 20;  // letters of a script named in a message
 
 struct Script {
     GUnicodeScript script;
@@ -43,7 +43,7 @@ bool is_emoji(gunichar letter) {
     return letter >= 0x1f000 && letter <= 0x1faff;
 }
 
-// The script of a letter and the package that has it. The caller fills in the letter itself.
+// The script of a letter and the package with a font for it. The caller fills in the letter itself.
 MissingLetters kind_of(gunichar letter) {
     const GUnicodeScript script = g_unichar_get_script(letter);
     for (const Script& known : east_asian)

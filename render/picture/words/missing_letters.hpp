@@ -1,4 +1,4 @@
-// Letters that no font on this machine has. Words on a picture have boxes in their place.
+// Finds letters that no font on this machine has. Words on a picture have boxes in place of such letters.
 #pragma once
 
 #include <string>

@@ -98,7 +98,7 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     cairo_rectangle(on.get(), part.x, part.y, part.width, part.height);
     cairo_clip(on.get());
     cairo_set_operator(on.get(),
-                       CAIRO_OPERATOR_SOURCE);  // replaces what was there, also without a background
+                       CAIRO_OPERATOR_SOURCE);  // replaces the pixels, also without a background
     cairo_set_source_surface(on.get(), still_.get(), 0, 0);
     cairo_paint(on.get());
     cairo_set_operator(on.get(), CAIRO_OPERATOR_OVER);
@@ -180,7 +180,7 @@ namespace {
 
 struct Placed {
     const FilmLabel* label;
-    double x, y, radius;  // pixels of the port: of the grain
+    double x, y, radius;  // pixels of the port: centre and radius of the grain
     Rectangle box;        // of the words, in the port
 };
 

@@ -1,6 +1,6 @@
-// All words of a picture: those around it, in gutters that no grain is drawn in or on plates over the
-// picture, and the labels beside grains. What never changes is drawn once. Of the rest, only what has changed
-// since the frame before is drawn.
+// All words of a picture: the words around it, in gutters without grains or on plates over the picture, and
+// the labels beside grains. Words that never change are drawn once. Other words are drawn anew only when they
+// have changed since the frame before.
 #pragma once
 
 #include <cairo.h>
@@ -31,7 +31,7 @@ class Overlay {
     // Lays the plates, if there are any, over a picture that is drawn.
     void lay_over(Picture& picture) const;
 
-    // What Picture::still and Picture::moving are for the gutters.
+    // These give Picture::still and Picture::moving for the gutters.
     std::uint64_t still() const { return still_number_; }
     std::vector<Rectangle> moving() const;
 
@@ -52,13 +52,13 @@ class Overlay {
     const PictureLayout layout_;
     const TypeScale type_;
     const NumbersPlan plan_;
-    const std::vector<Rectangle> first_plates_, second_plates_;  // from the gutters' corners
+    const std::vector<Rectangle> first_plates_, second_plates_;  // pixels from the gutters' corners
     CairoSurface first_, still_, second_;
     std::vector<std::unique_ptr<SidePlot>> plots_;
     View drawn_for_;
     bool written_ = false;
     std::uint64_t still_number_ = 0;
-    // What is in the picture now.
+    // The words and the dial's values that are in the picture now.
     std::string clock_, caption_, note_, drive_;
     double angle_ = 0, stroke_ = 0;
 };

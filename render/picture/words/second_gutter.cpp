@@ -13,12 +13,12 @@ namespace grainreel {
 
 namespace {
 
-constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.16;  // heights over that of the picture
-constexpr double least_lines = 5;     // of a plot, in heights of minor letters
-constexpr double least_letters = 11;  // of a plot in a row, its width in such heights
+constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.16;  // heights over the picture's height
+constexpr double least_lines = 5;     // height of a plot, in heights of minor letters
+constexpr double least_letters = 11;  // width of a plot in a row, in heights of minor letters
 constexpr double most_plot_width = 0.24;
 constexpr double plot_width = 0.2;      // in a gutter at the side, over the picture's width
-constexpr double note_width = 0.22;     // in a row, over the gutter's
+constexpr double note_width = 0.22;     // in a row, over the gutter's width
 constexpr double caption_letters = 11;  // in a row, the caption's width in heights of minor letters
 
 Rectangle whole(double x, double y, double width, double height) {
@@ -96,7 +96,7 @@ class Planner {
     NumbersPlan plan_;
 };
 
-// At the side: clock, dial, drive and caption below each other, and plots at the lower end.
+// The plan at the side: clock, dial, drive and caption below each other, and plots at the lower end.
 NumbersPlan Planner::column() {
     plan_.clock = {x_, type_.margin};
     double y = type_.margin + (clock_.height > 0 ? clock_.height + 0.3 * type_.gap : 0);
@@ -137,8 +137,8 @@ NumbersPlan Planner::column() {
     return plan_;
 }
 
-// Puts all plots beside each other, or none. They take what is left of the height, or are as high as they
-// must be.
+// Puts all plots beside each other, or none. They take the height that is left, or have their least height
+// where there is no height to fill.
 void Planner::plots_in_row(double x, double y, double width, double height) {
     if (count() < 1) return;
     const double least = std::max(least_row * scene_.film.height, least_lines * type_.minor);
@@ -151,7 +151,7 @@ void Planner::plots_in_row(double x, double y, double width, double height) {
     plan_.height = std::max(plan_.height, y + each);
 }
 
-// Below a narrow picture: three rows with clock and caption, dial and numbers, and plots.
+// The plan below a narrow picture: three rows with clock and caption, dial and numbers, and plots.
 NumbersPlan Planner::rows() {
     const bool has_clock = clock_.height > 0;
     const double top = type_.margin, beside = has_clock ? clock_.width + 2 * type_.gap : 0;
@@ -204,7 +204,7 @@ NumbersPlan Planner::rows() {
     return plan_;
 }
 
-// Below a wide picture: everything in one row.
+// The plan below a wide picture: everything in one row.
 NumbersPlan Planner::row() {
     const double gap = 2 * type_.gap, top = 0.5 * type_.margin;
     double x = x_;
