@@ -107,8 +107,9 @@ class Entries {
     Entries measured() const { return {{nullptr, writer_.type, writer_.palette}, scene_, wrap_}; }
 
   private:
-    // The lines that say how many grains a species has. Where grains are fed, they say how many there are at
-    // the start and how many are fed in the course of the run. A species may be there for the walls alone.
+    // The lines that say how many grains a species has. Where the number changes, they say how many there are
+    // at the start, and how many are fed in the course of the run. A species may be there for the walls
+    // alone.
     std::vector<std::string> numbers_of(const Species& species) const {
         const std::string wide = diameter_text(species.diameter);
         if (species.all() == 0) return {fmt::format("{}, glued to walls", wide)};

@@ -137,8 +137,8 @@ NumbersPlan Planner::column() {
     return plan_;
 }
 
-// Puts all plots beside each other, or none. They take the height that is left, or have their least height
-// where there is no height to fill.
+// Puts all plots beside each other, or none. They fill the height that is left. While the gutter's height is
+// not known, they are as high as `height` says, but not lower than a plot may be.
 void Planner::plots_in_row(double x, double y, double width, double height) {
     if (count() < 1) return;
     const double least = std::max(least_row * scene_.film.height, least_lines * type_.minor);
