@@ -18,7 +18,7 @@ struct FirstPart {
     };
     std::vector<Block> blocks;
     double height = 0;                  // pixels that it takes, without margins
-    std::vector<WordBox> boxes;         // around what stands together
+    std::vector<WordBox> boxes;         // boxes around groups of words
     std::vector<std::string> left_out;  // names of blocks that there was no room for
     bool empty() const { return blocks.empty() && left_out.empty(); }
 };
@@ -42,7 +42,7 @@ struct NumbersPlan {
     Rectangle clock_part, caption_part, note_part, dial_part;
     Rectangle drive_part;                     // empty unless the drive changes
     std::vector<Rectangle> plots;             // as many as there is room for
-    std::vector<WordBox> boxes;               // around what stands together
+    std::vector<WordBox> boxes;               // boxes around groups of words
     bool has_dial = true, has_arrows = true;  // whether there is room for them
     double width = 0, height = 0;             // needed, without the outer margin
     bool fits = true;                         // whether clock, drive and words have the room that they need
