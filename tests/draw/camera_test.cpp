@@ -1,4 +1,5 @@
-// Cameras that move: on orbits, through keys, from a place of their own; and what stays right on the way.
+// Tests of cameras that move on orbits, through keys, and from a place of their own; and of what stays right
+// on the way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ FilmedScene orbiting(double degrees = 360, double seconds = 8, int width = 640, 
     return scene;
 }
 
-// Balls on a grid in the plane x = 0, none before another one, and none near the container's edges.
+// Balls on a grid in the plane x = 0. None is before another one or near the container's edges.
 std::vector<Ball> wall_of_balls() {
     std::vector<Ball> balls;
     for (int i = 0; i < 5; ++i)
@@ -35,15 +36,15 @@ TEST(CameraPath, ASphereIsWhereTheFormulaHasIt) {
             set_species(scene, {{"black", 1, 0.01, {0, 0, 0}}});
             scene.film.camera.field_of_view = field;
             const View view = CameraPath(scene, plan_layout(scene)).at(time);
-            // The directions by hand: the orbit adds to the azimuth at a steady rate.
+            // The directions are computed by hand: the orbit adds to the azimuth at a steady rate.
             const double a = (20 + 45 * time) * pi / 180, e = 10 * pi / 180;
             const Vec3 right(-std::sin(a), std::cos(a), 0);
             const Vec3 forward(-std::cos(e) * std::cos(a), -std::cos(e) * std::sin(a), -std::sin(e));
             const Vec3 up = right.cross(forward), at(0.006, -0.012, 0.1);
             const double r = 0.012, x = right.dot(at - view.eye), y = up.dot(at - view.eye),
                          z = forward.dot(at - view.eye);
-            // Tangents from the eye, in the plane of one picture axis and the line of sight; or parallel
-            // ones.
+            // These are tangents from the eye, in the plane of one picture axis and the line of sight; or
+            // parallel lines.
             const auto reach = [&](double c, double side) {
                 return field == 0 ? c + side * r
                                   : std::tan(std::atan2(c, z) + side * std::asin(r / std::hypot(c, z)));
@@ -68,11 +69,11 @@ TEST(CameraPath, AFullTurnEndsWhereItBegan) {
     const Picture half = renderer.draw(frame, "", 4);
     EXPECT_EQ(renderer.draw(frame, "", 8).rgba, first.rgba);
     EXPECT_NE(half.rgba, first.rgba);
-    // The gutter's axes turn with it.
+    // The axes in the gutter turn with the camera.
     EXPECT_GT(changed(first, half, plan_layout(scene).first).count, 20);
 }
 
-// Shading belongs to the camera; a small turn may not make grains flicker.
+// Shading goes with the camera, and a small turn may not make grains flicker.
 TEST(CameraPath, ATenthOfADegreeChangesColoursLittle) {
     FilmedScene scene = orbiting(0.1, 1);
     scene.container.shape = Container::Shape::box;
@@ -119,7 +120,8 @@ TEST(CameraPath, AnOrbitKeepsAllOfTheContainerInThePortAtOneDistance) {
                                 {slack, at.x(), at.y(), view.port.width - at.x(), view.port.height - at.y()});
                         }
                     }
-                    // Inside the margin, but for what half a degree of a turn may hide, and at it once.
+                    // Everything is inside the margin except what half a degree of a turn may hide, and
+                    // touches the margin at one place.
                     ASSERT_NEAR(slack, margin, 0.1)
                         << width << " fov " << field << " elevation " << elevation;
                 }
@@ -168,7 +170,7 @@ TEST(CameraPath, WhatTheFirstKeyLeavesOutIsTheCamerasOwn) {
     scene.film.camera.keys[2].zoom = 6;
     const CameraPath path(scene, plan_layout(scene));
     const auto offset =
-        [&](double time) {  // of the point aimed at from the container's middle, seen sideways
+        [&](double time) {  // of the point aimed at, from the container's middle, as a sideways distance
             return (path.at(time).eye - path.at(2).eye).dot(path.at(2).right);
         };
     const Vec3 way = extent_of(scene).middle() - *scene.film.camera.keys[2].target;
@@ -203,17 +205,17 @@ TEST(CameraPath, APlaceOfItsOwn) {
     camera.orbit = 90;
     camera.orbit_time = 2;
     const View turned = CameraPath(scene, plan_layout(scene)).at(2);
-    // A quarter of a turn about the vertical through the target: (x, y) becomes (-y, x).
+    // The camera makes a quarter of a turn about the vertical through the target: (x, y) becomes (-y, x).
     EXPECT_NEAR((turned.eye - *camera.target - Vec3(0.42, 0.29, 0.45)).norm(), 0, 1e-12);
     EXPECT_NEAR((turned.project(*camera.target) - middle_of(view)).norm(), 0, 1e-9);
-    // Without a place, at the automatic distance.
+    // Without a place the camera is at the automatic distance.
     camera = Camera();
     camera.target = Vec3(0.01, 0.02, 0.05);
     const View aimed = view_of(scene);
     EXPECT_NEAR((aimed.project(*camera.target) - middle_of(aimed)).norm(), 0, 1e-9);
 }
 
-// How much of the picture changes from one moment to the next.
+// Share of the picture that changes from each moment to the next.
 std::vector<double> changes(Renderer& renderer, const FilmedScene& scene, double from, double to,
                             double step) {
     const Rectangle port = plan_layout(scene).port;
@@ -230,7 +232,8 @@ std::vector<double> changes(Renderer& renderer, const FilmedScene& scene, double
     return sums;
 }
 
-// None may be much larger than those around it: the turn itself changes more at some angles than at others.
+// No change may be much larger than those around it. The turn itself changes more at some angles than at
+// others.
 void expect_no_pop(const std::vector<double>& changes, double from, double step) {
     for (std::size_t i = 4; i + 4 < changes.size(); ++i) {
         std::vector<double> around(changes.begin() + static_cast<std::ptrdiff_t>(i - 4),
@@ -240,8 +243,8 @@ void expect_no_pop(const std::vector<double>& changes, double from, double step)
     }
 }
 
-// Where the eye crosses the plane of a wall, near and far change places and glass becomes solid: at azimuths
-// of about 8 and 90 degrees.
+// When the eye crosses the plane of a wall, near and far walls change places and glass becomes solid. This
+// happens at azimuths of about 8 and 90 degrees.
 TEST(CameraPath, NothingPopsOnAnOrbit) {
     for (const auto shape : {Container::Shape::wedge, Container::Shape::box, Container::Shape::cylinder}) {
         FilmedScene scene = orbiting(360, 360, 480, 270);  // a degree a second
@@ -252,7 +255,7 @@ TEST(CameraPath, NothingPopsOnAnOrbit) {
     }
 }
 
-// The lid's at an elevation of about 6 degrees, and the floor's at -9.
+// The eye crosses the lid's plane at an elevation of about 6 degrees, and the floor's at -9.
 TEST(CameraPath, NothingPopsOnTheWayUp) {
     for (const auto shape : {Container::Shape::box, Container::Shape::cylinder}) {
         FilmedScene scene = wedge(480, 270);

@@ -1,4 +1,4 @@
-// Colours that stand for numbers.
+// Tests of colours that stand for numbers.
 #include <gtest/gtest.h>
 
 #include "render/picture/base/colour_scale.hpp"
@@ -20,7 +20,7 @@ double light_of(const Colour& c) {
     return 0.2126 * to_linear(c.red) + 0.7152 * to_linear(c.green) + 0.0722 * to_linear(c.blue);
 }
 
-// Published colours at both ends and at places of the tables of 256 that ours leave out.
+// Compares published colours at both ends and at places of the tables of 256 colours that ours leave out.
 TEST(ColourMaps, ArePublishedOnes) {
     expect_colour(colour_of(ColourMap::viridis, 0), {0.267004, 0.004874, 0.329415}, 1e-12);
     expect_colour(colour_of(ColourMap::viridis, 1), {0.993248, 0.906157, 0.143936}, 1e-12);
@@ -88,8 +88,8 @@ TEST(GrainColours, FollowTheFormulaOfTheQuantity) {
     check(GrainValue::kinetic_energy, 0, 2 * turning, 0.5 * mass / 8 * 0.25, turning);
 }
 
-// 0.5 m/s lies in the middle of 0.05 to 5 m/s where equal ratios have equal distances; what stands still has
-// the colour of the low end.
+// 0.5 m/s lies in the middle of 0.05 to 5 m/s if equal ratios have equal distances. A grain at rest has the
+// colour of the low end.
 TEST(GrainColours, OfALogarithmicScaleFollowRatios) {
     FilmedScene scene = coloured(GrainValue::speed, 0.05, 5, "");
     scene.film.shows.colour.logarithmic = true;
@@ -130,7 +130,7 @@ TEST(GrainColours, LayersAreThoseOfTheFirstFrame) {
     expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 1));
     expect_albedo(colours, frame, 1, colour_of(ColourMap::viridis, 0.75));
     Frame more = two_balls();
-    more.id = {0, 2};  // one that was not there at the start
+    more.id = {0, 2};  // one of them was not there at the start
     expect_albedo(colours, more, 1, neutral_grain);
 }
 
@@ -143,7 +143,7 @@ TEST(GrainColours, WithoutDisplacementsTheyAreGrey) {
     expect_albedo(colours, frame, 1, colour_of(ColourMap::vik, 0.25));
 }
 
-// A fast grain that comes into the film does not change what the colours of the others say.
+// A fast grain that comes into the film does not change the colours of the others.
 TEST(GrainColours, MeanTheSameInEveryFrame) {
     const FilmedScene scene = coloured(GrainValue::speed, 0, 1, "m/s");
     Renderer renderer(scene, 1);
@@ -176,7 +176,7 @@ double apart(const std::array<double, 3>& a, const std::array<double, 3>& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// Every pixel of a packed bed is read off the map: the place of the colour that is nearest to it.
+// Each pixel of a packed bed is read by the map: the value of the nearest colour.
 TEST(GrainColours, AreReadThroughLightAndShade) {
     std::vector<Ball> balls;
     for (double z = 0.003; z < 0.12; z += 0.0045)
@@ -217,11 +217,11 @@ TEST(GrainColours, AreReadThroughLightAndShade) {
             }
             ASSERT_GT(pixels, 5000);
             EXPECT_LT(off / pixels, 0.07);
-            EXPECT_LT(colour_off / pixels, 11);  // of L*a*b*; 17 to 23 in the light of plain grains
+            EXPECT_LT(colour_off / pixels, 11);  // in L*a*b*; it is 17 to 23 in the light of plain grains
         }
 }
 
-// Some row of the first gutter holds the whole bar: its left end, and `width` further its right end.
+// Some row of the first gutter holds the whole bar: its left end and, `width` to the right, its right end.
 TEST(ColourBar, EndsAreTheMapsEnds) {
     for (const GrainValue by : {GrainValue::speed, GrainValue::vertical_velocity, GrainValue::start_height}) {
         for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}}) {
@@ -258,7 +258,8 @@ TEST(Ticks, AreRoundAndInside) {
     EXPECT_EQ(round_ticks(0, 0.78, 6), (std::vector<double>{0, 0.2, 2 * 0.2, 3 * 0.2}));
     EXPECT_EQ(round_ticks(-6, 6, 4), (std::vector<double>{-5, 0, 5}));
     EXPECT_EQ(round_ticks(0, 1, 11).size(), 11u);
-    // Two fit, and of the round numbers a distance of 1 apart only 0 lies inside: the ends say more.
+    // There is room for two ticks. Of the round numbers at distances of 1 only 0 lies inside, so the ends are
+    // better.
     const AxisTicks ends = axis_ticks(-0.5, 0.5, 2, 5);
     EXPECT_EQ(ends.at, (std::vector<double>{-0.5, 0.5}));
     EXPECT_EQ(tick_text(ends.at[0], ends.distance), "−0.5");

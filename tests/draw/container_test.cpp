@@ -1,4 +1,4 @@
-// The container in the picture: where it is, and that all of it is there.
+// Tests of the container in the picture: it is at its place, and all of it is there.
 #include <gtest/gtest.h>
 
 #include "render/picture/words/blocks.hpp"
@@ -12,14 +12,15 @@ bool is_background(const std::uint8_t* p) {
     return p[0] > 250 && p[1] > 250 && p[2] > 250;
 }
 
-// How much of a pixel on the outline's outer border the dark line covers.
+// Share of a pixel on the outer border of the outline that the dark line covers.
 double covered(const std::uint8_t* p) {
     const double ink = 255 * make_palette({1, 1, 1}).ink.red;
     return std::min(1.0, (255 - p[0]) / (255 - ink));
 }
 
-// Seen level from the front, the lower edge of the floor plate is a horizontal line, and so is the lid's
-// upper one. Pixels from the port's top, fractions from the border pixel's darkness.
+// Seen level from the front, the lower edge of the floor plate and the upper edge of the lid are horizontal
+// lines. The result is in pixels from the top of the port, with fractions from the darkness of the border
+// pixel.
 double floor_edge(const Picture& picture, const Rectangle& port) {
     const int x = port.x + port.width / 2;
     int y = port.y + port.height - 1;
@@ -67,7 +68,8 @@ TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
     }
 }
 
-// A plane is drawn where the frame says that its body is, whatever its velocity would make of the time.
+// A plane is drawn at the place of its body in the frame, whatever place its velocity would give at that
+// time.
 TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
     FilmedScene scene = level_box();
     FreeWall plane;
@@ -89,7 +91,7 @@ TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
     EXPECT_NE(moved.rgba, rests.rgba);
 }
 
-// Seen from the container, an exaggerated grain is where it is.
+// Relative to the container, a grain in an exaggerated picture is at its place.
 TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
     FilmedScene scene = level_box();
     scene.film.exaggerate = 5;
@@ -120,7 +122,7 @@ TEST(ContainerPicture, ExaggerationIsSaid) {
     EXPECT_GT(drive_block(measure, scene, nullptr, 0, 0).height, plain + 2 * measure.type.minor);
 }
 
-// The ghost is what the container's outline is at rest, wherever the container is.
+// The ghost is the container's outline at rest, wherever the container is.
 TEST(ContainerPicture, TheGhostRests) {
     for (const auto shape : {Container::Shape::box, Container::Shape::wedge, Container::Shape::cylinder}) {
         FilmedScene plain = level_box(), ghostly = level_box();
@@ -149,7 +151,7 @@ TEST(ContainerPicture, TheGhostRests) {
     }
 }
 
-// A scene whose camera looks level at the lid's lower side from `above` it, at rest; m.
+// A scene whose camera is `above` (m) the lid's lower side at rest and looks level at it.
 FilmedScene seen_from_lid_height(Container::Shape shape, double above) {
     FilmedScene scene = level_box();
     scene.container.shape = shape;
@@ -169,7 +171,7 @@ Frame moved_to(double height, const std::vector<Ball>& balls) {
     return frame;
 }
 
-// The nearest part of the lid, `up` of its thickness above its lower side.
+// The pixel of the lid's nearest part, at the share `up` of its thickness above its lower side.
 const std::uint8_t* lid_pixel(const FilmedScene& scene, const Picture& picture, double offset, double up) {
     const Container& c = scene.container;
     const double t = drawn_thickness(c);
@@ -185,8 +187,8 @@ TEST(ContainerPicture, TheLidLooksTheSameAllTheStroke) {
             const FilmedScene scene = seen_from_lid_height(shape, above);
             Renderer renderer(scene, 1);
             const int rest = lid_pixel(scene, renderer.draw(moved_to(0, {}), ""), 0, 0.5)[0];
-            // A few levels of leeway: glass shows a little more of its upper face as it sinks.
-            // Opaque above the eye, glass over a white background below it.
+            // A few levels of leeway are needed: glass shows a little more of its upper face as it sinks. The
+            // lid is opaque above the eye, and glass over a white background below it.
             EXPECT_EQ(rest < 200, above < 0);
             for (const double offset : {-0.019, -0.01, 0.01, 0.019})
                 EXPECT_NEAR(lid_pixel(scene, renderer.draw(moved_to(offset, {}), ""), offset, 0.5)[0], rest,
@@ -241,7 +243,7 @@ TEST(ContainerPicture, AnOpenTopLooksDifferent) {
     const double plate =
         drawn_thickness(scene.container) * view.pixels_per_metre({0, 0, scene.container.height});
     EXPECT_GT(plate, 3);
-    // Counted from the projected rim: the lid stands above it, an open top does not.
+    // Room is counted from the projected rim: the lid stands above it, and an open top does not.
     const double front = 0.5 * scene.container.depth, h = scene.container.height;
     EXPECT_LT(closed, view.project({front, 0, h}).y() - 0.8 * plate);
     EXPECT_GT(open, open_view.project({front, 0, h}).y() - 2);
@@ -280,7 +282,8 @@ TEST(Framing, KeepsEverythingInThePictureAndFillsIt) {
                                 low = low.cwiseMin(view.project(point));
                                 high = high.cwiseMax(view.project(point));
                             }
-                            // Inside the margin on all sides, and touching it on two opposite ones.
+                            // The container is inside the margin on all sides, and touches it on two opposite
+                            // ones.
                             const Pixel size(view.port.width, view.port.height);
                             ASSERT_GT(low.minCoeff(), margin - 1e-6);
                             ASSERT_GT((size - high).minCoeff(), margin - 1e-6);
@@ -290,13 +293,13 @@ TEST(Framing, KeepsEverythingInThePictureAndFillsIt) {
                         }
 }
 
-// Shaken gently, an open container ends at the picture's margin; shaken hard, there is room above its rim for
-// at least one throw of the bed: its height, and (2 pi f a)^2 / 2g above that.
+// If it is shaken gently, an open container ends at the picture's margin. If it is shaken hard, there is room
+// above its rim for at least one throw of the bed: its height, and (2 pi f a)^2 / 2g above that.
 TEST(Framing, AnOpenTopLeavesRoomForGrainsInFlight) {
     FilmedScene scene = level_box();
     Container& box = scene.container;
     box.lid = false;
-    box.height = 0.3;  // so tall that the picture's height is what binds
+    box.height = 0.3;  // so tall that the picture's height limits the scale
     scene.film.camera.field_of_view = 0;
     set_species(scene, {{"small", 23000, 0.003, blue}});
     const double bed = 23000 * pi / 6 * std::pow(0.003, 3) / 0.55 / (2 * box.half_width * box.depth);

@@ -1,5 +1,5 @@
-// Contexts from OSMesa and EGL: alike, side by side on one thread, and with nothing but OpenGL 3.3 in the
-// table.
+// Tests of contexts from OSMesa and EGL: they draw alike and work side by side on one thread, and their table
+// has only functions of OpenGL 3.3.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ Frame heap() {
     return frame_of(balls);
 }
 
-// The share of pixels whose channels all lie within `least` of each other.
+// Share of the pixels whose channels all differ by at most `least`.
 double alike(const Picture& a, const Picture& b, int least) {
     std::size_t same = 0;
     for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
@@ -54,7 +54,8 @@ TEST(Context, EglDrawsWhatOSMesaDraws) {
         const Picture reference = osmesa.draw(heap(), "a caption");
         const Picture& picture = egl.draw(heap(), "a caption");
         EXPECT_GE(alike(reference, picture, 2), 0.999);
-        EXPECT_LT(alike(reference, osmesa.draw(frame_of({}), "a caption"), 2), 0.99);  // it can tell
+        EXPECT_LT(alike(reference, osmesa.draw(frame_of({}), "a caption"), 2),
+                  0.99);  // the comparison can tell pictures apart
     }
 }
 
@@ -112,8 +113,8 @@ TEST(Context, ARendererThatGoesTakesNothingFromTheOneInUse) {
     EXPECT_EQ(one.draw(moved, "").rgba, expected.rgba);
 }
 
-// eglGetProcAddress and OSMesaGetProcAddress answer to invented names too, so that a pointer proves nothing:
-// what does is that every function in the table belongs to OpenGL 3.3, which the context has.
+// eglGetProcAddress and OSMesaGetProcAddress return pointers for invented names too, so a pointer proves
+// nothing. Therefore every function in the table must belong to OpenGL 3.3, which the context has.
 TEST(Context, TheTableHoldsNothingNewerThanOpenGL33) {
     std::ifstream header(GLCORE_HEADER);
     ASSERT_TRUE(header) << GLCORE_HEADER;

@@ -1,4 +1,4 @@
-// What the frame says of a drive that changes, and the captions beside it.
+// Tests of the words on the frame about a drive that changes, and of the captions beside it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ double amplitude_of(double g_level, double frequency) {
     return g_level * 9.81 / std::pow(2 * pi * frequency, 2);
 }
 
-// From 20 Hz at 1 s over 3 periods to 40 Hz, at 2 s to rest, from 3 s on taps.
+// The drive goes from 20 Hz at 1 s over 3 periods to 40 Hz, to rest at 2 s, and makes taps from 3 s on.
 FilmedScene changing() {
     FilmedScene scene = wedge();
     scene.drive.amplitude = amplitude_of(2, 20);
@@ -37,7 +37,7 @@ std::vector<std::string> lines_at(const FilmedScene& scene, double time) {
 TEST(DriveWords, AreThoseOfTheStageThatIsOn) {
     const FilmedScene scene = changing();
     EXPECT_THAT(lines_at(scene, 0.5), ElementsAre("f = 20 Hz", "Γ = 2", "a = 1.24 mm"));
-    // Half of the change, which takes 2 x 3 / 60 s: 30 Hz and Gamma 2.5.
+    // This is half of the change, which takes 2 x 3 / 60 s: 30 Hz and Gamma 2.5.
     EXPECT_THAT(lines_at(scene, 1.05), ElementsAre("f = 30 Hz", "Γ = 2.5", "a = 690 µm"));
     EXPECT_THAT(lines_at(scene, 1.5), ElementsAre("f = 40 Hz", "Γ = 3", "a = 466 µm"));
     EXPECT_THAT(lines_at(scene, 2.5), ElementsAre("at rest"));
@@ -45,7 +45,7 @@ TEST(DriveWords, AreThoseOfTheStageThatIsOn) {
     EXPECT_EQ(longest_drive_lines(scene).front(), "taps of 30 Hz");
 }
 
-// The ramp s(u) = 10 u^3 - 15 u^4 + 6 u^5: a half in its middle, where the container moves so far.
+// The ramp s(u) = 10 u^3 - 15 u^4 + 6 u^5 is a half in its middle, and the container moves with that share.
 TEST(DriveWords, GrowWithTheDriveAtFirst) {
     FilmedScene scene = wedge();
     scene.drive.ramp = 4;
@@ -58,7 +58,7 @@ TEST(DriveWords, GrowWithTheDriveAtFirst) {
     };
     EXPECT_THAT(at(-1), ElementsAre("f = 20 Hz", "Γ = 0", "a = 0 µm"));
     EXPECT_THAT(at(0), ElementsAre("f = 20 Hz", "Γ = 0", "a = 0 µm"));
-    // s(1/4) = 0.1035, with as many decimals as the whole has.
+    // s(1/4) = 0.1035; the words have as many decimals as those of the whole drive.
     EXPECT_THAT(at(1), ElementsAre("f = 20 Hz", "Γ = 0.31", "a = 190 µm"));
     EXPECT_THAT(at(2), ElementsAre("f = 20 Hz", "Γ = 1.5", "a = 930 µm"));
     EXPECT_THAT(at(4), ElementsAre("f = 20 Hz", "Γ = 3", "a = 1.86 mm"));

@@ -1,4 +1,4 @@
-// Boxes that grains leave into or out of: where they fade, and what the camera frames.
+// Tests of boxes that grains leave into or out of: where grains fade, and what the camera frames.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -30,7 +30,8 @@ std::vector<std::uint32_t> fade_of(const FilmedScene& scene) {
     return exit_fade(scene, view_of(scene), scene.film.height, mesh_reach(scene));
 }
 
-// Whether a box 0.05 m below everything is entered, or one that ends there is left, is the same to who looks.
+// For the picture it is the same whether grains enter a box 0.05 m below everything or leave one that ends
+// there.
 TEST(ExitLevel, IsTheTopOfABoxOrTheFloorOfOneAroundEverything) {
     const FilmedScene below = with_exit({{-1, -1, -0.3}, {1, 1, -0.05}, false});
     const FilmedScene around = with_exit({{-1, -1, -0.05}, {1, 1, 1}, true});
@@ -45,7 +46,7 @@ TEST(ExitLevel, IsTheTopOfABoxOrTheFloorOfOneAroundEverything) {
     EXPECT_EQ(framing_points(around), framing_points(below));
 }
 
-// Both: whichever is met first on the way down.
+// With both, the one that grains meet first on the way down counts.
 TEST(ExitLevel, IsTheHighestOfSeveral) {
     FilmedScene scene = with_exit({{-1, -1, -0.3}, {1, 1, -0.1}, false});
     scene.exits.push_back({{-1, -1, -0.06}, {1, 1, 1}, true});

@@ -1,4 +1,4 @@
-// The coloured layer of a quantity's mean before pale grains.
+// Tests of the coloured layer that shows the mean of a quantity in front of pale grains.
 #include "render/picture/marks/field_marks.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ FilmedScene with_field() {
     return scene;
 }
 
-// The layer's pixel where a place of its plane is seen; its alpha is 0 where the layer has no cell.
+// The pixel of the layer where a place of its plane is seen. Its alpha is 0 where the layer has no cell.
 Shapes::Vertex seen_at(const FilmedScene& scene, const Frame& frame, const Vec3& place) {
     Shapes shapes;
     const View view = view_of(scene);
@@ -61,8 +61,8 @@ TEST(FieldLayer, MeanIsWeightedByMass) {
     expect_colour(seen_at(scene, frame, place), scale.at((8 * 0.45 - 0.9) / 9));
 }
 
-// A grain of volume v has the solid fraction v / (2 pi w^2 d) in its middle, w being three quarters of the
-// mean diameter and d the depth. The layer has its whole strength from 0.3 on.
+// A grain of volume v has the solid fraction v / (2 pi w^2 d) in its middle, where w is three quarters of the
+// mean diameter and d is the depth. The layer has its full strength from 0.3 on.
 TEST(FieldLayer, IsAsStrongAsItsCellsAreFull) {
     const FilmedScene scene = with_field();
     const auto strongest = [&](const std::vector<Ball>& balls) {

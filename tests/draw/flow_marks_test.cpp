@@ -1,4 +1,4 @@
-// The velocity field of arrows and streamlines, and the lines themselves.
+// Tests of the velocity field of arrows and streamlines, and of the lines themselves.
 #include "render/picture/marks/field_marks.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
         for (double z = 0.1; z < 0.135; z += 0.01) {
             const std::optional<Vec3> here = field.at(y, z);
             ASSERT_TRUE(here) << y << " " << z;
-            // Between cells the field is taken as straight; a cell is half a width.
+            // Between the middles of cells the field is linear; a cell is half a width.
             EXPECT_LT((*here - coarse_grained(frame, width, y, z)).norm(), 0.02 * turning.norm() * width);
             ++there;
         }
@@ -62,8 +62,8 @@ TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
     EXPECT_FALSE(field.at(0, 0.5));
 }
 
-// A quarter of a turn moves the origin of a container whose axis lies elsewhere. Its axis, and the grid,
-// stay.
+// A quarter of a turn moves the origin of a container whose axis lies elsewhere. The axis stays, and so does
+// the grid.
 TEST(VelocityField, StandsWhereTheAxisOfATurningContainerIs) {
     FilmedScene scene = wedge();
     Frame frame = rotating_grains();
@@ -79,7 +79,7 @@ TEST(VelocityField, StandsWhereTheAxisOfATurningContainerIs) {
     turned.take(frame);
     for (double y = -0.05; y < 0.055; y += 0.01) {
         ASSERT_TRUE(turned.at(y, 0.11)) << y;
-        // The cells lie elsewhere, for the container needs more room.
+        // The cells lie elsewhere, because the container needs more room.
         EXPECT_LT((*turned.at(y, 0.11) - *still.at(y, 0.11)).norm(), 0.02 * turning.norm() * 0.006) << y;
     }
 }
@@ -99,7 +99,7 @@ TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
     EXPECT_LT((*here - scene.drive.frequency * Vec3(0, 0.001, -0.002)).norm(), 1e-12);
 }
 
-// From 20 Hz to 45 Hz: over the first three periods from 0.1 s on.
+// The frequency goes from 20 Hz to 45 Hz over the first three periods from 0.1 s on.
 TEST(VelocityField, OfAPeriodGoesByTheFrequencyThatIsOn) {
     FilmedScene scene = wedge();
     scene.drive.stages = {{DriveStage::Kind::vibrate, 0.1, 3, 45, 0.001}};
@@ -127,7 +127,7 @@ TEST(VelocityField, NeedsThreeGrainsAndGoesWithTheContainer) {
         field.take(frame);
         return field.at(0, 0.12);
     };
-    // In the middle the Gaussian weighs a grain 2 / (4 pi w^2); this species has the grains' size.
+    // The Gaussian gives a grain the weight 2 / (4 pi w^2) in the middle; this species has the grains' size.
     EXPECT_FALSE(field_of(1));
     ASSERT_TRUE(field_of(2));
     EXPECT_NEAR(field_of(2)->z(), 1, 1e-12);
@@ -168,7 +168,8 @@ Extent extent_of_marks(const FilmedScene& scene, const Frame& frame) {
     return extent_of_vertices(shapes);
 }
 
-// Seen from the front without perspective, with arrows or streamlines on cells as wide as a third of the box.
+// A scene seen from the front without perspective, with arrows or streamlines on cells as wide as a third of
+// the box.
 FilmedScene flat_scene() {
     FilmedScene scene = wedge();
     set_species(scene, {{"small", 3, 2e-4, blue}});
@@ -183,8 +184,8 @@ Frame moving(const std::vector<Ball>& balls, const Vec3& velocity) {
     return frame;
 }
 
-// An arrow is about the middle of its cell, at the height 0.075. It ends in a point, behind which it is
-// widest: there is more of it on the side of its tip. It is never longer than one and a half cells.
+// An arrow lies about the middle of its cell, at the height 0.075. It is widest just behind its point, so
+// there is more of it on the side of its tip. It is never longer than one and a half cells.
 TEST(Arrows, GoWithTheFlowAndAreNotTooLong) {
     FilmedScene scene = flat_scene();
     scene.film.shows.arrows = {3, 0.1, false};

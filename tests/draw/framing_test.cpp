@@ -1,4 +1,5 @@
-// What the camera has in the picture when it is not told: the container, its bed, or what the grains reach.
+// Tests of what the camera frames unless it is told: the container, its bed, or the room that the grains
+// reach.
 #include "render/picture/camera/framing.hpp"
 
 #include <gtest/gtest.h>
@@ -34,10 +35,10 @@ TEST(FramedPart, IsAsHighAsTheKeySays) {
     EXPECT_TRUE(framed_part(scene).cut);
     scene.film.camera.reach = 0.2;
     EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.2);
-    scene.film.exaggerate = 4;  // drawn so: the grains go with the container, three strokes further
+    scene.film.exaggerate = 4;  // the picture shows grains moved with the container, three strokes further
     EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.2 + 3 * a);
     scene.film.exaggerate = 1;
-    scene.film.camera.reach = 0.49;  // all but the lid: not worth a cut
+    scene.film.camera.reach = 0.49;  // all but the lid, which is not worth a cut
     EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.5);
     EXPECT_FALSE(framed_part(scene).cut);
     EXPECT_DOUBLE_EQ(framed_part(framed(bed)).top, *resting_top(framed(bed)) + a);
@@ -54,11 +55,11 @@ TEST(FramedPart, AboveAnOpenTopIsWhatTheGrainsReach) {
     scene.film.camera.reach = 0.6;
     EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.6);
     scene.film.camera.reach = 3;
-    EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.75);  // half as high again as the container
+    EXPECT_DOUBLE_EQ(framed_part(scene).top, 0.75);  // one and a half times as high as the container
 }
 
-// Inside the margin on all sides and at it on two opposite ones, floor and marks included, while the
-// container runs out of the picture.
+// Floor and marks included, everything is inside the margin on all sides and touches it on two opposite ones,
+// while the container goes beyond the picture.
 TEST(FramedPart, FillsThePicture) {
     for (const auto shape : {Container::Shape::box, Container::Shape::wedge, Container::Shape::cylinder})
         for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 360}})
@@ -82,7 +83,7 @@ TEST(FramedPart, FillsThePicture) {
                 }
 }
 
-// A bed of a tenth of the container's height: as large as the picture lets it be, not as the container does.
+// The bed has a tenth of the container's height. The picture limits its size, and the container does not.
 TEST(FramedPart, ABedIsLargerThanInAFrameOfAllTheContainer) {
     for (const auto shape : {Container::Shape::box, Container::Shape::cylinder}) {
         const double all = scale_of(framed(container, shape)), some = scale_of(framed(reach, shape)),
@@ -92,7 +93,8 @@ TEST(FramedPart, ABedIsLargerThanInAFrameOfAllTheContainer) {
     }
 }
 
-// Where the width binds, free height shows more of the container instead of lying empty below the floor.
+// If the width limits the scale, free height shows more of the container and is not left empty below the
+// floor.
 TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
     FilmedScene scene = framed(reach, Container::Shape::box, 720, 1280);
     const View view = view_of(scene);
@@ -101,7 +103,8 @@ TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
     EXPECT_NEAR(view.port.height - lowest, type_scale(scene.film).margin, 1);
 }
 
-// A wedge is wider above what the grains reach. No wall that is in the picture's height is outside its width.
+// A wedge is wider above the height that grains reach. No wall within the height of the picture is outside
+// its width.
 TEST(FramedPart, SlantedWallsStayInThePicture) {
     for (const auto& [width, height] : {std::pair{1280, 720}, {1000, 900}, {640, 360}, {720, 1280}})
         for (const double field : {0.0, 25.0})
@@ -115,7 +118,7 @@ TEST(FramedPart, SlantedWallsStayInThePicture) {
                          framing_points(scene, scene.film.camera.azimuth, {top, true}, {})) {
                         const Pixel seen = view.project(point);
                         if (seen.y() < 0) continue;
-                        // The camera looks at some heights only, so that a wall may be half a pixel off.
+                        // The camera looks only at some heights, so a wall may be off by half a pixel.
                         ASSERT_GE(seen.x(), -0.5) << width << " x " << height << ", " << top << " m";
                         ASSERT_LE(seen.x(), view.port.width + 0.5)
                             << width << " x " << height << ", " << top << " m";
@@ -128,12 +131,12 @@ TEST(FramedPart, GrainsOfTheShippedBedsCoverTwiceTheArea) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";
         const FilmedScene scene = read_filmed_scene(file, {}, measurable_in),
                           whole = read_filmed_scene(file, {"film.camera.frame=container"}, measurable_in);
-        // Grains cover the square of the scale.
+        // The area of grains in the picture grows with the square of the scale.
         EXPECT_GE(std::pow(scale_of(scene) / scale_of(whole), 2), 2) << name;
     }
 }
 
-// A camera that moves, or looks at a point of its own, frames the same.
+// A camera that moves, or looks at a point of its own, frames the same part.
 TEST(FramedPart, HoldsForCamerasThatMove) {
     for (const auto& change : {+[](Camera& c) { c.orbit = 360, c.orbit_time = 5; },
                                +[](Camera& c) { c.target = Vec3(0, 0, 0.02); }}) {

@@ -1,4 +1,4 @@
-// Species that are seen through, and pictures of more than one moment.
+// Tests of transparent species, and of pictures of more than one moment.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,14 +19,15 @@ FilmedScene straight_on() {
     return scene;
 }
 
-// Two layers: species 0 nearer to the camera, which looks along -x, species 1 behind and beside it.
+// There are two layers: species 0 is nearer to the camera, which looks along -x, and species 1 is behind and
+// beside it.
 const std::vector<Ball> kBalls{{{0.02, 0.00, 0.08}, 0.010, 0},
                                {{0.02, 0.018, 0.085}, 0.008, 0},
                                {{0.00, -0.01, 0.08}, 0.010, 1},
                                {{-0.01, 0.012, 0.09}, 0.009, 1},
                                {{0.025, -0.03, 0.08}, 0.008, 1}};
 
-// Index of the ball nearest to the camera on the pixel's line of sight, -1 for none, -2 too close to an
+// Index of the ball nearest to the camera on the pixel's line of sight; -1 for none, and -2 too close to an
 // outline.
 int ball_at(const View& view, double x, double y) {
     int nearest = -1;
@@ -54,7 +55,7 @@ TEST(Ghosts, LetTheOthersShowThroughAndTakeNothingFromThem) {
     scene.film.shows.ghosts = {0};
     const Picture ghosts = Renderer(scene, 1).draw(frame, "");
     const View view = view_of(scene);
-    const double strength = 90.0 / 255;  // as compose.cpp has it
+    const double strength = 90.0 / 255;  // the same as in compose.cpp
     int through = 0, others = 0;
     for (int y = view.port.y; y < view.port.y + view.port.height; ++y)
         for (int x = view.port.x; x < view.port.x + view.port.width; ++x) {
@@ -65,7 +66,7 @@ TEST(Ghosts, LetTheOthersShowThroughAndTakeNothingFromThem) {
             for (int c = 0; c < 3; ++c) {
                 const double below = without.pixel(x, y)[c], colour = opaque.pixel(x, y)[c];
                 const double expected = ghost ? below + strength * (colour - below) : below;
-                // Two roundings, and glass before both that was laid over already.
+                // There are two roundings, and glass in front of both that was drawn before.
                 ASSERT_NEAR(ghosts.pixel(x, y)[c], expected, ghost ? 4 : 0) << x << ", " << y;
             }
         }
@@ -97,10 +98,10 @@ TEST(Exposure, IsTheMeanInLinearLight) {
         exposure.add(picture);
     }
     exposure.develop(picture);
-    // IEC 61966-2-1 of 3/4 of full light.
+    // The value is that of IEC 61966-2-1 for 3/4 of full light.
     EXPECT_EQ(picture.pixel(1, 0)[0], std::lround(255 * (1.055 * std::pow(0.75, 1 / 2.4) - 0.055)));
     EXPECT_EQ(picture.pixel(1, 0)[3], 255);
-    // Where nothing is there is no colour: white of three moments, seen for 3/4 of the time.
+    // Where nothing is there is no colour: the white of three moments is seen for 3/4 of the time.
     EXPECT_EQ(picture.pixel(2, 0)[0], 255);
     EXPECT_EQ(picture.pixel(2, 0)[3], 191);
     for (int level = 0; level < 256; level += 5) {
@@ -139,7 +140,7 @@ TEST(Exposure, ShowsEachMomentsGrainsAndTheLastOnesMarks) {
             EXPECT_NEAR(streak.pixel(px, py)[c], 255 * third, 3);
         }
     }
-    // The ring stands in full strength around the last place, and nowhere else.
+    // The ring has its full strength around the last place, and is nowhere else.
     const auto [middle, row] = whole(view, 0.02);
     const int ring = middle + static_cast<int>(0.008 * view.focal) + 3;
     int darkest = 255;

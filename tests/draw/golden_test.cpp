@@ -1,8 +1,9 @@
-// One picture of each feature, against the one that was looked at and kept in tests/draw/golden.
+// Compares a picture of each feature with the one that was looked at and kept in tests/draw/golden. To draw
+// all of them anew:
 //
 //   GRAINREEL_WRITE_GOLDEN=1 build/release/tests/test_draw --gtest_filter='Golden*'
 //
-// draws all of them anew; look at each before committing it.
+// Look at each picture before committing it.
 #include <gtest/gtest.h>
 #include <png.h>
 
@@ -43,7 +44,7 @@ Picture read(const std::string& path) {
     return png_image_finish_read(&image, nullptr, picture.rgba.data(), 0, nullptr) ? picture : Picture();
 }
 
-// The share of pixels further apart than 3 of 255, and the mean difference of all numbers.
+// Share of the pixels that differ by more than 3 of 255, and the mean difference of all numbers.
 struct Apart {
     double share = 1, mean = 255;
     bool alike() const { return share <= 0.01 && mean < 0.5; }
@@ -86,7 +87,7 @@ void expect_golden(const std::string& name, const Picture& picture) {
     EXPECT_FALSE(compare(shifted(picture), golden).alike()) << name << ": a shift of a pixel is not seen";
 }
 
-// A loose bed in the wedge: grains on a lattice that is shaken a little, the big ones below.
+// A loose bed in the wedge: grains on a lattice, moved a little at random, with the big ones below.
 Frame bed() {
     std::mt19937 random(5);
     const auto some = [&] { return static_cast<double>(random()) / 4294967295.0 - 0.5; };
@@ -107,7 +108,7 @@ Frame bed() {
     frame.container().place = frame.floor().place = {0, 0, 0.002};
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Vec3& at = frame.position[i];
-        frame.velocity[i] = 4 * Vec3(0, -(at.z() - 0.05), at.y());  // a roll
+        frame.velocity[i] = 4 * Vec3(0, -(at.z() - 0.05), at.y());  // the bed rolls
         frame.displacement.push_back(0.05 * frame.velocity[i] * 0.2);
         frame.orientation.push_back(Quaternion(Eigen::AngleAxisd(40 * at.y(), Vec3::UnitX())));
         frame.spin[i] = {20 * at.z(), 0, 0};
@@ -163,7 +164,7 @@ class Golden : public testing::TestWithParam<Feature> {};
 TEST_P(Golden, Picture) {
     const FilmedScene scene = scene_for(GetParam().change);
     Renderer renderer(scene, 2);
-    renderer.draw(earlier(0.05), "");  // trails and heights at the start want one
+    renderer.draw(earlier(0.05), "");  // trails and heights at the start need an earlier frame
     expect_golden(GetParam().name, renderer.draw(bed(), "slow motion, 1/10 speed"));
 }
 
@@ -237,7 +238,8 @@ TEST(GoldenContainers, BoxAndCylinder) {
     }
 }
 
-// A chute in a box whose top is open: grains through both, beside the box, under it and in front of it.
+// A chute in a box with an open top. Grains go through both, and lie beside the box, under it and in front of
+// it.
 TEST(GoldenContainers, GrainsThroughWalls) {
     FilmedScene scene = scene_for([](Film& f) { f.camera.azimuth = 35, f.camera.elevation = 25; });
     scene.container.shape = Container::Shape::box;

@@ -1,4 +1,4 @@
-// Words and plots of many pictures: nothing lies on anything else, and what there is no room for is named.
+// Tests of words and plots of many pictures: they do not overlap, and those without room are named.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ std::vector<Named> blocks_of(const FilmedScene& scene, const PictureLayout& layo
 }
 
 TEST(Layout, NothingLiesOnAnythingElse) {
-    constexpr double kHair = 1.01;  // pixels, of rounding
+    constexpr double kHair = 1.01;  // pixels, allowance for rounding
     for (const auto& [width, height] :
          {std::pair{1280, 720}, {720, 1280}, {640, 360}, {480, 480}, {1600, 400}})
         for (const std::size_t plots : {0u, 1u, 3u})
@@ -122,7 +122,7 @@ TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
     const FilmedScene roomy = scene_of(1280, 720, {0, 2});
     const double whole = type_scale(roomy.film).main;
     EXPECT_DOUBLE_EQ(plan_layout(roomy).type.main, whole);
-    // With one species more and more the letters become smaller before the first is missing.
+    // As species are added, the letters become smaller before the first name is missing.
     bool smaller = false;
     for (std::size_t kinds = 2; kinds < 12; ++kinds) {
         const PictureLayout layout = plan_layout(scene_of(1280, 720, {3, kinds, true, true}));
@@ -134,7 +134,7 @@ TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
     EXPECT_GE(type_scale(scene_of(320, 180, {}).film, 0.8).minor, 10);
 }
 
-// Nine species do not vanish: those that fit are there, and the others are counted.
+// Nine species do not vanish: as many as fit are there, and the others are counted.
 TEST(Layout, ALongLegendIsCutShort) {
     const FilmedScene scene = scene_of(640, 360, {2, 9, true, false});
     const PictureLayout layout = plan_layout(scene);
@@ -171,7 +171,7 @@ TEST(Text, AWordThatIsALittleTooLongMakesTheLettersSmaller) {
     const TextStyle style{20, false};
     const double word = measure_text("displacement", style).width;
     EXPECT_LE(measure_text("displacement in mm", style, 0.8 * word, 3).width, 0.8 * word);
-    // As many lines as words, so none is broken.
+    // There are as many lines as words, so no word is broken.
     const double line = measure_text("x", style).height;
     EXPECT_LT(measure_text("displacement", style, 0.8 * word, 3).height, line);
     EXPECT_GT(measure_text("displacement", style, 0.3 * word, 5).height, 1.5 * line);

@@ -1,4 +1,4 @@
-// Beds of spheres in view coordinates, and their light found by shooting rays.
+// Beds of spheres in view coordinates, and their light computed with rays.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct Hit {
     float distance = std::numeric_limits<float>::infinity();
 };
 
-// The first sphere that a ray of unit direction meets, `skip` left out.
+// The first sphere that a ray of unit direction meets, not counting `skip`.
 inline Hit first_hit(const std::vector<ViewSphere>& spheres, const Point& from, const Point& direction,
                      int skip) {
     Hit hit;
@@ -40,8 +40,8 @@ inline Hit first_hit(const std::vector<ViewSphere>& spheres, const Point& from, 
     return hit;
 }
 
-// Balls dropped in turn to where they find room, from below: a loose bed in view coordinates, seen from above
-// the horizon. Radii alternate between `radii`.
+// A loose bed in view coordinates, seen from above the horizon: balls are dropped one by one to places with
+// room, from below. Radii alternate between `radii`.
 inline std::vector<ViewSphere> loose_bed(int count, const std::vector<float>& radii, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> share(-1, 1);

@@ -1,4 +1,4 @@
-// What is seen and what is lit, against rays and formulas.
+// Tests of what is seen and what is lit, against rays and formulas.
 #include <gtest/gtest.h>
 
 #include "tests/draw/light_support.hpp"
@@ -13,7 +13,7 @@ const Sight kPerspective{false, 160, kWidth / 2, kHeight / 2};
 const Sight kOrthographic{true, 14, kWidth / 2, kHeight / 2};
 
 struct Line {
-    Point from, direction;  // direction unit
+    Point from, direction;  // direction: unit vector
 };
 Line line_of_sight(const Sight& sight, double x, double y) {
     const float u = sight.slope_x(static_cast<float>(x)), v = sight.slope_y(static_cast<float>(y));
@@ -21,7 +21,7 @@ Line line_of_sight(const Sight& sight, double x, double y) {
     return {{0, 0, 0}, Point(u, v, 1).normalized()};
 }
 
-// The first sphere met in what the cut keeps, by intervals along the ray.
+// The first sphere that the line meets in the part that the cut keeps, found by intervals along the ray.
 int seen_through_cut(const std::vector<ViewSphere>& bed, const Cut& cut, const Line& line) {
     double low = 0, high = std::numeric_limits<double>::infinity(), nearest = high;
     for (int i = 0; i < cut.planes; ++i) {
@@ -43,8 +43,8 @@ int seen_through_cut(const std::vector<ViewSphere>& bed, const Cut& cut, const L
     return seen;
 }
 
-// Share of the pixels that show another grain than rays do: those whose middle falls on an outline within
-// rounding.
+// Share of the pixels that show another grain than rays do; such pixels have their middle on an outline,
+// within rounding.
 double share_of_errors(const std::vector<ViewSphere>& bed, const Sight& sight, const Cut& cut) {
     Visibility visibility(kWidth, kHeight);
     Team team(1);
@@ -90,7 +90,8 @@ TEST(Seen, IsTheSamePictureForAnyNumberOfThreadsAndAnyTime) {
         EXPECT_EQ(drawn(bed, kPerspective, {}, threads).pixels, once.pixels);
 }
 
-// A ball above a far larger one: its shadow ends where the light that passes its silhouette arrives.
+// A ball is above a far larger one. Its shadow ends where the light that passes its silhouette meets the
+// large ball.
 TEST(Light, AShadowEndsWhereTheFormulaSays) {
     const std::vector<ViewSphere> bed = {{0, -40, 60, 40}, {-3, 4.5f, 47, 1.5f}};
     Lamp lamp;
@@ -103,7 +104,8 @@ TEST(Light, AShadowEndsWhereTheFormulaSays) {
     lamp.shadows = false;
     const Layer open = drawn(bed, sight, lamp, 1);
     const Point key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]);
-    // m, from the shadow's outline to where a pixel's middle lies on the large ball; negative in the shadow.
+    // Distance (m) from the shadow's outline to the place of a pixel's middle on the large ball; negative in
+    // the shadow.
     const auto outside = [&](double x, double y) {
         const Line line = line_of_sight(sight, x, y);
         const Hit hit = first_hit(bed, line.from, line.direction, -1);
@@ -119,7 +121,7 @@ TEST(Light, AShadowEndsWhereTheFormulaSays) {
             const bool dark = linear_of(shaded.row(y)[x] & 255) < 0.5 * unshaded;
             in_shadow += dark;
             if (dark == (here < 0)) continue;
-            bool near_outline = false;  // within 1.5 pixels the formula changes its mind
+            bool near_outline = false;  // within 1.5 pixels the formula gives both answers
             for (int k = 0; k < 16; ++k) {
                 const double other = outside(x + 0.5 + 1.5 * std::cos(k * std::numbers::pi / 8),
                                              y + 0.5 + 1.5 * std::sin(k * std::numbers::pi / 8));
@@ -131,7 +133,7 @@ TEST(Light, AShadowEndsWhereTheFormulaSays) {
     EXPECT_EQ(wrong, 0);
 }
 
-// Lambert's law and nothing else, at the middle of a ball and beside it.
+// Only Lambert's law holds, at the middle of a ball and beside it.
 TEST(Light, FollowsTheCosine) {
     Lamp lamp;
     lamp.sky = lamp.ground = lamp.shine = 0;

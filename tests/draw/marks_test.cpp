@@ -1,4 +1,4 @@
-// Plots, arrows, trails, and grains that are left out or ringed.
+// Tests of plots, arrows, trails, and grains that are left out or ringed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ FilmedScene with_plot(int width, int height) {
     return scene;
 }
 
-// A table with times and one column, and the frame that sees all of it.
+// A frame with all rows of a table that has times and one column.
 Frame frame_with_rows(const std::vector<std::array<double, 2>>& rows) {
     const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
     for (const auto& [time, value] : rows) table->add({time, value});
@@ -35,8 +35,8 @@ Frame frame_with_rows(const std::vector<std::array<double, 2>>& rows) {
     return frame;
 }
 
-// Middle of the accent-coloured pixels in the plots' gutter, below the dial, by how much they are changed
-// against a picture without rows.
+// The middle of the accent-coloured pixels in the gutter of plots, below the dial. Pixels are weighted by
+// their difference from a picture without rows.
 Pixel marker(const Picture& picture, const Rectangle& part, const Colour& accent) {
     double weight = 0, x = 0, y = 0;
     for (int j = part.y; j < part.y + part.height; ++j)
@@ -70,7 +70,7 @@ TEST(Plots, TheMarkerIsWhereTheLastRowIs) {
             return marker(renderer.draw(frame_with_rows({{0, 0.5}, {time, value}}), ""), part,
                           palette.accent);
         };
-        // Times and values are even along the axes: corners, and a point between them.
+        // Times and values are linear along the axes: this checks corners and a point between them.
         const Pixel origin = at(0, 0), right = at(4, 0), top = at(0, 1), between = at(1, 0.75);
         EXPECT_NEAR(origin.x(), top.x(), 0.6);
         EXPECT_NEAR(origin.y(), right.y(), 0.6);
@@ -97,16 +97,16 @@ TEST(Plots, LimitsOnlyGrowAndDependOnTheRowsAlone) {
     const Palette palette = make_palette(scene.film.background);
     std::vector<std::array<double, 2>> rows;
     Plot step_by_step(any_plot(), type, palette);
-    double above = -1e9, below = 1e9;  // where the limits' ends were, as values
+    double above = -1e9, below = 1e9;  // the ends of the limits, as values
     for (int i = 0; i < 200; ++i) {
         rows.push_back({0.05 * i, 3 + 0.01 * i * std::sin(0.3 * i)});
         step_by_step.take(frame_with_rows(rows));
-        // A pixel's row is linear in the value between the ends: two values give both ends.
+        // A pixel's row is linear in the value between the ends, so two values give both ends.
         const double y0 = step_by_step.y_of(rows.back()[1]);
         EXPECT_GE(y0, 0);
         const double size = std::abs(step_by_step.y_of(3) - step_by_step.y_of(3.0001)) / 0.0001;
         if (i == 0) continue;
-        EXPECT_LE(size, below * (1 + 1e-6)) << i;  // pixels a unit: never zooms in again
+        EXPECT_LE(size, below * (1 + 1e-6)) << i;  // pixels for a unit: the axis never zooms in again
         below = size;
         above = std::max(above, size);
     }
@@ -114,7 +114,7 @@ TEST(Plots, LimitsOnlyGrowAndDependOnTheRowsAlone) {
     Plot at_once(any_plot(), type, palette);
     at_once.take(frame_with_rows(rows));
     EXPECT_EQ(at_once.y_of(3.3), step_by_step.y_of(3.3));
-    // An earlier frame again: as if the later ones had not been.
+    // An earlier frame is drawn as if the later ones had not been.
     rows.resize(20);
     step_by_step.take(frame_with_rows(rows));
     Plot early(any_plot(), type, palette);
@@ -140,7 +140,7 @@ TEST(Plots, KnowWhatColumnsCannotBeNegative) {
     EXPECT_EQ(plot_frame(scene, plot).expected, total_mass(scene));
 }
 
-// A measure that cannot be negative begins at 0, whatever comes first.
+// The axis of a measure that cannot be negative begins at 0, whatever value comes first.
 TEST(Plots, AxesOfWhatCannotBeNegativeBeginAtZero) {
     const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
@@ -159,7 +159,7 @@ TEST(Plots, AxesOfWhatCannotBeNegativeBeginAtZero) {
     }
 }
 
-// The title with its unit is the same from the first row on where the size is known.
+// The title with its unit is the same from the first row on if the size is known.
 TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
     const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
@@ -185,7 +185,7 @@ TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
     EXPECT_NE(title(0, {{0, 0}, {1, 2e-8}}), late) << "not known";
 }
 
-// Four rows a period that swing by 1 about the number of the period.
+// There are four rows a period, which vary by 1 about the number of the period.
 TEST(Plots, MeansOfAPeriodHaveNoSwing) {
     const FilmedScene scene = wedge(1280, 720);
     PlotFrame shown = any_plot();
@@ -213,7 +213,7 @@ TEST(Plots, MeansOfAPeriodHaveNoSwing) {
     }
 }
 
-// They have no scale yet: their axis says 0 and nothing else, and no label runs out of the plot.
+// These rows give no scale yet: their axis shows only 0, and no label goes beyond the plot.
 TEST(Plots, ZerosAloneAreCalledZero) {
     const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
@@ -240,7 +240,7 @@ TEST(Plots, ThePictureDependsOnTheRowsAlone) {
     EXPECT_EQ(Renderer(scene, 1).draw(frame_with_rows(rows), "").rgba, step_by_step.rgba);
 }
 
-// The pixels of a plot of those rows, of 0 to 1 over 10 s.
+// The pixels of a plot of those rows, with values from 0 to 1 over 10 s.
 std::vector<std::uint32_t> drawn_plot(const std::vector<std::array<double, 2>>& rows, double x_of_time) {
     PlotFrame frame = any_plot();
     frame.range = std::array<double, 2>{0, 1};
@@ -266,7 +266,7 @@ std::vector<std::uint32_t> drawn_plot(const std::vector<std::array<double, 2>>& 
     return pixels;
 }
 
-// An index that is not defined for a while is not drawn through that while, nor is the present marked in it.
+// While an index is not defined, its curve has a gap, and the present is not marked there.
 TEST(Plots, RowsWithoutAValueLeaveAGap) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const std::vector<std::array<double, 2>> whole{{0, 0.2}, {2, 0.2}, {4, 0.2}, {6, 0.2}};
@@ -292,7 +292,7 @@ TEST(Arrows, PointTheirWay) {
     const Picture moving = renderer.draw(frame, "");
     const View view = view_of(scene);
     const Extent seen = changed(still, moving, view.port, 60);
-    // Half a cell long, a cell being as wide as the container; the border adds a few pixels.
+    // The arrow is half a cell long, and a cell is as wide as the container; the border adds a few pixels.
     EXPECT_NEAR(seen.right - seen.left, 0.5 * 0.15 * view.focal, 6);
     EXPECT_LT(seen.bottom - seen.top, 20);
 }
@@ -318,7 +318,7 @@ TEST(HiddenSpecies, LeaveThePictureAsIfTheyWereNotThere) {
                              << away.bottom;
 }
 
-// Two frames of a bed, its first grain in the middle of all, with everything that leaves marks.
+// Two frames of a bed with everything that leaves marks. The first grain is in the middle of all.
 struct MarkedBed {
     FilmedScene scene = wedge(480, 270);
     std::vector<Frame> frames;
@@ -354,7 +354,7 @@ struct MarkedBed {
         renderer.draw(of[0], "");
         return renderer.draw(of[1], "");
     }
-    // Without those of which `gone` says so, in both.
+    // Removes from both frames the grains for which `gone` is true.
     template <class Gone>
     std::vector<Frame> without(const Gone& gone) const {
         std::vector<Frame> kept;
@@ -377,7 +377,8 @@ struct MarkedBed {
     }
 };
 
-// Trails, chains, arrows and rings of grains that are cut away or hidden are as if those had never been.
+// Marks of grains that are cut away or hidden (trails, chains, arrows, rings) are left out, as if those
+// grains had never been there.
 TEST(MarksOfGrainsThatAreGone, GoWithThem) {
     MarkedBed bed;
     const Rectangle all{0, 0, bed.scene.film.width, bed.scene.film.height};
@@ -436,7 +437,7 @@ TEST(Rings, OfAConditionGoAroundGrainsThatAreSeen) {
     FilmedScene scene = wedge(960, 540);
     scene.film.words = WordPlace::none;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
-    // One behind a larger one, and one beside it.
+    // One grain is behind a larger one, and one is beside it.
     Frame frame =
         frame_of({{{0.01, 0, 0.08}, 0.008, 0}, {{-0.01, 0, 0.08}, 0.004, 1}, {{0, 0.03, 0.08}, 0.004, 1}});
     frame.velocity = {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}};
@@ -450,7 +451,7 @@ TEST(Rings, OfAConditionGoAroundGrainsThatAreSeen) {
         return changed(plain, Renderer(scene, 1).draw(frame, ""), view.port, 60);
     };
     const Extent seen = rings({}, true), beside = rings({2}, false), hidden = rings({1}, false);
-    EXPECT_GT(hidden.count, 100);  // by id it is
+    EXPECT_GT(hidden.count, 100);  // chosen by id, it is ringed
     EXPECT_EQ(seen.count, beside.count);
     EXPECT_EQ(seen.left, beside.left);
 }

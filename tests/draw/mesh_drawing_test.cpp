@@ -1,5 +1,5 @@
-// Meshes between grains: who hides whom against rays, glass, lines along edges, sections, and the same
-// picture for any number of threads.
+// Tests of meshes between grains: which hides which, compared with rays; glass, lines along edges, sections,
+// and the same picture for any number of threads.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -32,7 +32,7 @@ void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, c
     mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-// Its six faces, or five without the one above; outwards.
+// A box of six faces, or five without the upper one, with normals outwards.
 TriangleMesh box(const Vec3& low, const Vec3& high, bool lid = true) {
     const auto at = [&](int k) {
         return Vec3((k & 1 ? high : low).x(), (k & 2 ? high : low).y(), (k & 4 ? high : low).z());
@@ -63,7 +63,7 @@ View view_around(double field_of_view) {
     return fit_view(camera, points, {0, 0, kWidth, kHeight}, 20, kHeight);
 }
 
-// What the layers give on white; black grains, walls of one grey.
+// The pixels of all layers on white, with black grains and walls of one grey.
 std::vector<std::uint32_t> drawn(const Scenery& scenery, int threads) {
     const View view = view_around(scenery.field_of_view);
     const Sight sight{view.orthographic, static_cast<float>(view.focal), 0.5f * kWidth, 0.5f * kHeight};
@@ -82,7 +82,7 @@ std::vector<std::uint32_t> drawn(const Scenery& scenery, int threads) {
     MeshPainter painter(kWidth, kHeight);
     SphereLayer grains(kWidth, kHeight);
     const MeshPaints paints{{160, 160, 160}, {160, 160, 160}, {200, 40, 40}, Vec3::UnitZ(), 1};
-    for (int time = 0; time < 2; ++time) {  // nothing is left of the first one
+    for (int time = 0; time < 2; ++time) {  // nothing of the first time is left
         const std::vector<DrawnMesh> some = time == 0 ? std::vector<DrawnMesh>() : meshes;
         projection.take(view, sight, scenery.cut, some, paints, team);
         painter.draw_solid(projection, sight, team);
@@ -103,7 +103,7 @@ std::vector<std::uint32_t> drawn(const Scenery& scenery, int threads) {
 int channel(std::uint32_t pixel, int c) {
     return static_cast<int>(pixel >> (8 * c) & 255u);
 }
-// How much more green than red there is at a point or beside it.
+// The largest excess of green over red at a point or beside it.
 int greenest(const std::vector<std::uint32_t>& pixels, const View& view, const Vec3& point) {
     const Eigen::Vector2i at = view.project(point).cast<int>();
     int most = 0;
@@ -131,7 +131,7 @@ double meet(const Line& line, const Ball& ball) {
                  c = from.squaredNorm() - ball.radius * ball.radius;
     return b * b < a * c ? kFar : (-b - std::sqrt(b * b - a * c)) / a;
 }
-// Moeller and Trumbore 1997.
+// The method is that of Moeller and Trumbore 1997.
 double meet(const Line& line, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, p = line.along.cross(v), from = line.from - a, q = from.cross(u);
     const double by = u.dot(p);
@@ -153,7 +153,7 @@ Shows shown_along(const Line& line, const Scenery& scenery) {
     return grain < wall ? Shows::grain : Shows::wall;
 }
 
-// Loose triangles, each solid from both sides, among grains: some of these reach through.
+// Loose triangles, each solid from both sides, among grains. Some of the grains reach through them.
 Scenery thicket(double field_of_view) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-0.05, 0.05), size(0.006, 0.014);
@@ -170,7 +170,7 @@ Scenery thicket(double field_of_view) {
     return scenery;
 }
 
-// Pixels whose nine lines of sight agree show just that; lines along edges are left out.
+// A pixel whose nine lines of sight agree must show what they meet; lines along edges are left out.
 void expect_as_rays_meet(const Scenery& scenery) {
     const std::vector<std::uint32_t> pixels = drawn(scenery, 2);
     const View view = view_around(scenery.field_of_view);
@@ -214,7 +214,8 @@ TEST(MeshDrawing, IsTheSamePictureForAnyNumberOfThreads) {
     for (const int threads : {2, 3}) EXPECT_EQ(drawn(scenery, threads), one) << threads;
 }
 
-// An open box around grains: its near walls tint them by a twentieth, its far ones are behind them.
+// In an open box around grains, the near walls tint the grains by a twentieth and the far ones are behind
+// them.
 TEST(MeshDrawing, AVesselHidesNoGrain) {
     Scenery scenery;
     for (const double y : {-0.02, 0.0, 0.02}) scenery.balls.push_back({{0, y, -0.03}, 0.012});
@@ -226,15 +227,15 @@ TEST(MeshDrawing, AVesselHidesNoGrain) {
         if (bare[i] == kWhite) walls += channel(inside[i], 0) < 200;
         if (channel(bare[i], 0) != 0) continue;
         ++grain;
-        // Glass of 100, 100, 255 over black; two panes at most.
+        // Glass of 100, 100, 255 lies over black, two panes at most.
         EXPECT_LE(channel(inside[i], 0), 100 * 0.12 + 1);
         EXPECT_LE(channel(inside[i], 2), 255 * 0.12 + 1);
     }
     EXPECT_GT(grain, 2000);
-    EXPECT_GT(walls, 10000);  // the far ones are solid
+    EXPECT_GT(walls, 10000);  // the far walls are solid
 }
 
-// Nine edges of a cube are seen and three are not.
+// Nine edges of a cube are visible and three are not.
 TEST(MeshDrawing, LinesRunAlongTheEdgesInSight) {
     const Vec3 low(-0.03, -0.03, -0.03), high(0.03, 0.03, 0.03);
     Scenery scenery;
@@ -276,7 +277,7 @@ TEST(MeshDrawing, ACutShowsMaterialFlat) {
     for (const std::uint32_t pixel : pixels)
         red += channel(pixel, 0) > channel(pixel, 1) + 100 && channel(pixel, 0) > 150;
     const double side = 0.06 * view.focal, expected = side * side * std::abs(view.forward.x());
-    EXPECT_NEAR(red, expected, 8 * side);  // the lines around it are half a pixel wide inside
+    EXPECT_NEAR(red, expected, 8 * side);  // lines around the square cover half a pixel of it
     EXPECT_LT(red, expected);
 }
 
@@ -302,8 +303,8 @@ TEST(MeshSides, AClosedBodyIsSolidUnlessItIsTheVessel) {
         EXPECT_TRUE(sides.front == Face::glass && sides.back == Face::solid);
 }
 
-// A drum about z with eight bars along its wall, a quarter of its radius high: a closed sheet, dented from
-// outside.
+// A drum about z with eight bars along its wall, a quarter of its radius high. It is one closed sheet that is
+// dented from outside.
 TriangleMesh drum_with_bars(double radius, double half_length) {
     std::vector<Vec3> ring;
     const auto add = [&](double r, double degrees) {
@@ -354,7 +355,7 @@ TEST(MeshSides, AFlatPlateIsSolidFromBothSides) {
         EXPECT_TRUE(sides.front == Face::solid && sides.back == Face::solid);
 }
 
-// A box with walls of 5 mm, open above.
+// The box has walls of 5 mm and is open above.
 TEST(MeshSides, WallsWithAThicknessAreGlassOutsideAndSolidWithinAndAtTheRim) {
     TriangleMesh shell = box({0, 0, 0}, {0.1, 0.1, 0.1}, false),
                  inner = box({0.005, 0.005, 0.005}, {0.095, 0.095, 0.1}, false);
@@ -381,7 +382,7 @@ TEST(MeshSides, WallsWithAThicknessAreGlassOutsideAndSolidWithinAndAtTheRim) {
     }
 }
 
-// A strip that winds up around an axis, in triangles that fold up and down by up to 40 degrees.
+// A strip that winds up around an axis. Its triangles fold up and down by up to 40 degrees.
 TEST(MeshShapes, ATwistedStripHasNoEdgesButItsBorders) {
     TriangleMesh strip;
     constexpr int kSteps = 24;

@@ -1,5 +1,5 @@
-// Ambient occlusion against rays shot from the same points: the share of 256 directions, denser towards the
-// normal as the cosine, in which nothing is met.
+// Tests of ambient occlusion against rays from the same points: the share of 256 directions, denser towards
+// the normal as the cosine, in which a ray meets nothing.
 #include <gtest/gtest.h>
 
 #include "tests/draw/light_support.hpp"
@@ -11,7 +11,7 @@ using namespace test;
 
 constexpr int kWidth = 160, kHeight = 120, kRays = 256;
 
-// Malley's method on a Fibonacci lattice of the disc.
+// Malley's method on a Fibonacci lattice of the disc gives the directions.
 double openness_by_rays(const std::vector<ViewSphere>& bed, int own, const Point& at, const Point& normal) {
     const Point side = normal.unitOrthogonal(), other = normal.cross(side);
     int open = 0;
@@ -30,10 +30,10 @@ struct Agreement {
     int points = 0;
 };
 
-// At every fourth pixel that shows a grain.
+// Compares every fourth pixel that shows a grain.
 Agreement compare_with_rays(const std::vector<ViewSphere>& bed) {
     const Sight sight{false, 130, kWidth / 2, kHeight / 2};
-    Lamp lamp;  // ambient light alone, the same from everywhere
+    Lamp lamp;  // only ambient light, the same from all sides
     lamp.key = lamp.shine = 0;
     lamp.sky = lamp.ground = lamp.rim = 1;
     lamp.shadows = false;
