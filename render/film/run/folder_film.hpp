@@ -93,8 +93,8 @@ bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
 // scene and the plan must outlive the result.
 FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan);
 
-// Adds a caption that says what has changed, from `time` (s of simulated time) on. Does nothing without a
-// text.
+// Adds a caption that says what has changed, from `time` (s of simulated time) on, and passes it on by
+// tell_engine(). Does nothing without a text.
 void add_caption_of_change(FilmedScene& scene, double time, const std::string& text);
 
 }  // namespace grainreel

@@ -58,7 +58,7 @@ std::string BedPeriods::news_of(std::int64_t step, double difference) const {
         "from {:.3g} s on the bed repeats itself only every {} periods of the drive (from one period to the "
         "next its centre of mass differs by {:.2g} grain diameters)",
         time, periods, difference / diameter_);
-    // What of the film goes by periods; the rest does not change with the bed's.
+    // Names the parts of the film that depend on the bed's periods; the other parts do not change.
     const std::string means = means_ ? "displacements and means" : "";
     if (!locks_ && !means_) return text;
     if (wanted_ == 0 && !may_leave_out_) {
@@ -79,7 +79,7 @@ std::string BedPeriods::news_of(std::int64_t step, double difference) const {
 
 namespace {
 
-// From `from` to `to`, the short way round a periodic container.
+// The way from `from` to `to`, the short way round a periodic container.
 Vec3 way(const Vec3& from, const Vec3& to, double depth) {
     Vec3 between = to - from;
     between.x() = nearest_image(between.x(), depth);

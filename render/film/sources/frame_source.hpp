@@ -1,7 +1,8 @@
 // A source of frames for pictures: a scene that is being run (SceneRun) or a run that lies on disk
-// (RecordedRun). Whoever draws, looks or counts takes frames from here and need not know which it is.
+// (RecordedRun). Code that draws or looks at frames takes them from here and need not know which of the two
+// it is.
 //
-// Each frame comes with all that the scene's film shows beside the grains. PictureParts adds it, from what
+// Each frame comes with all that the scene's film shows besides the grains. PictureParts adds it, from what
 // the source can supply.
 #pragma once
 
@@ -17,56 +18,57 @@
 
 namespace grainreel {
 
-// What a source has beside grains and container. What a film asks for and the source lacks is left out of the
-// pictures, and news() says so.
+// What a source can supply besides grains and container. If a film asks for something that the source lacks,
+// pictures come without it, and news() says so.
 struct Supply {
-    bool any_moment = false;    // each step of its span; else those of its archive alone
+    bool any_moment = false;    // it has every step of its span; false: only the moments of its archive
     bool contacts = false;      // Frame::touches
     bool measures = false;      // Frame::measures
     bool orientations = false;  // Frame::orientation
 };
 
-// s of simulated time, both ends included.
+// A span of simulated time in s, both ends included.
 struct Span {
     double from = 0, to = 0;
 };
 
-// What a film asks for: one picture an instant, by rising time.
+// The pictures that a film asks for: one for each instant, by rising time.
 struct Pictures {
     std::vector<Instant> instants;
-    std::vector<FilmSegment> segments;  // by whose rules they are taken
-    // A bed that repeats itself only every so many periods lacks locked ones, and they do not come.
+    std::vector<FilmSegment> segments;  // the rules by which pictures are taken
+    // Whether locked pictures may be left out. When a bed repeats itself only every so many periods, the film
+    // then shows only the locked pictures at which the bed looks alike (BedPeriods).
     bool may_leave_out = false;
 };
 
 struct Taken {
     FramePtr frame;
-    int segment = 0;  // of the film
-    int periods = 1;  // of the drive, after which the bed repeats itself, as the film has it
+    int segment = 0;  // the film's segment
+    int periods = 1;  // periods of the drive after which the bed repeats itself, as the film takes it
 };
 
 class FrameSource {
   public:
-    // Asked every tenth of a second or so; false: stop.
+    // Is called about every tenth of a second; returning false stops the work.
     using GoOn = std::function<bool()>;
 
     virtual ~FrameSource() = default;
 
-    virtual const FilmedScene& scene() const = 0;  // as it is drawn
+    virtual const FilmedScene& scene() const = 0;  // the scene as it is drawn
     virtual Supply supply() const = 0;
     virtual Span span() const = 0;
-    // Null for what is only being computed.
+    // The frames on disk; null for a run that is only being computed.
     virtual const FrameArchive* archive() const { return nullptr; }
 
-    // The moment that each picture would show: a frame without grains.
+    // The moment that each picture would show, as a frame without grains.
     virtual std::vector<Frame> moments(const Pictures& pictures) const = 0;
-    // Says what next() is to yield. Once.
+    // Tells the source which pictures next() has to give. To be called once.
     virtual void start(const Pictures& pictures) = 0;
-    // The next picture. Empty after the last (a scene has then been run to its end), and when told to stop.
-    // Throws RunError when a run cannot go on, UserError when what is read is damaged.
+    // Gives the next picture. Empty after the last one (a scene has then been run to its end), and when told
+    // to stop. Throws RunError when a run cannot go on, UserError when the files are damaged.
     virtual std::optional<Taken> next(const GoOn& go_on) = 0;
 
-    // What the user is to know of it, a line each; more may come at the end while pictures are taken.
+    // Lines that the user should see. More lines may be added at the end while pictures are taken.
     virtual std::vector<std::string> news() const = 0;
 };
 

@@ -31,7 +31,7 @@ std::vector<std::int64_t> PictureParts::earlier(std::int64_t step, int periods) 
     return {before};
 }
 
-// A picture near the beginning is exposed for less.
+// Steps of the exposure. A picture near the run's beginning is exposed for a shorter time.
 std::vector<std::int64_t> PictureParts::exposed(std::int64_t step, const FilmSegment& rule,
                                                 int periods) const {
     std::vector<std::int64_t> over = exposed_steps({step, 0}, rule, clock_, periods);
@@ -70,7 +70,7 @@ void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, const
     add_mean(frame, rule, periods, supply);
 }
 
-// Before the run's first step the grains are taken to have been where they were then.
+// Adds the mean. Before the run's first step the grains are taken to have been where they were at that step.
 void PictureParts::add_mean(Frame& frame, const FilmSegment& rule, int periods,
                             const PartSupply& supply) const {
     const std::vector<std::int64_t> steps = averaged(frame.step, rule, periods);
@@ -109,7 +109,7 @@ EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
 
 std::optional<Taken> EarlierPictures::next() {
     if (next_ == count_) return std::nullopt;
-    // One that is damaged is not among them, and the film would go on with another one in its place.
+    // A damaged moment is missing from this list, and the film would go on with another moment in its place.
     if (next_ >= moments_->moments().size() || moments_->place(next_) != next_)
         throw UserError(moments_->damage().empty()
                             ? moments_->path().string() + ": lacks a picture that it has had"
@@ -133,7 +133,7 @@ PartSupply::Measured EarlierPictures::measured(const Frame& frame) const {
     return {measures_, rows_until(frame.step)};
 }
 
-// As the run had found them by then, or as the scene wants them.
+// The periods that the run had found by that step, or the number that the scene sets.
 int EarlierPictures::periods_at(std::int64_t step) const {
     if (scene_.film.periods > 0) return scene_.film.periods;
     const std::size_t rows = std::min(rows_until(step), periods_.size());

@@ -1,6 +1,6 @@
-// The one place that adds to a frame what its picture shows beside the moment itself: ways since an earlier
-// period, moments that it is exposed over, means of periods, contacts, measures for plots and live words, and
-// what has flowed out.
+// PictureParts is the one place that adds to a frame what its picture shows besides the moment itself:
+// displacements since an earlier period, the moments of an exposure, means over periods, contacts, measures
+// for plots and live words, and what has flowed out.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@
 
 namespace grainreel {
 
-// What a source has of its run.
+// What a source can tell of its run.
 class PartSupply {
   public:
     struct Measured {
@@ -33,57 +33,57 @@ class PartSupply {
     };
 
     virtual ~PartSupply() = default;
-    // How grains and bodies were at a step; null when that is not to be had.
+    // Grains and bodies at a step; null when they cannot be had.
     virtual FramePtr at(std::int64_t step) const = 0;
-    // What is known of the moment of the frame.
+    // These tell what is known about the moment of the frame.
     virtual std::vector<Touch> touches(const Frame& frame) const = 0;
     virtual Measured measured(const Frame& frame) const = 0;
-    // What the grains do to meshes, a mesh each; null when that is not known.
+    // What the grains do to the meshes, one entry for each mesh; null when that is not known.
     virtual std::shared_ptr<const std::vector<MeshWear>> worn(const Frame&) const { return nullptr; }
-    // What has left the run until the frame; none when that is not known.
+    // What has left the run up to the frame; none when that is not known.
     virtual std::optional<FlowedOut> flowed_out(const Frame& frame) const = 0;
 };
 
 class PictureParts {
   public:
-    // What counts in the scene is its film. first: the first step that is to be had.
+    // Only the film of the scene is used. first: the first step that can be had.
     PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first);
 
-    // The other moments that the picture at `step` is made of, in no order; some may come twice. rule: the
-    // segment by which it is taken. periods: after which the bed repeats itself.
+    // The other moments of which the picture at `step` is made, in no order; some may come twice. rule: the
+    // segment by which the picture is taken. periods: number of periods after which the bed repeats itself.
     std::vector<WantedMoment> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
 
-    // Adds what of all that is to be had. Where grains have come or gone in between, ways and means are left
-    // out.
+    // Adds those parts that can be had. When grains have come or gone in between, displacements and means are
+    // left out.
     void add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
 
   private:
-    // Steps; empty where the picture has no such part.
+    // Steps of the moments; empty when the picture has no such part.
     std::vector<std::int64_t> earlier(std::int64_t step, int periods) const;
     std::vector<std::int64_t> exposed(std::int64_t step, const FilmSegment& rule, int periods) const;
     std::vector<std::int64_t> averaged(std::int64_t step, const FilmSegment& rule, int periods) const;
     void add_mean(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
 
     FilmShows shows_;
-    bool wear_;  // whether walls have its colours
+    bool wear_;  // whether walls are coloured by wear
     Clock clock_;
     std::int64_t first_;
-    double depth_;  // m, along x, after which a periodic container repeats; 0 for none
+    double depth_;  // m, period of a periodic container along x; 0 for none
 };
 
 // Gives the pictures of a film that were taken before its run was broken off, from their kept moments.
 
 class EarlierPictures final : private PartSupply {
   public:
-    // run: folder; shots: of the film; count: how many of its kept moments are pictures of it. measures: rows
-    // of the run, those of `shown` too; null without a film that shows any. files: know what has flowed out.
-    // wear: of a film whose walls have its colours, else null.
+    // run: the run's folder. shots: those of the film. count: how many of the kept moments are pictures of
+    // the film. measures: rows of the run, with the columns of `shown`; null for a film that shows none.
+    // files: know what has flowed out. wear: for a film whose walls are coloured by wear, else null.
     EarlierPictures(const FilmedScene& scene, const Clock& clock, const std::filesystem::path& run,
                     const std::vector<Shot>& shots, std::size_t count,
                     std::shared_ptr<const MeasureTable> measures, const RunFiles& files,
                     std::shared_ptr<const WearReader> wear);
 
-    // Empty after the last.
+    // Gives the next picture; empty after the last one.
     std::optional<Taken> next();
 
   private:
@@ -106,7 +106,7 @@ class EarlierPictures final : private PartSupply {
     std::size_t count_, next_ = 0;
     std::shared_ptr<const MeasureTable> measures_;
     std::shared_ptr<const WearReader> wear_;
-    std::vector<double> steps_, periods_;  // of the rows
+    std::vector<double> steps_, periods_;  // steps and bed periods of the rows of measures
     PictureParts parts_;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Frames as the film shows them.
+// The archive with frames as the film shows them.
 class AsFilmed final : public AskedRun {
   public:
     AsFilmed(const RecordedRun& run, std::shared_ptr<const RunArchive> archive)
@@ -56,7 +56,7 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
     if (use.alone) do_without_others();
 }
 
-// The trajectory holds single moments, and of those its own.
+// Complains of what the trajectory lacks: it holds single moments only, and only some of the run's moments.
 void RecordedRun::do_without_others() {
     if (needs_touches(scene_.film.shows) && !archive_->has_contacts() && !for_questions_)
         archive_->read_contacts(true);
@@ -73,7 +73,7 @@ Supply RecordedRun::supply() const {
     return {false, has.contacts, has.measures, has.orientations};
 }
 
-// The camera of a run that is over need not estimate how high the grains get.
+// Frames the picture by how high the grains got: for a finished run this need not be estimated.
 void RecordedRun::frame_what_is_reached() {
     Camera& camera = scene_.film.camera;
     if (camera.frame == CameraFrame::reach && !camera.reach && !camera.position)
@@ -97,7 +97,8 @@ void RecordedRun::read_measures_of_run() {
                         name, last, end));
 }
 
-// Empty plots, and words without their values, would look as if the run had been so.
+// Leaves out plots and live words. Empty plots, and words without values, would look as if the run had been
+// like that.
 void RecordedRun::leave_out_measures(const std::string& why) {
     FilmShows& shows = scene_.film.shows;
     std::vector<std::string> left_out;
@@ -144,7 +145,7 @@ bool RecordedRun::is_import() const {
     return fs::exists(name_of(kImportNews), ignored);
 }
 
-// Walls without their colours would look as if nothing touched them.
+// Reads the wear of the walls. Walls without its colours would look as if nothing had touched them.
 void RecordedRun::read_wear_of_run() {
     const bool imported = is_import();
     try {
@@ -170,8 +171,8 @@ void RecordedRun::read_wear_of_run() {
     }
 }
 
-// The scene of an import knows no bed and no motion from which a range could be estimated. The largest value
-// of all moments is known instead.
+// Sets the colour range of an import to the largest value of all moments. Its scene knows no bed and no
+// motion from which a range could be estimated.
 void RecordedRun::fit_range_of_import() {
     FilmWalls& walls = scene_.film.look.walls;
     const bool by_pressure = walls.colour == FilmWalls::Colour::pressure;

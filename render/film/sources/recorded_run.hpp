@@ -1,4 +1,5 @@
-// A run that lies on disk, as a source of pictures: its frames, with all that its film shows beside them.
+// A run that lies on disk, as a source of pictures: its frames, with all that its film shows besides the
+// grains.
 #pragma once
 
 #include <filesystem>
@@ -21,15 +22,15 @@ namespace grainreel {
 
 class RecordedRun final : public FrameSource, private PartSupply {
   public:
-    // sets: changes to the scene, of what is drawn only: keys of [film], colours of species, run.threads.
-    // Throws UserError for another key, when the folder has no scene.toml or no trajectory.nc that holds a
-    // frame, when its files are of two runs, and when the film shows contacts or orientations and the run
-    // kept none.
+    // sets: changes to the scene that concern the drawing only: keys of [film], colours of species,
+    // run.threads. Throws UserError for another key, when the folder has no scene.toml or no trajectory.nc
+    // that holds a frame, when its files are of two runs, and when the film shows contacts or orientations
+    // and the run kept none.
     //
-    // Pictures are framed by how high the run's grains got (known_reach), or, for_questions, as the run's own
-    // film was, which did not know that yet. For questions, contacts that cannot be used are left out with a
-    // line of faults: they can be brought back. alone: what the kept frames lack is to be had nowhere else,
-    // and is complained of.
+    // Pictures are framed by how high the run's grains got (known_reach), or, with for_questions, as in the
+    // run's own film, which did not know that height yet. With for_questions, contacts that cannot be used
+    // are left out with a line in faults(), since they can be brought back. With alone, what the kept frames
+    // lack cannot be had elsewhere, and missing parts are reported.
     struct Use {
         bool for_questions = false;
         bool alone = true;
@@ -40,31 +41,31 @@ class RecordedRun final : public FrameSource, private PartSupply {
     RecordedRun(const RecordedRun&) = delete;
     RecordedRun& operator=(const RecordedRun&) = delete;
 
-    // As the archive does.
+    // Leaves out damaged frames, as the archive does.
     void leave_out_damaged(bool brought_back = false) { archive_->leave_out_damaged(brought_back); }
-    // From now on it is alone, and complains.
+    // From now on the kept frames are alone, and missing parts are reported.
     void do_without_others();
 
-    const FilmedScene& scene() const override { return scene_; }  // named after the folder
+    const FilmedScene& scene() const override { return scene_; }  // the scene is named after the folder
     Supply supply() const override;
     Span span() const override { return {moments().front().time, moments().back().time}; }
     const FrameArchive* archive() const override { return archive_.get(); }
-    // The kept moment nearest in time to each picture.
+    // For each picture, the kept moment that is nearest in time.
     std::vector<Frame> moments(const Pictures& pictures) const override;
     void start(const Pictures& pictures) override;
     std::optional<Taken> next(const GoOn& go_on) override;
-    // What the film shows and the files lack.
+    // Lines about what the film shows and the files lack.
     std::vector<std::string> news() const override { return archive_->news(); }
 
-    // What it reads, without what a film adds.
+    // The archive that it reads, without the parts that a film adds.
     const RunArchive& frames() const { return *archive_; }
     const std::vector<Frame>& moments() const { return archive_->moments(); }
     const Clock& clock() const { return archive_->clock(); }
-    // With all that the scene's film shows. Throws as the archive does.
+    // A frame with all that the scene's film shows. Throws as the archive does.
     Frame frame(std::size_t index) const;
-    // For questions: the archive, whose frames are as frame() gives them.
+    // The archive for questions; its frames are those that frame() gives.
     const AskedRun& record() const { return *record_; }
-    // What pictures may take from it, and what adds that to them.
+    // What pictures may take from this run, and the object that adds it to them.
     const PartSupply& of_parts() const { return *this; }
     const PictureParts& parts() const { return *parts_; }
 
@@ -80,7 +81,7 @@ class RecordedRun final : public FrameSource, private PartSupply {
     void leave_out_measures(const std::string& why);
     void check_columns() const;
     void read_outflow_of_run();
-    // Whether the frames are from files of another program.
+    // Whether the frames come from files of another program.
     bool is_import() const;
     void read_wear_of_run();
     void fit_range_of_import();
@@ -93,12 +94,12 @@ class RecordedRun final : public FrameSource, private PartSupply {
     std::shared_ptr<RunArchive> archive_;
     std::unique_ptr<const AskedRun> record_;
     std::vector<double> measured_;        // s, times of the rows of measures
-    std::optional<OutflowSums> outflow_;  // of a film that counts it
-    std::optional<WearReader> wear_;      // of a film whose walls have its colours
+    std::optional<OutflowSums> outflow_;  // for a film that counts the outflow
+    std::optional<WearReader> wear_;      // for a film whose walls are coloured by wear
     std::optional<PictureParts> parts_;
 
     Pictures pictures_;
-    std::size_t next_ = 0;  // of them
+    std::size_t next_ = 0;  // index of the next picture
 };
 
 }  // namespace grainreel

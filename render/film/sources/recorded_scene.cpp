@@ -22,7 +22,8 @@ bool ends_with(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// The run is over: what would have made it another run must not look as if it had.
+// Refuses changes that would have made another run: the run is over, and its pictures must not look as if
+// they had been in effect.
 void check_sets(const Assignments& sets) {
     for (const Assignment& set : sets) {
         const std::string key = set.key();
@@ -36,7 +37,8 @@ void check_sets(const Assignments& sets) {
     }
 }
 
-// The scene of a run names all its values, so that defaults of a purpose would change nothing: they are set.
+// Adds the settings that the purpose of a film implies. The scene of a run names all its values, so defaults
+// would have no effect; therefore they are set.
 Assignments with_purpose(const Assignments& sets) {
     Assignments all;
     for (const Assignment& set : sets) {
@@ -49,8 +51,8 @@ Assignments with_purpose(const Assignments& sets) {
     return all;
 }
 
-// Files of other programs have no scene that says how fast grains are. The frames say it, where a colour
-// needs it and the user gives no range.
+// Files of other programs have no scene that says how fast grains are. Where a colour needs a range and the
+// user gives none, the range comes from the frames.
 Assignments with_range_of_frames(const fs::path& folder, Assignments sets) {
     const Assignment* by = nullptr;
     bool has_range = false;
@@ -95,8 +97,8 @@ FilmedScene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assign
 
 namespace {
 
-constexpr double most_grains = 2e7;  // that are read, over all frames
-constexpr double strays = 0.01;      // of the grains, that may be higher
+constexpr double most_grains = 2e7;  // limit for the grains that are read, over all frames
+constexpr double strays = 0.01;      // share of the grains that may be higher
 
 }  // namespace
 
@@ -122,7 +124,7 @@ std::optional<double> known_reach(const FrameArchive& archive) {
             const std::optional<double> here = reach_of(archive.grains(i));
             if (here && (!reach || *here > *reach)) reach = here;
         } catch (const DamagedFrame&) {
-            continue;  // whoever draws it says so
+            continue;  // the code that draws it reports the damage
         }
     }
     return reach;

@@ -1,4 +1,5 @@
-// The scene of a saved run or checkpoint as it is to be drawn, and how high the grains of a saved run got.
+// Reads the scene of a saved run or checkpoint as it will be drawn, and finds how high the grains of a saved
+// run got.
 #pragma once
 
 #include <filesystem>
@@ -10,24 +11,24 @@
 
 namespace grainreel {
 
-// Changes to a scene that are changes to what is drawn: keys of [film], colours of species, run.threads; with
-// what the purpose of a film implies. Throws UserError for other keys.
+// Checks that changes to a scene concern only the drawing (keys of [film], colours of species, run.threads),
+// and adds what the purpose of a film implies. Throws UserError for other keys.
 Assignments sets_for_drawing(const Assignments& sets);
 
-// Its scene.toml with such changes; named after the folder. Throws UserError as above, and for a scene that
-// cannot be read.
+// The scene.toml of a run with such changes, named after the folder. Throws UserError as above, and for a
+// scene that cannot be read.
 FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
 
 // The scene of a checkpoint as it was used, with such changes; named after the file. Throws UserError
 // as above.
 FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
 
-// How high the grains of a finished run got: m above the floor's rest position: below it are 99 of 100
-// grains, whole, in every frame. Of a long record of many grains evenly spread frames are read. Damaged
-// frames do not count. Empty without grains.
+// How high the grains of a finished run got, in m above the floor's rest position: in every frame 99 of 100
+// grains lie entirely below this height. Of a long trajectory with many grains only evenly spread frames are
+// read. Damaged frames do not count. Empty without grains.
 std::optional<double> known_reach(const FrameArchive& archive);
 
-// The same of one frame.
+// The same height for one frame.
 std::optional<double> reach_of(const Frame& frame);
 
 }  // namespace grainreel

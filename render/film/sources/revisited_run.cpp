@@ -75,7 +75,7 @@ Frame FilmOfRun::moment(std::int64_t step) const {
 std::vector<Shot> FilmOfRun::shots() const {
     const FilmedScene& scene = run_.scene();
     const Clock& clock = run_.clock();
-    if (clock.step <= 0) return {{last_, 0}};  // a single moment
+    if (clock.step <= 0) return {{last_, 0}};  // the run has a single moment
     const std::int64_t steps = std::llround(scene.run.duration / clock.step);
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     std::vector<Shot> shots = with_bed(shots_at(instants_of(scene, clock, steps), segments, clock, steps));
@@ -84,7 +84,8 @@ std::vector<Shot> FilmOfRun::shots() const {
     return shots;
 }
 
-// Where a film was cut off before its run, its later part is as the bed was then.
+// The shots that the film shows, by the bed's periods. Where the film ended before its run did, its later
+// shots follow the periods that the bed had then.
 std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
     FilmedScene scene = run_.scene();
     if (!same_) scene.film.periods = run_.frames().periods();
@@ -120,7 +121,7 @@ FilmOfRun::Place FilmOfRun::place_of(std::int64_t step) const {
 
 namespace {
 
-// Beside a film.
+// Threads of an engine that works beside a film.
 int engine_threads(const FilmedScene& scene, int sharers) {
     const int wanted = scene.run.threads, processors = wanted > 0 ? wanted : usable_processors();
     return std::max(1, plan_threads(processors, true, scene.grains()).engine / sharers);
@@ -197,7 +198,7 @@ std::vector<std::string> RevisitedRun::news() const {
 
 std::vector<Shot> RevisitedRun::shots_of(const Pictures& pictures) const {
     if (clock().step > 0) return shots_at(pictures.instants, pictures.segments, clock(), film_.last_step());
-    std::vector<Shot> shots;  // of a run with one moment
+    std::vector<Shot> shots;  // shots of a run with one moment
     for (const Instant& instant : pictures.instants) shots.push_back({film_.last_step(), instant.segment});
     return shots;
 }
@@ -245,7 +246,8 @@ FramePtr RevisitedRun::grains(std::int64_t step, const GoOn& go_on) {
     return found ? std::make_shared<const Frame>(std::move(found->frame)) : nullptr;
 }
 
-// Those that cannot be had are left out of the pictures that they belong to.
+// Keeps the wanted moments up to `step`. Moments that cannot be had are missing in the pictures that need
+// them.
 bool RevisitedRun::keep_moments_until(std::int64_t step, const GoOn& go_on) {
     while (!wanted_.empty() && *wanted_.begin() <= step) {
         const std::int64_t one = *wanted_.begin();

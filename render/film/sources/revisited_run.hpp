@@ -1,6 +1,6 @@
-// A run that lies on disk, as a source of any of its moments (RevisitedRun), and which moments its film
-// shows. Where the schedule is that of the run's own film, they are those of that film (film_times.csv); else
-// they follow from the segments as in a run.
+// A run that lies on disk, as a source of any of its moments (RevisitedRun), and the moments that its film
+// shows (FilmOfRun). When the schedule is that of the run's own film, these are the moments of that film
+// (film_times.csv); else they follow from the segments as in a run.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +23,20 @@ namespace grainreel {
 
 class FilmOfRun {
   public:
-    // sets: those that the run's scene was read with.
+    // sets: the changes with which the run's scene was read.
     FilmOfRun(const RecordedRun& run, const Assignments& sets);
 
-    // By rising step, as far as the run has come. Throws UserError when the film would have too many.
+    // The shots by rising step, as far as the run has come. Throws UserError when the film would have too
+    // many.
     std::vector<Shot> shots() const;
-    // Periods of the drive after which the bed repeats itself, as the film has it then.
+    // Periods of the drive after which the bed repeats itself, as the film takes it at that step.
     int periods_at(std::int64_t step) const;
-    // How far the run has come; it may have no frame of that.
+    // The last step of the run; there may be no frame of it.
     std::int64_t last_step() const { return last_; }
-    // Without its grains.
+    // The moment at a step, as a frame without grains.
     Frame moment(std::int64_t step) const;
-    // The segment that a moment belongs to, and s of film until its picture would come.
+    // The place of a moment in the film: its segment, and the time in s of film at which its picture would
+    // come.
     struct Place {
         int segment = 0;
         double time = 0;
@@ -44,50 +46,52 @@ class FilmOfRun {
   private:
     void read_film_times();
     void read_periods();
-    // What the bed's rhythm leaves of the shots.
+    // The shots that remain when the bed's periods are followed.
     std::vector<Shot> with_bed(const std::vector<Shot>& shots) const;
 
     const RecordedRun& run_;
-    bool same_ = true;  // the schedule, as in the run's own film, which there is
+    bool same_ = true;  // the run has a film of its own, with the same schedule
     std::int64_t last_ = 0;
-    std::set<std::int64_t> filmed_;        // steps, of the run's own film
-    std::vector<double> steps_, periods_;  // of rows of measures.csv
+    std::set<std::int64_t> filmed_;        // steps of the run's own film
+    std::vector<double> steps_, periods_;  // steps and bed periods of the rows of measures.csv
     std::vector<double> differences_;      // m
 };
 
 // A run that lies on disk, as a source of any of its moments: those that it kept (RecordedRun), and the
-// others brought back from its checkpoints. Where that cannot be, or must not be, a picture shows the kept
-// moment that is nearest, and news() counts them.
+// others, which are brought back from its checkpoints. When that is impossible or not allowed, a picture
+// shows the nearest kept moment, and news() counts such pictures.
 
 class RevisitedRun final : public FrameSource, private PartSupply {
   public:
-    // sets: as for a RecordedRun. replay: false: nothing is brought back. sharers: how many runs have the
-    // machine at once. Throws UserError as above.
+    // sets: see RecordedRun. replay: false if nothing may be brought back. sharers: number of runs that share
+    // the machine. Throws the UserErrors of FilmOfRun and RecordedRun.
     RevisitedRun(const std::filesystem::path& folder, const Assignments& sets, bool replay, int sharers = 1);
 
-    // Frames that are damaged are left out of what was kept, with a line of news (RecordedRun).
+    // Leaves out damaged frames, with a line in news() (RecordedRun).
     void leave_out_damaged();
 
     const RecordedRun& record() const { return run_; }
     const Clock& clock() const { return run_.clock(); }
-    // The pictures of its scene's film, as far as the run has come, or as the run's own film has them.
+    // The film of its scene, as far as the run has come, or as the run's own film shows it.
     const FilmOfRun& film() const { return film_; }
-    // The film's segments; without means and exposures where these are not to be had.
+    // The film's segments, without means and exposures when these cannot be had.
     std::vector<FilmSegment> segments() const;
-    // Whether a picture of that step shows it, and not another one.
+    // Whether a picture of that step really shows this step, not another one.
     bool has(std::int64_t step) const;
-    // The step that a picture of this one shows.
+    // The step that is shown in a picture of `step`.
     std::int64_t shown(std::int64_t step) const;
     bool has_all(const Pictures& pictures) const;
-    // Whether it would be brought back.
+    // Whether the step would be brought back.
     bool is_brought_back(std::int64_t step) const;
-    // Throws UserError when what is brought back on the way to the step is another run.
+    // Brings back the moments on the way to the step. Throws UserError when they show another run than the
+    // kept files.
     void prove(std::int64_t step) {
         reachable_.prove(step, [](double) { return true; });
     }
-    // Why not all of its moments can be had; empty where they can.
+    // The reason why not all of its moments can be had; empty when they can.
     std::string why_not_all() const;
-    // Asked while a replay goes on, with its share; the usual go_on is asked too.
+    // Sets a function that is called during a replay with the share that is done; the usual go_on is called
+    // too.
     void watch_replay(ReplayWatcher watcher) { watcher_ = std::move(watcher); }
 
     const FilmedScene& scene() const override { return run_.scene(); }
@@ -96,12 +100,12 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     const FrameArchive* archive() const override { return run_.archive(); }
     std::vector<Frame> moments(const Pictures& pictures) const override;
     void start(const Pictures& pictures) override;
-    // The same by steps, of which each is shown as it is or by the nearest that was kept.
+    // Starts with shots by their steps. Each step is shown itself, or by the nearest kept one.
     void start(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments);
     std::optional<Taken> next(const GoOn& go_on) override;
     std::vector<std::string> news() const override;
 
-    // Grains and container alone of a step that it has. Null when told to stop.
+    // Only the grains and the container at a step that it has. Null when told to stop.
     FramePtr grains(std::int64_t step, const GoOn& go_on);
 
   private:
@@ -113,7 +117,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
 
     std::vector<Shot> shots_of(const Pictures& pictures) const;
     bool wants_touches() const;
-    // Empty when told to stop.
+    // Takes the moment of a step; empty when told to stop.
     std::optional<ReachableMoments::Found> take(std::int64_t step, bool touches, const GoOn& go_on);
     bool keep_moments_until(std::int64_t step, const GoOn& go_on);
 
@@ -125,9 +129,9 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     std::vector<Shot> shots_;
     std::vector<FilmSegment> segments_;
     KeptMoments kept_;
-    std::set<std::int64_t> wanted_;             // steps of moments that later pictures are made of
-    std::size_t next_ = 0;                      // of the shots
-    std::optional<std::int64_t> brought_back_;  // the step whose frame has its contacts with it
+    std::set<std::int64_t> wanted_;             // steps of moments of which later pictures are made
+    std::size_t next_ = 0;                      // index of the next shot
+    std::optional<std::int64_t> brought_back_;  // the brought-back step whose frame has its contacts
 };
 
 }  // namespace grainreel

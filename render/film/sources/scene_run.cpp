@@ -9,7 +9,7 @@
 
 namespace grainreel {
 
-// What pictures may take from it. Its moments are those that were kept for them.
+// What pictures may take from the run. It has the moments that were kept for them.
 class SceneRun::Parts final : public PartSupply {
   public:
     Parts(const RunDriver& driver, std::shared_ptr<const std::vector<MeshWear>> worn)
@@ -68,7 +68,7 @@ void SceneRun::start(const Pictures& pictures) {
     if (driver_.goes_on() && driver_.files()->keeps_film_moments())
         earlier_.emplace(scene_, clock, driver_.folder(), shots_, driver_.frames_before(),
                          driver_.files()->measures(), *driver_.files(), wear_before_);
-    // As far as one knows: what a bed of several periods leaves out is found later.
+    // The number is an upper limit: which pictures a bed of several periods leaves out is found later.
     count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Shot& shot) {
         return shot.step >= driver_.first_step() && bed_periods_->shows(rule(shot.segment), shot);
     });
@@ -90,7 +90,8 @@ FrameWishes SceneRun::wishes() {
     return wishes;
 }
 
-// Whatever number of periods the bed will turn out to repeat itself after.
+// The moments that must be kept, for every number of periods after which the bed may turn out to repeat
+// itself.
 KeptMoments SceneRun::wanted_moments() const {
     KeptMoments wanted;
     const std::vector<int> multiples = bed_periods_->possible();
@@ -144,14 +145,14 @@ void SceneRun::look_at_bed_periods(const Simulation& simulation) {
                        simulation.measure("period_difference_m"));
 }
 
-// As fields.nc has it: films of the run and of its files are alike.
+// Takes the wear over the same records as fields.nc, so that films of the run and of its files are alike.
 void SceneRun::look_at_wear(const Simulation& simulation) {
     if (driver_.plan().fields.ends_record(simulation.step()))
         worn_ = std::make_shared<const std::vector<MeshWear>>(
             wear_among(scene_, simulation.field_sets(), simulation.fields()));
 }
 
-// Before the first record has ended.
+// Reads the wear that is shown before the first record has ended.
 void SceneRun::read_wear_before() {
     if (driver_.goes_on()) {
         wear_before_ = std::make_shared<const WearReader>(driver_.folder() / "fields.nc", scene_);

@@ -1,5 +1,5 @@
-// A scene that is being run, as a source of pictures: what its driver hands out, with all that the film shows
-// beside the grains.
+// A scene that is being run, as a source of pictures: the frames that its driver hands out, with all that the
+// film shows besides the grains.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,13 @@ namespace grainreel {
 
 class SceneRun final : public FrameSource {
   public:
-    // scene: that of the driver, with its film. The driver must outlive this.
+    // scene: the driver's scene with its film. The driver must outlive this object.
     SceneRun(const FilmedScene& scene, RunDriver& driver) : scene_(scene), driver_(driver) {}
 
-    // Before start(): key moments are kept with their contacts. A run that goes on does what it did.
+    // Keeps key moments with their contacts. To be called before start(). A resumed run does what it did
+    // before.
     void keep_key_moments() { keys_wanted_ = true; }
-    // Closes what it reads of the run's folder. Nothing else may be called afterwards.
+    // Closes the files of the run's folder that it reads. Nothing else may be called afterwards.
     void close() {
         earlier_.reset();
         wear_before_.reset();
@@ -33,24 +34,25 @@ class SceneRun final : public FrameSource {
     Supply supply() const override { return {true, true, true, scene_.keeps_orientations()}; }
     Span span() const override;
     std::vector<Frame> moments(const Pictures& pictures) const override;
-    // After packing. Pictures before the run's first step do not come.
+    // To be called after packing. Pictures before the run's first step are not given.
     void start(const Pictures& pictures) override;
     std::optional<Taken> next(const GoOn& go_on) override;
-    // The driver's news, and what was found of the bed's periods so far.
+    // The driver's news, and what was found so far about the bed's periods.
     std::vector<std::string> news() const override;
 
-    std::int64_t shots() const { return count_; }  // pictures that come, at most
+    std::int64_t shots() const { return count_; }  // number of pictures that come, at most
     // Whether there are pictures at all.
     bool has_shots(const Pictures& pictures) const { return !shots_of(pictures).empty(); }
 
   private:
-    class Parts;  // what it has for pictures
+    class Parts;  // what pictures may take from the run
 
     std::vector<Shot> shots_of(const Pictures& pictures) const;
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
-    std::optional<Taken> waiting();  // another picture of the frame taken last
-    // Whether the film, by now, shows none of the pictures of that step. Notes those that it shows.
+    std::optional<Taken> waiting();  // the next picture of the frame that was taken last
+    // Whether the film, as the bed's periods are known now, shows no picture of that step. Notes the pictures
+    // that it does show.
     bool leaves_out(std::int64_t step);
     void look_at_bed_periods(const Simulation& simulation);
     void look_at_wear(const Simulation& simulation);
@@ -60,16 +62,16 @@ class SceneRun final : public FrameSource {
     const FilmedScene scene_;
     RunDriver& driver_;
     bool keys_wanted_ = false;
-    std::vector<FilmSegment> segments_;  // of the film
+    std::vector<FilmSegment> segments_;  // segments of the film
     std::vector<Shot> shots_;
     std::int64_t count_ = 0;
     std::optional<BedPeriods> bed_periods_;
     std::optional<PictureParts> parts_;
-    std::shared_ptr<const WearReader> wear_before_;      // of a run that goes on
-    std::shared_ptr<const std::vector<MeshWear>> worn_;  // since the last record of fields.nc ended
+    std::shared_ptr<const WearReader> wear_before_;      // wear so far of a resumed run
+    std::shared_ptr<const std::vector<MeshWear>> worn_;  // wear since the last record of fields.nc ended
     std::optional<EarlierPictures> earlier_;
     FramePtr frame_;                     // taken last
-    std::vector<int> segments_waiting_;  // of its pictures that are yet to come
+    std::vector<int> segments_waiting_;  // segments of its pictures that are still to come
 };
 
 }  // namespace grainreel
