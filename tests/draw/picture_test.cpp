@@ -1,4 +1,5 @@
-// Promises about whole pictures: repeatable, the same on any number of threads, words and grains apart.
+// Tests of whole pictures: they are repeatable and the same on any number of threads, and words do not touch
+// grains.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,8 +80,8 @@ TEST(Pictures, WhatMovesLeavesNothingBehind) {
         EXPECT_EQ(changed(alone[i], renderer.draw(frames[i], ""), renderer.view().port).count, 0) << i;
 }
 
-// Drawn in turn into three pictures, each is as one drawn alone, and those with one number differ only where
-// they say that they may.
+// Frames are drawn in turn into three pictures. Each picture is the same as one drawn alone, and pictures
+// with the same number differ only where they say that they may.
 TEST(Pictures, AreAlikeOutsideOfWhatMoves) {
     const FilmedScene scene = wedge();
     Renderer renderer(scene, 1);
@@ -105,7 +106,7 @@ TEST(Pictures, AreAlikeOutsideOfWhatMoves) {
     }
 }
 
-// Laid over a colour, a transparent picture is the one drawn on that colour.
+// A transparent picture laid over a colour is the same as one drawn on that colour.
 TEST(Pictures, TransparentOnesHaveTheRightAlphaAlongEveryEdge) {
     FilmedScene scene = wedge();
     scene.container.shape = Container::Shape::none;
@@ -130,8 +131,8 @@ TEST(Pictures, TransparentOnesHaveTheRightAlphaAlongEveryEdge) {
     EXPECT_GT(soft, 500);
 }
 
-// Mesa reads its number of threads once a process, so each number gets a process of its own: this test, run
-// again with a file to write the picture to.
+// Mesa reads its number of threads once in each process, so each number needs a process of its own: this
+// test, run again with a file into which it writes the picture.
 TEST(Pictures, RasterThreadsDoNotChangeThem) {
     const char* const variable = "GRAINREEL_TEST_THREADS";
     if (const char* job = std::getenv(variable)) {
@@ -179,7 +180,7 @@ TEST(Pictures, WordsAndGrainsKeepApart) {
         Renderer renderer(scene, 1);
         Frame frame = frame_of({});
         const Picture empty = renderer.draw(frame, "caption");
-        // Grains everywhere, also far outside the container: the gutters stay as they were.
+        // Grains lie everywhere, also far outside the container; the gutters do not change.
         frame = frame_of({{{0, 0, 0.1}, 0.05, 1},
                           {{0, -0.3, 0.1}, 0.2, 0},
                           {{0, 0.3, 0.1}, 0.2, 0},
@@ -188,7 +189,7 @@ TEST(Pictures, WordsAndGrainsKeepApart) {
         expect_same(empty, full, layout.first);
         expect_same(empty, full, layout.second);
         EXPECT_GT(changed(empty, full, layout.port).count, 1000);
-        // Other words: the grains stay as they were.
+        // The words change; the grains do not.
         frame.time = 8.5;
         frame.cycles = 170.3;
         frame.phase = 0.3;
@@ -199,7 +200,7 @@ TEST(Pictures, WordsAndGrainsKeepApart) {
     }
 }
 
-// Contrast as WCAG 2.2 defines it, of bytes.
+// Contrast of two colours in bytes, as WCAG 2.2 defines it.
 double wcag_contrast(const std::array<double, 3>& a, const std::array<double, 3>& b) {
     const auto light = [](const std::array<double, 3>& c) {
         const auto linear = [](double byte) {
@@ -231,7 +232,7 @@ TEST(Overlay, WordsOnPlatesReadOverAnyGrain) {
             FilmedScene scene = wedge();
             scene.film.look = FilmLook::of(style);
             scene.film.background = default_background(style);
-            scene.film.exaggerate = 2;  // said in the accent's colour
+            scene.film.exaggerate = 2;  // the exaggeration is written in the accent's colour
             scene.colours[0] = grain;
             scene.film.words = WordPlace::plates;
             const Palette palette = make_palette(scene.film.background);
@@ -272,10 +273,11 @@ TEST(Overlay, PlatesLeaveTheRestOfThePicture) {
     EXPECT_FALSE(plan_layout(scene).plates);
     scene = wedge();
     scene.film.camera.azimuth = 70;
-    EXPECT_FALSE(plan_layout(scene).plates);  // the container is framed by itself
+    EXPECT_FALSE(plan_layout(scene).plates);  // only the container is framed
 }
 
-// All words and marks at once: what there is no room for is left out and named, the rest is whole.
+// All words and marks are asked for at once. Those without room are left out and named, and the others are
+// whole.
 TEST(Pictures, NoWordIsCutOff) {
     for (const auto& [width, height] : {std::pair{1920, 1080},
                                         {1080, 1920},
@@ -401,14 +403,14 @@ TEST(Overlay, CycleAndPhaseAgree) {
             frame.phase = std::fmod(start + frame.cycles, 1);
             const ShownCycle shown = shown_cycle(frame);
             ASSERT_LT(fmt::format("{:.2f}", shown.phase), "1.00");
-            // Together they are as far from the start as the frame is, but for the rounding.
+            // Both parts together give the frame's time since the start, except for rounding.
             const double since_start = shown.phase - start + (shown.phase < start - 1e-9 ? 1 : 0);
             ASSERT_NEAR(static_cast<double>(shown.cycle) + since_start, frame.cycles, 0.005 + 1e-9);
         }
 }
 
-// The row of the accent-coloured pixel farthest to the right in the numbers' gutter: the middle of the dot
-// that shows the floor in its stroke.
+// The row of the accent-coloured pixel farthest to the right in the gutter of numbers. It is the middle of
+// the dot that shows the floor in its stroke.
 double floor_dot_row(const FilmedScene& scene, const Picture& picture) {
     const Rectangle part = plan_layout(scene).second;
     const Colour accent = make_palette(scene.film.background).accent;
@@ -441,7 +443,7 @@ TEST(Overlay, TheDialShowsWhereTheFloorIs) {
     EXPECT_NEAR(row(0.25, a), middle - radius, 1);
     EXPECT_NEAR(row(0.75, -0.1 * a), middle + 0.1 * radius, 1);
     EXPECT_NEAR(row(0.25, 0.5 * a), middle - 0.5 * radius, 1);
-    // Without a ramp the stroke's middle is where the drive's phase puts it.
+    // Without a ramp the drive's phase gives the place in the stroke.
     scene.drive.ramp = 0;
     scene.drive.phase = 0.25;
     EXPECT_NEAR(row(0.25, 0), middle - radius, 1);

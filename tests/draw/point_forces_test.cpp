@@ -1,4 +1,4 @@
-// Forces on a body as arrows.
+// Tests of forces on a body, drawn as arrows.
 #include "render/picture/marks/force_marks.hpp"
 
 #include <gtest/gtest.h>
@@ -49,8 +49,7 @@ TEST(PointForces, AWeakForceIsLongEnoughToBeSeen) {
     EXPECT_EQ(force_arrows(view, {{{0, 0, 0}, {0, 0, 0}, false}}, 1).size(), 0u);
 }
 
-// Around a grain of a fortieth of a pixel the ends of arrows lie on a circle, around a large one on its
-// surface.
+// Around a grain of 1/40 pixel the ends of arrows lie on a circle, and around a large grain on its surface.
 TEST(PointForces, ArrowsLeaveASmallGrainFreeToBeSeen) {
     const View view = view_of(straight_on());
     const Vec3 centre(0, 0, 0.05);
@@ -112,7 +111,7 @@ TEST(PointForces, ThePictureShowsTheGrainThroughPaleOnesAndItsArrows) {
     const Colour force = make_palette(scene.film.background).force;
     EXPECT_LT(pixels_like(before, view.port, force), 5);
     EXPECT_GT(pixels_like(after, view.port, force), 60);
-    // Along the line of sight a force is a circle.
+    // A force along the line of sight is drawn as a circle.
     renderer.point_out({{1}, {{{0, -0.008, 0.08}, {1, 0, 0}, false}}});
     EXPECT_GT(pixels_like(renderer.draw(frame, ""), view.port, force), 30);
 }

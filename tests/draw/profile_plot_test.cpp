@@ -1,4 +1,4 @@
-// Profiles beside the grains.
+// Tests of profiles beside the grains.
 #include "render/picture/plots/profile_plot.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ std::array<double, 2> pixel_at(const FilmedScene& scene, const FilmPlot& plot, d
         .pixel_of(value, place);
 }
 
-// Whether there is something of the hue within two pixels.
+// Whether a pixel within two pixels of the place has the hue.
 bool has_hue(const Picture& picture, const std::array<double, 2>& at, double wanted) {
     for (int dx = -2; dx <= 2; ++dx)
         for (int dy = -2; dy <= 2; ++dy) {
@@ -55,7 +55,7 @@ bool has_hue(const Picture& picture, const std::array<double, 2>& at, double wan
     return false;
 }
 
-// The lower half is full of the first species and the upper half of the second one.
+// A bed whose lower half is full of the first species and whose upper half is full of the second one.
 Frame two_layers(bool upright) {
     std::vector<Ball> balls;
     for (int i = 0; i < 4; ++i)
@@ -98,7 +98,7 @@ TEST(ProfilePlots, SolidFractionsAreVolumeOverVolume) {
     EXPECT_FALSE(has_hue(picture, pixel_at(scene, plot, 1.3 * solid, 0.03), hue(blue)));
 }
 
-// An axis from -0.1 to 0.25 has a tick at 0, and none at 0.15, as far from the other end.
+// An axis from -0.1 to 0.25 has a tick at 0 and none at 0.15.
 TEST(ProfilePlots, TicksStandAtTheirValues) {
     const FilmedScene scene = boxed();
     FilmPlot plot = plot_of(ProfileOf::vertical_velocity, false);
@@ -126,7 +126,7 @@ TEST(ProfilePlots, HeightGoesUpAndWidthToTheRight) {
     EXPECT_LT(pixel_at(scene, over_width, 0.4, 0)[1], pixel_at(scene, over_width, 0.2, 0)[1]);
 }
 
-// Axes stand still: what changes from frame to frame is the curve.
+// Axes stand still; only the curve changes from frame to frame.
 TEST(ProfilePlots, VelocitiesFollowTheFrame) {
     const FilmedScene scene = boxed();
     FilmPlot plot = plot_of(ProfileOf::vertical_velocity, true);

@@ -1,4 +1,4 @@
-// Glued grains and the tray in the picture.
+// Tests of glued grains and of the tray in the picture.
 #include <gtest/gtest.h>
 
 #include "engine/state/glued_grains.hpp"
@@ -23,7 +23,7 @@ std::size_t seen_of(const FilmedScene& scene) {
     return GluedSpheres(scene).seen(view_of(scene), Frame()).size();
 }
 
-// Those between the eye and the bed would hide it.
+// Glued grains between the eye and the bed would hide the bed.
 TEST(GluedSpheres, AreSeenWhereTheEyeLooksAtTheInnerSide) {
     const auto all = [](const FilmedScene& scene) {
         return glue_grains(scene, container_faces(scene.container, scene.drive)).size();
@@ -50,7 +50,7 @@ TEST(GluedSpheres, MoveWithTheirWall) {
     }
 }
 
-// They are in the picture, and not in the colour of their species.
+// The glued grains are in the picture, and do not have the colour of their species.
 TEST(GluedSpheres, AreDrawn) {
     const FilmedScene scene = rough({"back"});
     FilmedScene plain = scene;

@@ -1,4 +1,5 @@
-// Rows of pixels laid over each other and darkened, many at once, against one at a time.
+// Tests of rows of pixels that are laid over each other and darkened: many pixels at once against one at a
+// time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace grainreel::test {
 namespace {
 
-// Multiplied by their alpha, a third of them clear.
+// Pixels that are multiplied by their alpha; a third of them are clear.
 std::vector<std::uint32_t> pixels(std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<std::uint32_t> all(count);
@@ -40,7 +41,7 @@ TEST(LayOver, IsOverForEachPixel) {
 
 constexpr int kSide = 12;
 
-// What the map says at a place, interpolated along both axes; nothing beside it.
+// The strength of the map at a place, interpolated along both axes; 0 beside the map.
 double strength_at(const std::vector<float>& cells, double u, double v) {
     if (!(u > 0 && v > 0 && u < kSide - 1 && v < kSide - 1)) return 0;
     const int i = static_cast<int>(u), j = static_cast<int>(v);
@@ -69,7 +70,8 @@ Shaded shaded(int count, unsigned seed) {
     for (int j = 1; j < kSide - 1; ++j)
         for (int i = 1; i < kSide - 1; ++i)
             s.cells[static_cast<std::size_t>(j * kSide + i)] = between(0, 255);
-    // From beside the map across it to its other side; on some walks the horizon comes first.
+    // The walk goes from one side of the map across it to the other side; on some walks the horizon comes
+    // first.
     const Eigen::Vector3f from(-3, between(0, kSide), 1), to(kSide + 3, between(0, kSide), 1);
     const float near = between(0.5, 2), far = seed % 3 == 0 ? -0.2f : between(0.5, 2);
     const float steps = static_cast<float>(std::max(count - 1, 1));
@@ -91,7 +93,7 @@ TEST(ShadeRow, DarkensByWhatTheMapSays) {
                 if (std::abs(at.z()) < 1e-3) continue;
                 const double dark =
                     strength_at(s.cells, at.x() / at.z(), at.y() / at.z()) * s.across[i] * kAll;
-                // White below black of that strength: a level for the rounding of both.
+                // Black of that strength lies over white; one level is allowed for the rounding of both.
                 EXPECT_NEAR(s.after[i] & 0xff, 255 - dark, 1.1) << count << ' ' << x;
                 EXPECT_EQ(s.after[i] >> 24, 0xffu);
             }

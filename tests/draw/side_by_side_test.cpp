@@ -1,4 +1,4 @@
-// Several scenes in one picture: scales, places, words that are said once.
+// Tests of several scenes in one picture: their scales and places, and words that stand only once.
 #include "render/picture/panels/side_by_side.hpp"
 
 #include <gmock/gmock.h>
@@ -55,7 +55,7 @@ bool apart(const Rectangle& a, const Rectangle& b) {
     return a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
 }
 
-// Each with two plots, marks and words of its own.
+// Panels that have two plots, marks and words of their own each.
 std::vector<Panel> full_panels(std::size_t count) {
     std::vector<Panel> panels = panels_of(std::vector<FilmedScene>(count, scene_with(0.06, 2)));
     for (std::size_t i = 0; i < count; ++i) {
@@ -135,9 +135,9 @@ std::vector<Panel> plotted_panels() {
     return panels_of(scenes);
 }
 
-// Curves need pixels, however small the letters around them are. Plots without room are left out.
+// Curves need enough pixels, however small the letters around them are. Plots without room are left out.
 TEST(SideBySide, PlotsAreLargeEnoughToBeReadOrLeftOut) {
-    constexpr double curves = 48, lines = 5;  // pixels; lines of words above and below
+    constexpr double curves = 48, lines = 5;  // pixels for the curves; lines of words above and below
     int with = 0, without = 0;
     for (const auto& [width, height] : {std::pair{640, 360}, {480, 270}, {1280, 720}, {1920, 1080}})
         for (std::size_t count = 2; count <= 6; ++count) {
@@ -154,7 +154,7 @@ TEST(SideBySide, PlotsAreLargeEnoughToBeReadOrLeftOut) {
     EXPECT_GT(without, 0);
 }
 
-// Beside a port there is height to spare: words are not taken from the curves.
+// If there is free height beside a port, words do not take room from the curves.
 TEST(SideBySide, CurvesBesideAPanelAreThreeQuartersAsHighAsThePlotIsWide) {
     constexpr double upright = 0.75, lines = 5;  // lines of words above and below the curves
     const Film film = film_of(1280, 720);
@@ -167,7 +167,8 @@ TEST(SideBySide, CurvesBesideAPanelAreThreeQuartersAsHighAsThePlotIsWide) {
     }
 }
 
-// A caption of time that all scenes have stands once below them, and each scene's own under its panel.
+// A caption of time that all scenes have stands once below them; each scene's own caption stands under its
+// panel.
 TEST(SideBySide, CaptionsOfAllStandOnce) {
     std::vector<Panel> panels = panels_of({scene_with(0.06, 1), scene_with(0.06, 3)});
     for (Panel& panel : panels) panel.scene.film.captions = {{0, 1, "The bed flies", 0}};
@@ -189,7 +190,7 @@ TEST(SideBySide, CaptionsOfAllStandOnce) {
     EXPECT_LT(own.bottom.height, below);
 }
 
-// A plot follows its own panel's rows, on axes that hold those of all.
+// A plot follows the rows of its own panel, on axes that hold the rows of all panels.
 TEST(SideBySide, PlotsAreThoseOfTheirPanelOnOneSpan) {
     const std::vector<Panel> panels = plotted_panels();
     SideBySide drawing(panels, film_of(960, 540), 1, gl::Provider::automatic);
@@ -208,7 +209,7 @@ TEST(SideBySide, PlotsAreThoseOfTheirPanelOnOneSpan) {
     const auto& first = dynamic_cast<const Plot&>(*plots.all()[0].plot);
     const auto& second = dynamic_cast<const Plot&>(*plots.all()[1].plot);
     for (const double value : {0.0, 0.3, 1.0}) EXPECT_EQ(first.y_of(value), second.y_of(value));
-    EXPECT_GT(second.y_of(0.9), second.y_of(1.0));  // not cut off where its own rows end
+    EXPECT_GT(second.y_of(0.9), second.y_of(1.0));  // the plot is not cut off at the end of its own rows
     for (const double time : {0.0, 0.7}) EXPECT_EQ(first.x_of(time), second.x_of(time));
 }
 
@@ -219,7 +220,7 @@ TEST(SideBySide, PlotsWithoutRoomAreLeftOut) {
     EXPECT_TRUE(small.places[0].plots.empty());
 }
 
-// What holds for all is said once; else each panel says its own.
+// Words that are true for all panels stand once; otherwise each panel has its own.
 TEST(SideBySide, TimeIsSaidOverEachPanelWhereItIsUnlike) {
     std::vector<Panel> panels = panels_of({scene_with(0.06, 1, 20), scene_with(0.06, 1, 25)});
     for (Panel& panel : panels) panel.playback = {"slow motion, 1/10 speed", "real time"};
@@ -289,7 +290,7 @@ TEST(SideBySide, ATooSmallPictureHasNoPlaces) {
                     .places.empty());
 }
 
-// In the middle of a container a ball of radius r is as wide as 2 r times the common scale, in each panel.
+// In the middle of each panel's container, a ball of radius r is as wide as 2 r times the common scale.
 TEST(SideBySide, OneScaleHoldsInAllPanels) {
     const std::vector<Panel> panels = panels_of({scene_with(0.075, 2), scene_with(0.05, 2)});
     SideBySide picture(panels, film_of(1280, 720), 1, gl::Provider::automatic);
@@ -392,13 +393,13 @@ TEST(SideBySide, OneRangeOfColoursHoldsInAllPanels) {
         EXPECT_EQ(panel.scene.film.shows.colour.unit, "cm/s");
     }
     panels = panels_of(scenes);
-    panels[0].scene.film.shows.colour.fixed = true;  // its own scene asks for it
+    panels[0].scene.film.shows.colour.fixed = true;  // the panel's own scene asks for it
     share_colours(panels);
     EXPECT_EQ(panels[1].scene.film.shows.colour.range[1], 0.1 + 0.2);
     EXPECT_EQ(panels[0].scene.film.shows.colour.range[1], 0.1);
 }
 
-// Grains fly higher at the stronger drive; the containers are alike.
+// Grains fly higher in the panel with the stronger drive; the containers are alike.
 TEST(SideBySide, PanelsFrameOneHeight) {
     std::vector<FilmedScene> scenes = {scene_with(0.06, 2), scene_with(0.06, 5)};
     for (FilmedScene& scene : scenes) {
@@ -409,7 +410,7 @@ TEST(SideBySide, PanelsFrameOneHeight) {
     ASSERT_LT(*estimated_reach(scenes[0]), *estimated_reach(scenes[1]));
     share_reach(panels);
     for (const Panel& panel : panels) EXPECT_EQ(framed_part(panel.scene).top, framed_part(scenes[1]).top);
-    panels[0].scene.film.camera.frame = CameraFrame::container;  // its own scene asks for it
+    panels[0].scene.film.camera.frame = CameraFrame::container;  // the panel's own scene asks for it
     panels[1].scene.film.camera.reach.reset();
     share_reach(panels);
     EXPECT_FALSE(panels[1].scene.film.camera.reach);

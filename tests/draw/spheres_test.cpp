@@ -1,4 +1,4 @@
-// Grains in the picture against geometry.
+// Tests of grains in the picture against geometry.
 #include <gtest/gtest.h>
 
 #include "render/scene/filmed_scene.hpp"
@@ -7,7 +7,7 @@
 namespace grainreel::test {
 namespace {
 
-// Where the silhouette of a sphere lies along one picture axis: the centre's direction, plus and minus the
+// The silhouette of a sphere along one picture axis: the direction of the centre, plus and minus the
 // half-angle asin(r / distance) in the plane of that axis and the line of sight.
 std::pair<double, double> silhouette(double c, double z, double r) {
     const double direction = std::atan2(c, z), half = std::asin(r / std::hypot(c, z));
@@ -21,7 +21,7 @@ void expect_silhouette(FilmedScene scene, Ball ball) {
     Renderer renderer(scene, 1);
     const Picture empty = renderer.draw(frame_of({}), "");
     const Picture picture = renderer.draw(frame_of({ball}), "");
-    // Black on nearly white: a border pixel counts when about half of it is covered.
+    // Black lies on nearly white: a border pixel counts if about half of it is covered.
     const Extent seen = changed(empty, picture, view.port, 0.5 * 3 * 235);
     const Vec3 from = ball.at - view.eye;
     const double x = from.dot(view.right), y = from.dot(view.up), z = from.dot(view.forward);
@@ -54,7 +54,7 @@ TEST(Spheres, TheFieldOfViewSpansThePicture) {
     EXPECT_NEAR(view_of(scene).focal, 0.5 * scene.film.height / std::tan(15 * pi / 180), 1e-9);
 }
 
-// Along the row through both centres, the place where two overlapping spheres are equally near.
+// In the row through both centres, finds the place where two overlapping spheres are equally near.
 TEST(Spheres, MeetAtTheirTrueIntersection) {
     FilmedScene scene = wedge(960, 540);
     scene.film.camera.field_of_view = 0;
@@ -66,7 +66,7 @@ TEST(Spheres, MeetAtTheirTrueIntersection) {
     Renderer renderer(scene, 1);
     const Picture& picture = renderer.draw(frame_of({near, far}), "");
 
-    const auto ahead = [&](double y) {  // how much nearer the first is; decreasing in y
+    const auto ahead = [&](double y) {  // how much nearer the first sphere is; it falls with y
         const auto front = [&](const Ball& b) {
             return b.at.x() + std::sqrt(r * r - std::pow(y - b.at.y(), 2));
         };
@@ -94,7 +94,7 @@ TEST(Spheres, TheNearerOneHidesTheFarther) {
     Renderer renderer(scene, 1);
     const Frame alone = frame_of({{at, 0.008, 1}});
     for (const bool first : {true, false}) {
-        // The order in the frame does not matter.
+        // The order of grains in the frame does not matter.
         const Ball front{at, 0.008, 1}, back{behind, 0.004, 0};
         const Picture both =
             renderer.draw(frame_of(first ? std::vector{front, back} : std::vector{back, front}), "");
@@ -126,7 +126,7 @@ TEST(Spheres, CrossingTheEyesPlaneDoesNotVanish) {
     Renderer renderer(scene, 1);
     const Picture empty = renderer.draw(frame_of({}), "");
     const int pixels = view.port.width * view.port.height;
-    // Just in front of the eye, reaching past it to the side, and around it.
+    // The sphere is just in front of the eye, reaches past it to the side, or is around it.
     const Vec3 ahead = view.eye + 0.06 * view.forward;
     EXPECT_EQ(changed(empty, renderer.draw(frame_of({{ahead, 0.05, 1}}), ""), view.port).count, pixels);
     const Vec3 beside = view.eye + 0.002 * view.forward + 0.06 * view.right;
@@ -137,7 +137,7 @@ TEST(Spheres, CrossingTheEyesPlaneDoesNotVanish) {
     EXPECT_EQ(changed(empty, renderer.draw(frame_of({{back, 0.05, 1}}), ""), view.port).count, 0);
 }
 
-// A disc of n pixels radius covers pi n^2 pixels, fractions counted: the edge is smooth and unbiased.
+// A disc of n pixels radius covers pi n^2 pixels, if fractions are counted: the edge is smooth and unbiased.
 TEST(Spheres, EdgesAreSmoothAndUnbiased) {
     FilmedScene scene = wedge();
     scene.film.camera.field_of_view = 0;

@@ -36,7 +36,7 @@ inline void add_species(FilmedScene& scene, const Grains& grains) {
     scene.colours.push_back(grains.colour);
 }
 
-// The scene has these and no others.
+// Gives the scene these species and no others.
 inline void set_species(FilmedScene& scene, const std::vector<Grains>& all) {
     scene.species.clear();
     scene.colours.clear();
@@ -87,8 +87,8 @@ inline View view_of(const FilmedScene& scene) {
     return frame_container(scene, plan_layout(scene));
 }
 
-// The pixels of the port that differ by `least` or more between two pictures: how many, and the box around
-// them from the port's corner.
+// The pixels of the port that differ by `least` or more between two pictures: their number, and the box
+// around them as seen from the port's corner.
 struct Extent {
     int count = 0;
     double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
@@ -124,7 +124,7 @@ inline Extent changed(const Picture& a, const Picture& b, const Rectangle& port,
     return extent;
 }
 
-// Degrees; 0 is red.
+// The hue in degrees; 0 is red.
 inline double hue(const std::uint8_t* p) {
     const double r = p[0], g = p[1], b = p[2];
     return std::atan2(std::sqrt(3.0) * (g - b), 2 * r - g - b) * 180 / pi;

@@ -1,4 +1,4 @@
-// Films without a background: their words read on any paper.
+// Tests of films without a background: their words can be read on any paper.
 #include <gtest/gtest.h>
 
 #include "engine/measure/measures.hpp"
@@ -35,8 +35,8 @@ Colour colour_at(const Picture& picture, int x, int y, const Colour& paper) {
     return mix(paper, {p[0] / 255.0, p[1] / 255.0, p[2] / 255.0}, p[3] / 255.0);
 }
 
-// Pixels of the part that are plain ink on the film's own background, and of these those that, on the paper,
-// have a pixel within `reach` with a contrast of 4.5 against them.
+// Number of pixels of the part that are plain ink on the film's own background; and the number of these that,
+// on the paper, have a pixel within `reach` with a contrast of 4.5 against them.
 struct Ink {
     int all = 0, read = 0;
 };

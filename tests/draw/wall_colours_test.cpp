@@ -1,5 +1,5 @@
-// Meshes that are coloured by what the grains do to them: the colours of triangles, and the bar that says
-// what they mean.
+// Tests of meshes that are coloured by what grains do to them: the colours of triangles, and the bar that
+// explains them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ struct Plate {
     }
 };
 
-// In the colours' own order, from the light end of bilbao to its dark one.
+// The colours go in their own order, from the light end of bilbao to its dark one.
 TEST(WallColours, GoByPowersOfTen) {
     FilmWalls walls;
     walls.colour = FilmWalls::Colour::pressure;
@@ -91,7 +91,8 @@ TEST(WallColours, TicksArePowersOfTen) {
     expect(power_ticks(3, 40, 6), {5, 10, 20});
 }
 
-// The bar's colour, at the lamp's full strength or as much darker as the side is turned away from it.
+// A triangle has the bar's colour under the full light of the lamp, or is darker by as much as it is turned
+// away from the lamp.
 TEST(WallColours, ATriangleHasTheColourOfItsPressure) {
     Plate plate;
     const ColourScale scale(plate.scene.film.look.walls);
@@ -107,7 +108,7 @@ TEST(WallColours, ATriangleHasTheColourOfItsPressure) {
         EXPECT_NEAR(seen[1], 255 * wanted.green * light, 2.5) << k;
         EXPECT_NEAR(seen[2], 255 * wanted.blue * light, 2.5) << k;
     }
-    // What is not known looks as walls do.
+    // If the pressure is not known, triangles look like other walls.
     Plate plain;
     plain.scene.film.look.walls = {};
     const Picture without = Renderer(plain.scene, 1).draw(plain.frame(pressure, {5, 5, 5, 5}), "");
@@ -131,11 +132,11 @@ TEST(WallColours, WearIsAnotherQuantityAndNothingFlickers) {
     EXPECT_EQ(
         clipped_words(plate.scene.film.look.walls, meshes.clipped()),
         "walls by wear: 25 % of the triangles lie above 1 kJ/m², where the bar ends (film.walls.range)");
-    meshes.colour_by(frame_of({}));  // of a moment whose wear is not known
+    meshes.colour_by(frame_of({}));  // the wear at that moment is not known
     EXPECT_EQ(meshes.at(frame_of({})).front().colours, nullptr);
 }
 
-// Two bars where grains are coloured too.
+// If grains are coloured too, there are two bars.
 TEST(WallColours, HaveABarOfTheirOwn) {
     Plate plate;
     const TypeScale type = type_scale(plate.scene.film);

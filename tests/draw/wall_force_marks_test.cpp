@@ -1,4 +1,4 @@
-// Arrows of forces on walls.
+// Tests of arrows that show forces on walls.
 #include "render/picture/marks/force_marks.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ TEST(PointOfAction, IsWhereAForceWithItsMomentCrossesTheWall) {
     wall.point = {0, 0.05, 0};
     wall.normal = Vec3(0, -1, 0.3).normalized();
     const Vec3 along = Vec3::UnitX(), up = wall.normal.cross(along);
-    // Contacts at two places of the wall: forces that are parallel act at the mean of their places.
+    // There are contacts at two places of the wall; parallel forces act at the mean of their places.
     const Vec3 one = wall.point + 0.01 * along + 0.02 * up, other = wall.point - 0.004 * along + 0.06 * up;
     const Vec3 force(0.1, 1, -0.4);
     const Vec3 moment = one.cross(force) + other.cross(2 * force);
@@ -53,7 +53,7 @@ TEST(WallForces, ArrowEndsWhereTheForceActs) {
     const Pixel tip = view.project(moved + acts);
     EXPECT_NEAR(0.5 * (seen.left + seen.right), tip.x(), 1);
     EXPECT_NEAR(seen.bottom, tip.y(), 6);  // the border and its mitre
-    // Half the scale's force: an eighth of the container's width.
+    // The force is half of the scale's force: an eighth of the container's width.
     EXPECT_NEAR(seen.bottom - seen.top, 0.15 / 8 * view.focal, 8);
     table->add({1, 0, 0, 2 * force.z(), 2 * moment.x(), 0, 0});  // the next row has twice the force
     const Extent next = drawn(2);

@@ -1,4 +1,5 @@
-// Walls that grains reach through, or that have grains on their far side, pixel by pixel against rays.
+// Tests of walls that grains reach through, or that have grains on their far side, pixel by pixel against
+// rays.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -33,7 +34,7 @@ double meet(const RayOfSight& ray, const FreeWall& wall) {
     return wall.normal.dot(wall.point - ray.from) / wall.normal.dot(ray.along);
 }
 
-// A plane in no container, leaning towards the eye or away from it, and a grain in the middle of it.
+// A plane without a container that leans towards the eye or away from it, and a grain in its middle.
 FilmedScene leaning_wall(double field_of_view, const Vec3& normal) {
     FilmedScene scene = wedge(960, 540);
     scene.container.shape = Container::Shape::none;
@@ -42,14 +43,14 @@ FilmedScene leaning_wall(double field_of_view, const Vec3& normal) {
     scene.film.words = WordPlace::gutters;
     scene.film.camera.azimuth = 20;
     scene.film.camera.elevation = 10;
-    if (field_of_view > 0) {  // where it stays when the wall is taken away
+    if (field_of_view > 0) {  // keeps the camera in its place when the wall is taken away
         scene.film.camera.target = Vec3(0, 0, 0.05);
         scene.film.camera.position = Vec3(0.2, 0.08, 0.09);
     }
     scene.film.look.style = FilmLook::Style::flat;  // no shine on black grains
     scene.film.look.occlusion = scene.film.look.shadows = false;
     add_species(scene, {"black", 1, 0.01, {0, 0, 0}});
-    scene.start.grains.resize(2);  // as far as these the wall is drawn
+    scene.start.grains.resize(2);  // the wall is drawn as far as these grains
     scene.start.grains[0].position = Vec3(-0.05, -0.05, 0);
     scene.start.grains[1].position = Vec3(0.05, 0.05, 0.1);
     FreeWall wall;
@@ -60,7 +61,7 @@ FilmedScene leaning_wall(double field_of_view, const Vec3& normal) {
 }
 const Ball kThrough{{-0.009, 0.002, 0.052}, 0.02, 2};
 
-// The share of each pixel's points whose line of sight meets `seen`, against what the picture shows of it.
+// Share of a pixel's points whose line of sight meets `seen`. It is compared with the picture.
 double share_of(const View& view, int x, int y, const std::function<bool(const RayOfSight&)>& seen) {
     constexpr int kFine = 8;
     int hits = 0;
@@ -85,7 +86,7 @@ void expect_cut_by_the_wall(const FilmedScene& scene, const std::function<bool(c
             worst = std::max(worst, std::abs(shown - expected));
         }
     ASSERT_GT(covered, 2000);
-    EXPECT_LT(worst, 0.26);  // of a pixel that eight points stand for
+    EXPECT_LT(worst, 0.26);  // of a pixel for which eight points stand
     EXPECT_LT(std::abs(wrong), 0.003 * covered);
 }
 
@@ -104,7 +105,7 @@ TEST(WallOrder, AWallHidesWhatACutLeaves) {
     scene.film.look.cut.normal = Vec3(0, 0, 1);
     scene.film.look.cut.at = 0.06;
     expect_cut_by_the_wall(scene, [&](const RayOfSight& ray) {
-        const double top = (0.06 - ray.from.z()) / ray.along.z();  // from there on there are grains
+        const double top = (0.06 - ray.from.z()) / ray.along.z();  // grains lie from there on
         const RayOfSight back{ray.from, -ray.along};
         const double enter = meet(ray, kThrough), leave = -meet(back, kThrough);
         return enter < kFar && leave > top && std::max(enter, top) < meet(ray, scene.walls[0]);

@@ -1,4 +1,5 @@
-// Which words a film has, what they say, and that what is left out leaves no hole.
+// Tests of the words that a film has: which there are, what they say, and that words that are left out leave
+// no hole.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -76,7 +77,7 @@ TEST(WordsShown, WithoutAnyTheGrainsHaveThePicture) {
     }
 }
 
-// Each kind by itself is there, and takes less room than all of them.
+// Each kind of words can stand alone, and takes less room than all of them.
 TEST(WordsShown, EachKindStandsAlone) {
     for (const auto& [width, height] : {std::pair{640, 360}, {360, 640}})
         for (const auto kind : every_kind) {
@@ -88,13 +89,13 @@ TEST(WordsShown, EachKindStandsAlone) {
             scene.film.word_kinds.*kind = true;
             Renderer with(scene, 1, gl::Provider::automatic);
             const bool upright = width < height;
-            // Upright pictures have arrows where they have something to do with the drive.
+            // Upright pictures have arrows if these have to do with the drive.
             EXPECT_NE(with.draw(flowing(), "as it is").rgba, nothing) << upright;
             EXPECT_GE(area(plan_layout(scene).port), all);
         }
 }
 
-// The marks beside the floor are explained among the arrows, and go with them.
+// The marks beside the floor are explained among the arrows, and are left out together with them.
 TEST(WordsShown, MarksBesideTheFloorGoWithTheArrows) {
     FilmedScene scene = wedge();
     EXPECT_EQ(lab_marks(scene, scene.film.camera.azimuth).size(), 2u);
@@ -140,7 +141,7 @@ TEST(WordsShown, TextsFollow) {
     EXPECT_EQ(playback_text(scene.film, frame, "slow"), "");
 }
 
-// While grains are still to come, nobody knows how many will have flowed out of how many.
+// While grains are still to come, nobody knows how many there will be in all.
 TEST(WordsShown, OutflowOfFedGrainsNamesNoTotal) {
     FilmedScene scene = with_all_words(640, 360);
     scene.species[0].fed = 300;
@@ -163,7 +164,7 @@ TEST(WordsShown, PanelsFollow) {
     EXPECT_GT(area(bare.places[0].port), area(all.places[0].port));
 }
 
-// A legend is higher by a line where a feed gives more than there are at the start.
+// A legend is higher by a line if a feed gives more grains than there are at the start.
 TEST(WordsShown, ALegendTellsFedGrainsFromThoseAtTheStart) {
     FilmedScene at_start = wedge(), fed = wedge(), both = wedge();
     fed.species[0].fed = fed.species[0].count;
@@ -195,7 +196,7 @@ TEST(WordsShown, ForcesOnWallsAndBetweenGrainsHaveUnlikeColours) {
     }
 }
 
-// Beyond 0 there is no speed, but upwards there is always more; a velocity has both signs.
+// A speed cannot be less than 0 but may always be larger; a velocity has both signs.
 TEST(WordsShown, ABarHasTipsWhereThereMayBeMore) {
     const TypeScale type = type_scale(wedge().film);
     const auto place = [&](GrainValue by, double low) {
@@ -223,7 +224,7 @@ TEST(WordsShown, ClippedGrainsAreCounted) {
     EXPECT_EQ(clipped_words(speed, {4, 0, 0}, "grains"), "");
 }
 
-// A private-use letter is in no font.
+// A letter for private use is in no font.
 TEST(WordsShown, LettersWithoutAFontAreNamed) {
     const std::string nowhere = "\xf3\xb0\x80\x81";  // U+F0001
     EXPECT_TRUE(missing_letters("Big and small, Γ = 3, µm").empty());
@@ -250,7 +251,7 @@ TEST(WordsShown, LettersWithoutAFontAreNamed) {
     EXPECT_TRUE(texts_of_film(scene).empty());
 }
 
-// Grains are as they are down to the floor, and gone where they leave.
+// Grains look the same down to the floor, and are gone where they leave.
 TEST(WordsShown, GrainsFadeBeforeTheyLeave) {
     FilmedScene scene = wedge(640, 360);
     const View view = view_of(scene);
