@@ -18,11 +18,11 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kRestsBelow = 1e-4;     // m g d, mean kinetic energy of a grain
-constexpr double kNobodyAbove = 0.05;    // m g d
-constexpr double kFewestTouching = 0.5;  // of the grains
+constexpr double kRestsBelow = 1e-4;     // in m g d: mean kinetic energy of a grain
+constexpr double kNobodyAbove = 0.05;    // in m g d: kinetic energy of a single grain
+constexpr double kFewestTouching = 0.5;  // share of the grains
 
-// Springs without anything else: their contacts are only looked at.
+// A plan with springs alone: the contacts are only looked at.
 Plan plan_to_look(const Scene& scene) {
     PairPlan spring;
     spring.model.normal = NormalForce::spring_dashpot;
@@ -46,7 +46,7 @@ double effective_radius(const BedInFile& bed, const Surroundings& around, const 
     return first * second / (first + second);
 }
 
-// Puts the grains in another order.
+// Finds all overlaps of the bed. The grains are in another order afterwards.
 void find_overlaps(const Scene& scene, BedInFile& bed) {
     const Plan plan = plan_to_look(scene);
     Surroundings around = make_surroundings(scene, plan);
@@ -61,7 +61,7 @@ void find_overlaps(const Scene& scene, BedInFile& bed) {
     });
 }
 
-// Grains of another order than when they were read.
+// The share of grains that touch something. The grains may be in any order.
 double share_touching(const BedInFile& bed) {
     std::vector<bool> touches(bed.grains.size(), false);
     for (const BedInFile::Overlap& overlap : bed.overlaps) {
@@ -77,7 +77,7 @@ bool same_face(const Face& one, const Face& other) {
            one.radius == other.radius;
 }
 
-// Whether the faces that grains touched in the run they are from are still there.
+// Whether the faces that grains touched in the file's run are still there.
 bool faces_stay(const std::vector<Face>& before, const std::vector<Face>& now, const Grains& grains) {
     return std::all_of(before.begin(), before.end(), [&](const Face& face) {
         const auto touches = [&](const Place& p) {
@@ -165,7 +165,8 @@ void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts&
         return wall < faces ? scene.contact.wall[first]
                             : scene.contact.mesh[(wall - faces) * count_of_species + first];
     };
-    // Forces over stiffness, times what they carry: of linear contacts, and of all as if they were linear.
+    // Sums of forces over stiffness, times what they carry: of linear contacts, of Hertz' contacts, and of
+    // Hertz' contacts as if they were linear.
     double linear = 0, hertz = 0, hertz_as_linear = 0, depths = 0, radii = 0, count = 0;
     for (const BedInFile::Overlap& o : bed.overlaps) {
         const auto first = static_cast<std::size_t>(bed.grains.species[o.first]);
@@ -194,7 +195,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where container and clock of another run have a grain, up to rounding.
+// Whether two grains are the same, up to rounding, where the container of the other run is displaced by
+// `offset`.
 bool same_grain(const Grains& one, std::size_t i, const Grains& other, std::size_t j, const Vec3& offset) {
     constexpr double kRounding = 1e-9;  // over the radius
     const Place &here = one.place[i], &there = other.place[j];
@@ -237,7 +239,8 @@ std::optional<StartOrigin> origin_of(const fs::path& checkpoint) {
                                {"start.keep_clock=true", name}};
         StartOrigin origin;
         origin.scene = read_scene_text(label->scene, checkpoint, sets, measurable_in);
-        // How its grains came to be is not known; in a container they fell, as the plan takes it.
+        // The file does not tell how its grains came to be; in a container the plan takes it that they
+        // fell.
         if (origin.scene.container.shape != Container::Shape::none) origin.scene.start = {};
         origin.plan = make_plan(origin.scene, StartFacts());
         origin.around = make_surroundings(origin.scene, origin.plan);
@@ -255,7 +258,7 @@ std::optional<StartOrigin> origin_beside(const Scene& scene, const Grains& grain
     try {
         Scene there = scene;
         there.start.file = checkpoint.string();
-        // The table has its grains where they were in the laboratory.
+        // The table has places in the laboratory, the checkpoint in the container at rest.
         if (!same_grains(grains, grains_from_checkpoint(there), label->wall_offset)) return std::nullopt;
     } catch (const UserError&) {
         return std::nullopt;
@@ -268,7 +271,7 @@ bool act_alike(const PairPlan& one, const PairPlan& other) {
     if (a.normal != b.normal || a.tangential != b.tangential || a.own != b.own) return false;
     if (a.normal == NormalForce::hertz)
         return one.modulus == other.modulus && one.tangential_ratio == other.tangential_ratio;
-    // Where the restitution depends on speed, the plan's unloading stiffness is only that of one speed.
+    // Where the restitution depends on speed, the plan's unloading stiffness holds at one speed only.
     const bool by_speed = one.hardening > 0 || !one.restitution_table.empty();
     return one.loading_stiffness == other.loading_stiffness &&
            (by_speed || one.unloading_stiffness == other.unloading_stiffness) &&

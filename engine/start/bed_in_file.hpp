@@ -1,4 +1,4 @@
-// The bed that a start file holds: whether it rests, and what its overlaps say of stiffness.
+// The bed that a start file holds: whether it rests, and what its overlaps say about stiffness.
 #pragma once
 
 #include <filesystem>
@@ -15,33 +15,34 @@
 
 namespace grainreel {
 
-// The run that a start file is from: what its checkpoint says of scene, laws and moment.
+// The run that a start file comes from: what its checkpoint tells of scene, laws and moment.
 
 struct StartOrigin {
-    Scene scene;  // as it was used
-    Plan plan;    // its laws, and the speed of its impacts
+    Scene scene;  // as that run used it
+    Plan plan;    // the laws of that run, and the speed of its impacts
     Surroundings around;
     std::int64_t step = 0;
-    // Whether its container, or a part of it, had moved from its rest position or was moving.
+    // Whether that run's container, or a part of it, was moving or away from its rest position.
     bool walls_moved() const;
     WallParts parts() const { return parts_of(around); }
 };
 
-// The origin that a checkpoint tells. None where it tells none, or one that this program does not understand.
+// Reads the origin from a checkpoint. None where the checkpoint has none, or one that this program does not
+// understand.
 std::optional<StartOrigin> origin_of(const std::filesystem::path& checkpoint);
 
-// The origin of a final.csv is that of the checkpoint beside it, if that has the same grains at the same
-// places (those of `grains`, numbered without gaps).
+// The origin of a final.csv: that of the checkpoint beside it, if this has the same grains at the same
+// places. `grains` are those of the table, numbered without gaps.
 std::optional<StartOrigin> origin_beside(const Scene& scene, const Grains& grains);
 
-// Whether contacts of both kinds have the same forces for the same history, as far as a bed at rest feels it:
-// law and stiffness. (How much is lost in an impact may differ, and so may friction.)
+// Whether contacts of both kinds have the same forces for the same history, as far as a bed at rest feels
+// it: the same law and stiffness. Restitution and friction may differ.
 bool act_alike(const PairPlan& one, const PairPlan& other);
 
 bool same_glued_grains(const GluedGrains& one, const GluedGrains& other);
 
 struct BedInFile {
-    bool of_checkpoint = false;  // which has histories of contacts
+    bool of_checkpoint = false;  // a checkpoint, which has histories of contacts
     Grains grains;               // as the run will take them
     std::optional<StartOrigin> origin;
 
@@ -52,25 +53,26 @@ struct BedInFile {
         bool glued;      // at a grain that is glued to this face
         double depth;    // m
         double radius;   // m, effective
-        double carries;  // m: how much of the weights' moment a force of 1 N at this contact carries
+        double carries;  // m: the part of moment_of_weights that a force of 1 N at this contact carries
     };
     std::vector<Overlap> overlaps;
     double moment_of_weights = 0;  // J
 
-    // What keeps the bed from resting in this scene; empty when it rests. At rest means: a mean kinetic
-    // energy a grain of at most 1e-4 m g d, none above 0.05 m g d, at least every other grain touches
-    // something, and gravity and what is touched are those of the run that the file is from, as far as it is
-    // known.
+    // Says what keeps the bed from resting in this scene; empty when it rests. A bed rests when the mean
+    // kinetic energy of a grain is at most 1e-4 m g d, no grain has more than 0.05 m g d, at least half of
+    // the grains touch something, and gravity and all that is touched are as in the file's run, as far as
+    // that is known.
     std::string moves_because;
-    double fastest = 0;  // m/s
-    double falls = 0;    // m/s, that a grain may have when it has fallen to the lowest one
+    double fastest = 0;  // m/s, speed of the fastest grain
+    double falls = 0;    // m/s, the speed a grain may have when it has fallen to the lowest one
 };
 
-// Throws UserError where the file cannot be read or has grains that cannot be.
+// Throws UserError where the file cannot be read, or where its grains are impossible.
 BedInFile bed_in_file(const Scene& scene);
 
-// Sets `linear` and `modulus` of the facts: with this stiffness the bed's overlaps carry its weight. They are
-// the same for all contacts of linear laws and of Hertz that have none in the scene (weight_moments.hpp).
+// Sets `linear` and `modulus` of the facts: the stiffness with which the bed's overlaps carry its weight.
+// There is one value for all linear contacts, and one for all Hertz contacts, that have no stiffness in the
+// scene (WeightMoments in held_histories.hpp).
 void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts& facts);
 
 }  // namespace grainreel

@@ -17,8 +17,8 @@ namespace {
 
 enum class Sort : std::uint8_t { pair, wall, glued, mesh };
 
-// Names two bodies: by the ids of two grains, or by a grain's id and the number of a face, of a glued grain
-// or of a mesh.
+// Names the two bodies of a contact: two ids of grains, or a grain's id and the number of a face, of a
+// glued grain or of a mesh.
 struct Bodies {
     std::int32_t first, second;
     Sort sort;
@@ -32,8 +32,8 @@ struct HashOfBodies {
 };
 
 struct Held {
-    std::int32_t group, at;  // of the origin's rules; in its list
-    bool turned;             // the bodies stand the other way round
+    std::int32_t group, at;  // group of the origin's rules, and place in its list
+    bool turned;             // the two bodies are in the other order
 };
 
 Sort sort_of(const ContactGroup& group) {
@@ -41,7 +41,7 @@ Sort sort_of(const ContactGroup& group) {
     return group.of_glued ? Sort::glued : group.of_mesh ? Sort::mesh : Sort::wall;
 }
 
-// The number that each face of the origin has here, by its name; -1 for none.
+// For each face of the origin, the number of the face of that name here; -1 for none.
 std::vector<std::int32_t> faces_here(const std::vector<Face>& there, const std::vector<Face>& here) {
     std::vector<std::int32_t> number;
     for (const Face& face : there) {
@@ -52,7 +52,7 @@ std::vector<std::int32_t> faces_here(const std::vector<Face>& there, const std::
     return number;
 }
 
-// The number that each mesh of the origin has here, by its name, content and place; -1 for none.
+// For each mesh of the origin, the number of the mesh here with its name, content and place; -1 for none.
 std::vector<std::int32_t> meshes_here(const std::vector<MeshWall>& there, const std::vector<MeshWall>& here) {
     std::vector<std::int32_t> number;
     for (const MeshWall& mesh : there) {
@@ -77,7 +77,7 @@ class HeldHistories {
           same_glued_(same_glued_grains(around.glued, origin.around.glued)),
           mesh_(meshes_here(origin.around.meshes, around.meshes)),
           kept_(contacts_from_checkpoint(scene, rules_there_, origin.parts())) {
-        // In the checkpoint's own order, which its contacts count by.
+        // Ids in the checkpoint's own order, by which its contacts count.
         const std::vector<std::int32_t> id = grains_from_checkpoint(scene).id;
         const std::vector<std::int32_t> face = faces_here(origin.around.faces, around.faces);
         for (std::size_t g = 0; g < kept_.size(); ++g)
@@ -92,7 +92,8 @@ class HeldHistories {
         if (found == held_.end() || !acts_alike(group, first, second)) return false;
         const ContactGroup& there = rules_there_.groups[found->second.group];
         if (group.law->history_size != there.law->history_size) return false;
-        // What a patch of a mesh remembers behind the numbers of its laws stays as it is here.
+        // A contact with a patch of a mesh has more numbers behind those of its law; these stay as they are
+        // here.
         const int size = there.law_size();
         const double* from = kept_[found->second.group].history.data() +
                              static_cast<std::ptrdiff_t>(found->second.at) * there.history_size();
@@ -106,7 +107,7 @@ class HeldHistories {
   private:
     void note(std::size_t g, std::size_t c, const std::vector<std::int32_t>& id,
               const std::vector<std::int32_t>& face) {
-        if (kept_[g].tag[c] < 0) return;  // it has parted
+        if (kept_[g].tag[c] < 0) return;  // this contact has ended
         const Sort sort = sort_of(rules_there_.groups[g]);
         const std::int32_t first = id[kept_[g].first[c]], second = kept_[g].second[c];
         const auto group = static_cast<std::int32_t>(g), at = static_cast<std::int32_t>(c);
@@ -145,9 +146,9 @@ class HeldHistories {
     const Grains& grains_;
     const ContactRules rules_, rules_there_;
     const bool same_glued_;
-    const std::vector<std::int32_t> mesh_;  // the number here of each mesh of the origin; -1 for none
-    std::vector<Bodies>
-        in_several_places_;  // grains that touch a mesh so: which history is whose is not known
+    const std::vector<std::int32_t> mesh_;   // the number here of each mesh of the origin; -1 for none
+    std::vector<Bodies> in_several_places_;  // pairs of a grain and a mesh with several contacts: no history
+                                             // can be told from the others
     const std::vector<KeptContacts> kept_;
     std::unordered_map<Bodies, Held, HashOfBodies> held_;
 };
@@ -194,10 +195,10 @@ bool acts_alike_in(const Plan& other, const Plan& one, const PairPlan& pair) {
 
 namespace {
 
-// Index of a grain; of the other grain, of the face, of the glued grain or of the mesh; and the group's sort.
+// Index of a grain; index of its partner (grain, face, glued grain or mesh); number of the sort of partner.
 using BodyKey = std::tuple<std::int32_t, std::int32_t, int>;
 
-// Number of the wall among the meshes; below 0 for a face.
+// Number of the mesh that this wall is; below 0 for a face.
 std::int32_t mesh_of(const ContactView& c, const Surroundings& around) {
     return -1 - c.second - static_cast<std::int32_t>(around.faces.size());
 }
@@ -227,7 +228,7 @@ bool latches(const PairPlan& pair) {
            pair.model.own == nullptr && pair.unloading_stiffness > pair.loading_stiffness;
 }
 
-// Straight lines between the rows, constant beyond.
+// The restitution at a speed, by straight lines between the rows, constant beyond the ends.
 double restitution_at(const std::vector<RestitutionPoint>& table, double speed) {
     const auto above =
         std::find_if(table.begin(), table.end(), [&](const auto& p) { return p.speed > speed; });
@@ -238,7 +239,7 @@ double restitution_at(const std::vector<RestitutionPoint>& table, double speed) 
            (speed - below.speed) / (above->speed - below.speed) * (above->restitution - below.restitution);
 }
 
-// N/m, K2 of a contact whose largest overlap was this one, of grains with the pair's effective mass.
+// K2 (N/m) of a contact whose largest overlap was `largest`, between grains of the pair's effective mass.
 double unloading(const PairPlan& pair, double largest) {
     const double k1 = pair.loading_stiffness;
     if (pair.hardening > 0) return k1 * (1 + pair.hardening * largest);
@@ -247,7 +248,7 @@ double unloading(const PairPlan& pair, double largest) {
     return k1 / (e * e);
 }
 
-// m: the largest overlap that leaves a contact of this overlap so large a share of its force; by halves.
+// The largest overlap (m) that leaves a contact of this overlap this share of its force; found by halving.
 double latched(const PairPlan& pair, double overlap, double share) {
     const double k1 = pair.loading_stiffness, wanted = share * k1 * overlap;
     const auto force = [&](double largest) {
@@ -280,7 +281,8 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
         }
         there += carried;
         const auto [known, added] = fresh.insert({bodies_of(c, around), {&pair, c.overlap}});
-        // A grain may touch a mesh in several places, which cannot be told apart below: the shallower counts.
+        // A grain may touch a mesh in several places, which cannot be told apart below; the smallest
+        // overlap is kept.
         if (!added) known->second.overlap = std::min(known->second.overlap, c.overlap);
     });
     if (!(there > wanted)) return;
@@ -292,7 +294,7 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
         if (found == fresh.end()) return false;
         const PairPlan& pair = *found->second.pair;
         std::fill_n(to, group.history_size(), 0.0);
-        to[0] = latched(pair, found->second.overlap, share);  // a_max, which all of them have first
+        to[0] = latched(pair, found->second.overlap, share);  // a_max, the first number of each such history
         if (pair.model.normal == NormalForce::walton_braun_corrected) to[2] = 1 / pair.unloading_stiffness;
         return true;
     });
@@ -309,7 +311,7 @@ WeightMoments::WeightMoments(const Vec3& gravity, const Grains& grains) : grains
 double WeightMoments::carried(const ContactView& contact) const {
     const Place& first = grains_.place[contact.first];
     const double along = up_.dot(contact.normal);
-    // On the first body the force points against the normal.
+    // The force on the first body points against the normal.
     if (contact.second < 0) return -along * height(first.position);
     return along * along * (first.radius + grains_.place[contact.second].radius - contact.overlap);
 }

@@ -1,4 +1,5 @@
-// Histories of contacts that a run takes over from the checkpoint it starts anew from.
+// Histories of contacts that a run takes over from the checkpoint it starts from, and histories in place of
+// lost ones.
 #pragma once
 
 #include <functional>
@@ -13,19 +14,19 @@
 
 namespace grainreel {
 
-// The loop has been restarted with the grains of the scene's start file, a checkpoint. Contacts that touch
-// now and did so then go on with their histories, where they follow the same law. Throws UserError where the
-// checkpoint is damaged.
+// Gives contacts that touch now, and touched in the checkpoint too, their histories from there if they
+// follow the same law. The loop has been restarted with the grains of the scene's start file, which is a
+// checkpoint. Throws UserError where the checkpoint is damaged.
 void take_histories(const Scene& scene, const Plan& plan, const Surroundings& around,
                     const StartOrigin& origin, const Grains& grains, StepLoop& loop);
 
-// Whether all contacts of both plans, of so many species, act alike; or any of them.
+// Whether all contacts act alike in both plans, which have as many species; and whether any do.
 bool all_act_alike(const Plan& one, const Plan& other);
 bool any_act_alike(const Plan& one, const Plan& other);
-// Whether the same kind of contact acts alike in `other`; `pair` is one of `one`.
+// Whether this kind of contact acts alike in `other`; `pair` belongs to `one`.
 bool acts_alike_in(const Plan& other, const Plan& one, const PairPlan& pair);
 
-// Latches of contacts whose history is lost, where a bed rests.
+// Latches for contacts whose history is lost, in a bed at rest.
 
 // A bed that Walton and Braun's law has brought to rest lies on overlaps that impacts have left: with fresh
 // contacts it would push as hard as in these impacts. So each fresh contact gets the largest overlap a_max
@@ -33,23 +34,23 @@ bool acts_alike_in(const Plan& other, const Plan& one, const PairPlan& pair);
 //
 //   K1 a_max - K2 (a_max - a) = s K1 a,
 //
-// with the one s, at most 1, for which all contacts together carry the bed's weight. is_fresh says it of a
-// kind of contact. The loop has been restarted.
+// with one s, at most 1, for all contacts, so that together they carry the bed's weight. is_fresh says
+// which kinds of contact are fresh. The loop has been restarted.
 void set_latches(const Plan& plan, const Surroundings& around, const Grains& grains,
                  const std::function<bool(const PairPlan&)>& is_fresh, StepLoop& loop);
 
-// Which contacts carry the weight of a bed at rest: the virial theorem (Love 1927, Mathematical Theory of
-// Elasticity, note B). The forces on a grain add up to zero. Each force times the grain's height, summed over
-// all grains: the moments of all contact forces, force times height difference, are those of the weights.
-// Friction, which carries the smaller part, is left out.
+// How much of the weight of a bed at rest each contact carries, by the virial theorem (Love 1927,
+// Mathematical Theory of Elasticity, note B). The forces on a grain add up to zero. Multiplied by the
+// grain's height and summed over all grains, they give: the moments of all contact forces (force times
+// height difference) equal those of the weights. Friction, which carries the smaller part, is left out.
 
 class WeightMoments {
   public:
     WeightMoments(const Vec3& gravity, const Grains& grains);
-    double of_weights() const { return of_weights_; }  // J
-    // m: how much of it a normal force of 1 N at this contact carries.
+    double of_weights() const { return of_weights_; }  // J, sum of weight times height
+    // How much of that sum a normal force of 1 N at this contact carries (m).
     double carried(const ContactView& contact) const;
-    // m, above the lowest point of any grain.
+    // Height above the lowest point of any grain (m).
     double height(const Vec3& place) const { return up_.dot(place) - lowest_; }
 
   private:

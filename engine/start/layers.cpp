@@ -19,11 +19,11 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kLooseFraction = 1.0 / 3;  // solid share of the space the centres are drawn in
+constexpr double kLooseFraction = 1.0 / 3;  // solid share of the space in which centres are drawn
 
-constexpr int kMostDraws = 1000;  // of a place outside all glued grains, which may cover a thin layer
+constexpr int kMostDraws = 1000;  // draws of a place outside all glued grains, which may cover a thin layer
 
-// The free space, less the glued grains.
+// The space where centres may be drawn: the free space without the glued grains.
 class Room {
   public:
     explicit Room(const Scene& scene)
@@ -48,7 +48,7 @@ class Room {
     const FreeSpace space;
 
   private:
-    // A mesh or a region may leave nothing but narrow places.
+    // The margin after so many draws: a mesh or a region may leave nothing but narrow places.
     double narrower(double margin, int draws) const {
         if (draws < kMostDraws * kMostDraws) return 0.5 * margin;
         throw UserError(fmt::format(
@@ -64,7 +64,7 @@ class Room {
     }
 
     const bool simple_;        // no mesh and no region: every layer has room
-    const std::string place_;  // in the scene, for messages
+    const std::string place_;  // place in the scene, for messages
     const std::vector<Face> faces_;
     const GluedGrains glued_;
     const GluedSearch search_;
@@ -108,7 +108,8 @@ Grains place_in_layers(const Scene& scene) {
         const Species& species = scene.species[s];
         for (std::int64_t k = 0; k < species.count; ++k) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
-            const double off = scene.meshes.empty() ? 0.25 : 0.5;  // a sheet does not push back from beyond
+            const double off =
+                scene.meshes.empty() ? 0.25 : 0.5;  // a sheet does not push grains back that are beyond it
             const double margin = std::min(off * radius, 0.25 * (top[s] - bottom[s]));
             const Vec3 centre = room.random_centre(bottom[s], top[s], margin, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);
@@ -119,8 +120,9 @@ Grains place_in_layers(const Scene& scene) {
 
 namespace {
 
-constexpr double kInflation = 1 + 1e-4;  // grains grow a little beyond, then shrink back clear of each other
-constexpr double kFirstShare = 0.5;      // of the gap to the nearest neighbour, for the first radii
+constexpr double kInflation =
+    1 + 1e-4;  // grains grow a little too large, then shrink back and are clear of each other
+constexpr double kFirstShare = 0.5;  // share of the gap to the nearest neighbour, for the first radii
 constexpr double kGrowthPerCycle = 0.02;
 constexpr int kStepsPerCycle = 40;
 constexpr std::int64_t kMostCycles = 5000;
@@ -140,7 +142,7 @@ Plan growth_plan(const Plan& plan) {
     return growth;
 }
 
-// s: a stable step for the stiff, plastic contacts (physics of Verlet, dt < 2/w; here with twelve contacts).
+// A stable step (s) for the stiff, plastic contacts (Verlet, dt < 2/w, with twelve contacts a grain).
 double growth_step(const Plan& growth, const Grains& grains) {
     double stiffest = 0;
     for (const auto* table : {&growth.grain, &growth.wall, &growth.glued, &growth.mesh}) {
@@ -155,7 +157,7 @@ struct Growing {
     const Scene& scene;
     const Surroundings& around;
     Grains& grains;
-    std::vector<double> wanted;  // by id: m
+    std::vector<double> wanted;  // m, by id
 
     double wanted_of(std::size_t i) const { return wanted[grains.id[i]]; }
     void set_radius(std::size_t i, double r) {
@@ -163,7 +165,8 @@ struct Growing {
     }
 };
 
-// First radii: a share of the gap to the nearest neighbour, split as the wanted radii are, and of the walls'.
+// Sets the first radii: a share of the gap to the nearest neighbour, divided between the two in proportion
+// to their wanted radii, or a share of the gap to a wall.
 void first_radii(Growing& g, double reach) {
     Team alone(1);
     Cells cells;
@@ -203,7 +206,7 @@ void first_radii(Growing& g, double reach) {
     for (std::size_t i = 0; i < allowed.size(); ++i) g.set_radius(i, allowed[i]);
 }
 
-// Largest overlap over the smaller wanted radius.
+// The largest overlap, over the smaller wanted radius.
 double largest_overlap(const StepLoop& loop) {
     double largest = 0;
     loop.visit_contacts(
@@ -226,8 +229,9 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
 
     StepLoop loop(growth, still, grains, team);
     GrowthReport report;
-    // Small grains are light, and with the step of full ones those that overlap fly. Planes push them back
-    // from beyond, but a sheet of triangles does not.
+    // Small grains are light: with the step of grains of full size they would fly apart when they overlap.
+    // Planes push such grains back from beyond, but a sheet of triangles does not, so with meshes the step
+    // follows the masses.
     const bool by_mass_now = !still.meshes.empty();
     for (;; ++report.cycles) {
         double smallest_share = 1;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kFarSideways = 10;  // times the box of the grains at the start
 constexpr int kLooksDown = 200;      // at most, along a fall
 
-// Where grains can be, at most: a ball (m), and the same ball further down.
+// Where grains can be at most: a ball (m), and the same ball moved down by `fall`.
 struct Reach {
     Vec3 centre{0, 0, 0};
     double radius = 0;
@@ -46,7 +46,7 @@ Extent box_of_grains(const Scene& scene) {
     return box;
 }
 
-// m/s, of grains as they come.
+// Speed (m/s) of the fastest grains when they come into the scene.
 double fastest_given(const Scene& scene) {
     double fastest = 0;
     for (const Feed& feed : scene.feeds) fastest = std::max(fastest, feed.velocity.norm());
@@ -70,7 +70,8 @@ Reach reach_of(const Scene& scene) {
     return reach;
 }
 
-// The reach is moved into the body's frame, where the surface is at rest. more: m, for between two moments.
+// Whether a reach is near a surface. The reach is moved into the body's frame, where the surface is at
+// rest. `more` (m) widens it for the motion between two moments.
 bool is_near(const Surface& surface, const BodyPose& pose, const Reach& reach, double more) {
     const double radius = reach.radius + more;
     const int looks = static_cast<int>(std::min<double>(kLooksDown, std::ceil(reach.fall / radius)));
@@ -90,7 +91,8 @@ bool is_ever_near(const Scene& scene, const Plan& plan, const Body& body, const 
     });
 }
 
-// Where a grain of this radius would touch or lie in the mesh; a grid over the box.
+// A place where a grain of this radius would touch the mesh or lie in it, looked for on a grid over the
+// feed's box.
 std::optional<Vec3> touching_place(const Feed& feed, const SceneMesh& mesh, double radius) {
     constexpr int places = 11;  // along each axis
     for (int at = 0; at < places * places * places; ++at) {
@@ -126,7 +128,7 @@ void check_meshes_near(const Scene& scene, const Plan& plan) {
     }
 }
 
-// A feed uses only the room of a vessel (Feeder).
+// Checks feeds against meshes. Of a vessel a feed uses only the room inside (Feeder).
 void check_feed_boxes(const Scene& scene) {
     for (std::size_t k = 0; k < scene.feeds.size(); ++k) {
         const Feed& feed = scene.feeds[k];

@@ -15,13 +15,15 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kDeep = 0.01;      // of the smallest extent, from which on a crossing counts
-constexpr double kElsewhere = 0.1;  // of the smaller mesh's largest extent: farther from those at rest
-constexpr std::int64_t kMostTriangles = 200'000;  // of both meshes; nobody waits for more
-constexpr std::int64_t kMostLooks = 400'000;      // of edges, at all moments; then some are left out
-constexpr std::size_t kMostKept = 2'000;          // places where edges cross at rest
+constexpr double kDeep = 0.01;  // of the smallest extent: a less deep crossing does not count
+constexpr double kElsewhere =
+    0.1;  // of the smaller mesh's largest extent: crossings farther from all those at rest are new
+constexpr std::int64_t kMostTriangles = 200'000;  // of both meshes; more would take too long
+constexpr std::int64_t kMostLooks =
+    400'000;  // at edges, over all moments; if there are more, some edges are left out
+constexpr std::size_t kMostKept = 2'000;  // places where edges cross at rest
 
-// m: of those that are no rounding of a flat mesh.
+// The smallest extent (m) that is not just rounding of a flat mesh.
 double smallest_extent(const Surface& surface) {
     const Vec3 size = surface.facts().high - surface.facts().low;
     double smallest = size.maxCoeff();
@@ -49,7 +51,7 @@ struct Paths {
         return all;
     }
 
-    // The key of what moves the first of two, or else the second.
+    // The key of what moves this mesh, for messages.
     std::string motion_key(std::size_t mesh) const {
         const SceneMesh& m = scene.meshes[mesh];
         return fmt::format("mesh[{}]{}", mesh, m.turn ? ".turn" : m.path ? ".path" : "");
@@ -64,7 +66,8 @@ std::string moment_text(const Paths& paths, const Body& body, std::int64_t step)
     return text;
 }
 
-// Against faces. A corner counts that stands before all faces of the container (or before the plane) at rest.
+// Checks corners against faces. A corner counts if it stands before all faces of the container (or before
+// the plane) at rest.
 class BeforeFaces {
   public:
     BeforeFaces(const Paths& paths, std::size_t mesh)
@@ -84,7 +87,7 @@ class BeforeFaces {
     }
 
   private:
-    // Grains leave through it, and so may a mesh.
+    // Whether the outlet opens this face: grains leave through it, and so may a mesh.
     bool is_open(const Face& face) const {
         return paths_.scene.container.outlet && face.body.number == kFloorBody;
     }
@@ -124,7 +127,7 @@ class BeforeFaces {
 
 using Edge = std::array<std::int32_t, 2>;
 
-// Each edge once.
+// All edges of a surface, each once.
 std::vector<Edge> edges_of(const Surface& surface) {
     std::vector<Edge> edges;
     for (std::int32_t t = 0; t < surface.size(); ++t) {
@@ -142,7 +145,7 @@ double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
     return (point - a - share * along).norm();
 }
 
-// Edges of one mesh against the triangles of another.
+// Checks edges of one mesh against the triangles of another.
 class Crossings {
   public:
     Crossings(const Paths& paths, std::size_t one, std::size_t other)
@@ -194,7 +197,7 @@ class Crossings {
     }
 
     std::optional<Vec3> crossing(const Vec3& a, const Vec3& b) const {
-        constexpr int kMostTouches = 4;  // passed over, along one edge
+        constexpr int kMostTouches = 4;  // touches that are passed over along one edge
         const double length = (b - a).norm();
         if (length <= 2 * deep_) return {};
         const Vec3 along = (b - a) / length;
@@ -226,7 +229,7 @@ class Crossings {
     const double deep_, elsewhere_;  // m
     const std::vector<Edge> edges_;
     const std::vector<std::int64_t> moments_;
-    std::size_t stride_ = 1;  // over edges
+    std::size_t stride_ = 1;  // every how many edges one is checked
 };
 
 void check_pair(const Paths& paths, std::size_t one, std::size_t other, Plan& plan) {
@@ -269,7 +272,7 @@ void check_mesh_paths(const Scene& scene, Plan& plan) {
 
 namespace {
 
-// s: when it has turned by so much (rad), or `end`.
+// The time (s) when the body has turned by this angle (rad), or `end` if that is earlier.
 double time_of_angle(const BodyTurn& turn, double angle, double end) {
     if (std::abs(turn.angle_at(end)) <= angle) return end;
     double low = 0, high = end;

@@ -18,7 +18,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kPoured = 0.5;  // solid share of a bed that grains still fall on
+constexpr double kPoured = 0.5;  // solid share of a bed while grains still fall on it
 
 // The grains to come, in a random order of species.
 class Cloud {
@@ -31,7 +31,7 @@ class Cloud {
             left_.push_back(species.count), all_left_ += species.count;
     }
 
-    // Its place is still to be found.
+    // Returns the next grain; its place is still to be found.
     NewGrain next() {
         auto drawn = static_cast<std::int64_t>(order_.uniform() * static_cast<double>(all_left_--));
         std::size_t s = 0;
@@ -51,7 +51,7 @@ class Cloud {
     std::int64_t all_left_ = 0;
 };
 
-// Where grains appear once so much solid volume (m3) has come.
+// The box in which grains appear once so much solid volume (m3) has come.
 class RisingLayer {
   public:
     explicit RisingLayer(const Scene& scene)
@@ -61,7 +61,8 @@ class RisingLayer {
           box_(fits_box_ ? extent_of(scene) : Extent{space_.low(), space_.high()}),
           lowest_(fits_box_ ? 0 : box_.low.z()) {}
 
-    // Elsewhere grains would lie outside, though they touch nothing.
+    // A condition on places, where the box is larger than the room: grains outside may touch nothing and
+    // yet be wrong.
     std::function<bool(const Vec3&)> where() const {
         if (fits_box_) return {};
         return [this](const Vec3& place) { return space_.holds(place, 0); };
@@ -79,12 +80,13 @@ class RisingLayer {
   private:
     const FreeSpace space_;
     const RainLayer layer_;
-    const bool fits_box_;  // a room between faces: grains in the box that touch none are in it
+    const bool fits_box_;  // the room lies between faces: a place in the box that touches none of them is in
+                           // the room
     const Extent box_;
     const double lowest_;  // m
 };
 
-// Grains that find their places, in the order of the cloud.
+// Finds places for the grains, in the order of the cloud.
 class Shower {
   public:
     Shower(const Scene& scene, const Surroundings& around)
@@ -96,7 +98,7 @@ class Shower {
           largest_(0.5 * largest_diameter(scene)),
           next_(cloud_.next()) {}
 
-    // Those that come now, until `due` have come or the next finds no place.
+    // The grains that come now: until `due` have come, or until the next one finds no place.
     std::vector<NewGrain> fall(const Grains& there, double due) {
         const Extent box = layer_.at(solid_);
         FreePlaces free(around_, around_.motion.at(-1), there, box.low, box.high, largest_);
@@ -123,7 +125,7 @@ class Shower {
     Random places_;
     const double largest_;  // m, radius
     NewGrain next_;
-    double solid_ = 0;  // m3, that has come
+    double solid_ = 0;  // m3 of grains that have come
     std::int64_t come_ = 0;
 };
 
@@ -135,7 +137,7 @@ RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around
     const HealthLimits limits = health_limits(scene, plan);
     const auto all = static_cast<double>(scene.grains_at_start());
     const double rate = rain_rate(scene), step = plan.clock.step;
-    // Rain ends where settling begins, or before: the walls stand until step 0.
+    // Rain ends before settling begins, or with it: walls stand still until step 0.
     const std::int64_t first = -plan.settle_steps_limit - plan.rain_steps_limit;
     Shower shower(scene, around);
     RainReport report;

@@ -1,4 +1,5 @@
-// A start by rain: grains appear one after the other above the bed, fall on it and come to rest.
+// A start by rain: grains appear one after the other above the bed, fall on it and come to rest. Also finds
+// free places for new grains.
 #pragma once
 
 #include <cstdint>
@@ -21,33 +22,34 @@ struct RainReport {
 };
 
 // Lets all grains of the scene rain into the container at rest, at rain_rate(). The species come mixed at
-// random, in proportion to their counts. A grain appears at rest at a random place in a layer above the bed,
-// where it touches nothing; the layer rises with the bed. `grains` are empty and `loop` is theirs.
-// watcher: the share that has come, and the steps so far; false stops.
-// Throws RunError when the grains find no room.
+// random, in proportion to their counts. A grain appears at rest at a random place in a layer above the
+// bed, where it touches nothing; the layer rises with the bed. `grains` is empty at first and `loop`
+// belongs to it. watcher gets the share that has come and the steps so far; it stops the rain by returning
+// false. Throws RunError when the grains find no room.
 RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around, Grains& grains,
                 StepLoop& loop, const std::function<bool(double, std::int64_t)>& watcher);
 
 // Places for new grains in which they touch nothing.
 
-// Whoever adds grains looks for places every so many steps. Each look that finds one has the lists made anew.
+// Rain and feeds look for places every so many steps. Each time a place is found, the neighbour lists are
+// made anew.
 constexpr std::int64_t kStepsPerLook = 200;
 
 // The box from low to high (m), with what is near it at one moment.
 class FreePlaces {
   public:
-    // largest: m, radius of the grains to come. The surroundings must outlive the places.
+    // largest (m) is the largest radius of the grains to come. The surroundings must outlive this object.
     FreePlaces(const Surroundings& around, const Pose& pose, const Grains& grains, const Vec3& low,
                const Vec3& high, double largest);
 
-    // A place drawn evenly from the box, where a grain of this radius (m) is farther from every other grain
-    // and from every wall than a thousandth of its radius; none when so many draws found none. The grain
-    // counts as being there from now on.
+    // Draws places evenly from the box until a grain of this radius (m) is farther from every other grain
+    // and every wall than a thousandth of its radius. Returns none when too many draws have failed. The
+    // grain counts as being there from now on.
     std::optional<Vec3> take(double radius, Random& random);
 
-    // Something more that is there.
+    // Adds something more that is there.
     void add(const Place& place) { near_.push_back(place); }
-    // From now on only places that this holds for.
+    // Allows from now on only places for which the condition holds.
     void only_where(std::function<bool(const Vec3&)> holds) { holds_ = std::move(holds); }
 
   private:

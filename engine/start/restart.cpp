@@ -23,7 +23,7 @@ UserError cannot_start(const Scene& scene, const std::string& what) {
     return UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
 }
 
-// Nothing in it is believed yet.
+// Opens the checkpoint; its content is still to be checked.
 CheckpointFile read_saved(const Scene& scene) {
     CheckpointFile file(scene.start.file);
     switch (file.fault()) {
@@ -45,7 +45,8 @@ std::int64_t total_of(const std::vector<std::int64_t>& given) {
     return std::accumulate(given.begin(), given.end(), std::int64_t{0});
 }
 
-// One number for each feed, and as many grains in all as have come.
+// Whether these can be the counts of the feeds: one number for each feed, in all as many grains as have
+// come.
 bool could_be_given(const Scene& scene, const std::vector<std::int64_t>& given, const Traffic& traffic) {
     const auto possible = [](std::int64_t count) { return count >= 0 && count < std::int64_t{1} << 31; };
     return given.size() == scene.feeds.size() && std::all_of(given.begin(), given.end(), possible) &&
@@ -58,7 +59,7 @@ UserError damaged_checkpoint(const Scene& scene) {
     return cannot_start(scene, "is damaged; take another checkpoint");
 }
 
-// What feeds have given stands there once they have given anything: the loop's account stands before it then.
+// The feeds' counts are written only once they have given anything; the loop's state comes before them.
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
                  const std::vector<std::int64_t>& given) {
     write_value(out, step);
@@ -121,7 +122,8 @@ Grains grains_from_checkpoint(const Scene& scene) {
         const Place& place = saved.grains.place[i];
         const Motion& motion = saved.grains.motion[i];
         const std::int32_t species = saved.grains.species[i];
-        // The container starts from rest position and at rest; its grains come along.
+        // The new run's container starts at rest in its rest position, so the grains are moved back with
+        // it.
         grains.add(number[i], species, place.position - saved.header.wall_offset, place.radius,
                    scene.species[species].density);
         grains.motion.back().velocity = motion.velocity - saved.header.wall_velocity;
@@ -143,7 +145,7 @@ std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const Con
 
 namespace {
 
-// The tables that only show or record a run, or say how its grains came to be.
+// The tables that only show or record a run, or that say how its grains came to be.
 constexpr std::array kDecideNothing = {"film", "output", "start", "grain"};
 
 bool lies_in(std::string_view key, std::string_view table) {
@@ -153,7 +155,7 @@ bool lies_in(std::string_view key, std::string_view table) {
 
 using Value = std::pair<std::string, std::string>;
 
-// The keys and values of what the scene's writer wrote, one a line, in its order.
+// The keys and values in a text of the scene's writer, one a line, in its order.
 std::vector<Value> values_of(std::string_view text) {
     std::vector<Value> values;
     std::map<std::string, int> elements;
@@ -191,7 +193,8 @@ bool is_chosen(const KeyDifference& difference) {
     return key != nullptr && key->often_chosen;
 }
 
-// Where the user wrote a key. What a pair has may come from [contact], [contact.wall] or a pair's own table.
+// The place where the user wrote a key. The values of a pair may come from [contact], [contact.wall] or the
+// pair's own table.
 std::string place_of(const Scene& scene, const std::string& key, const std::string& between) {
     const std::string name = name_of(key);
     const auto written = [&](const std::string& path) { return scene.written.contains(path); };
@@ -206,7 +209,7 @@ std::string place_of(const Scene& scene, const std::string& key, const std::stri
     return scene.where(in_pairs ? "contact" : (of_wall ? "contact.wall." : "contact.") + name);
 }
 
-// Short, and on one line whatever the file holds.
+// Shortens a value and keeps it on one line, whatever the file holds.
 std::string shown(std::string value) {
     constexpr std::size_t kMost = 60;
     if (value.size() > kMost) value = value.substr(0, kMost) + "...";
@@ -273,7 +276,8 @@ std::vector<KeyDifference> deciding_differences(std::string_view then, std::stri
 
 namespace {
 
-// From the first change of its key after the checkpoint to the last.
+// Whether the user accepted this difference: since the checkpoint the key went from `then`, in one or more
+// changes, to `now`.
 bool was_accepted(const KeyDifference& difference, std::int64_t step,
                   const std::vector<AcceptedKey>& accepted) {
     const auto later = [&](const AcceptedKey& one) { return one.step > step && one.key == difference.key; };
@@ -303,7 +307,7 @@ void check_same_future(const std::string& kept, const Scene& scene, const Plan& 
     const char* advice = is_chosen(differences.front())
                              ? "take the scene.toml of that run, which has what its plan chose"
                              : "put back what it was";
-    // A run that is only taken up again has its own start.
+    // Where a run is only continued, the scene does not have this key, and the advice would not help.
     const bool by_scene = scene.written.contains("start.keep_clock");
     throw UserError(fmt::format(
         "{}: '{}'{} is {}, but it was {} in the run that '{}' is from{}; {}{}", place_of(scene, key, between),

@@ -46,7 +46,7 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
         static_cast<std::int64_t>(10 * std::sqrt(diameter / gravity) / plan.clock.step);
     const HealthLimits limits = health_limits(scene, plan);
     std::int64_t calm_since = -1;
-    // Steps count from -limit, so that the walls, which stand before step 0, stand still.
+    // Steps count from -limit: walls stand still before step 0.
     const std::int64_t first = -plan.settle_steps_limit;
     while (report.steps < plan.settle_steps_limit) {
         const std::int64_t now = std::min(kStepsPerLook, plan.settle_steps_limit - report.steps);
@@ -75,16 +75,16 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
 
 namespace {
 
-constexpr double kContactsALevel = 20;  // contact times that each drag lasts
-constexpr double kFarthest = 0.5;       // of a diameter
-constexpr double kFew = 0.01;           // of the grains
+constexpr double kContactsALevel = 20;  // contact times for which each drag lasts
+constexpr double kFarthest = 0.5;       // diameters that a grain may move
+constexpr double kFew = 0.01;           // share of the grains that may move farther
 
 struct Level {
     double drag = 0;  // 1/s
     std::int64_t steps = 0;
 };
 
-// s: of the quickest contact.
+// The time (s) of the quickest contact.
 double contact_time(const Plan& plan) {
     double quickest = std::numeric_limits<double>::infinity();
     for (const std::vector<PairPlan>* kinds : {&plan.grain, &plan.wall, &plan.glued, &plan.mesh})
@@ -92,7 +92,7 @@ double contact_time(const Plan& plan) {
     return quickest;
 }
 
-// From a drag under which no contact swings down to one that settle() has, by halves.
+// Drags from one under which no contact swings down to one as weak as settle() has, halved each time.
 std::vector<Level> levels_of(const Plan& plan) {
     constexpr double kWeakest = 20;  // 1/s
     const double time = contact_time(plan);

@@ -41,7 +41,7 @@ Grains grains_from_table(const Scene& scene) {
     grains.reserve(frame.id.size());
     const std::vector<std::int32_t> number = numbers_without_gaps(frame.id);
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        // A species that the scene does not have is refused later; its density does not matter.
+        // A species that the scene does not have is refused later, so its density does not matter here.
         const std::size_t s = std::min<std::size_t>(frame.species[i], scene.species.size() - 1);
         grains.add(number[i], frame.species[i], frame.position[i], frame.radius[i], scene.species[s].density);
         grains.motion.back().velocity = frame.velocity[i];
@@ -76,7 +76,7 @@ bool is_finite(const Derivatives& d) {
 }  // namespace
 
 void check_grains_possible(const Scene& scene, const Grains& grains) {
-    constexpr double kFarthest = 1e9;  // radii: from there on a double is too coarse for overlaps
+    constexpr double kFarthest = 1e9;  // radii: farther out a double is too coarse for overlaps
     constexpr double kUnit = 1e-3;     // how far a quaternion may be from unit length
     std::unordered_set<std::int32_t> seen;
     for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -114,7 +114,7 @@ void check_grains_numbered(const Scene& scene, const Grains& grains) {
     }
 }
 
-// But for rounding: the same density may have been read in another unit.
+// Compares but for rounding: the same density may have been read in another unit.
 void check_masses(const Scene& scene, const Grains& grains) {
     const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-12 * a); };
     Grains one;
@@ -153,13 +153,13 @@ void check_grains_match(const Scene& scene, const Grains& grains) {
     }
 }
 
-// Whether the grains of a file or a list lie where grains can be: inside the container, off its walls, off
-// each other.
+// Checks that the grains of a file or a list lie where grains can be: inside the container, clear of its
+// walls and of each other.
 
 namespace {
 
 constexpr double kTooDeep = 1.0 / 3;
-// A table does not say where the walls were.
+// Ends the message where the grains do not fit: a table does not say where the walls were.
 constexpr const char* kOtherContainer =
     "give the container of the run the file comes from, and the checkpoint of a run that did not end with a "
     "period";
@@ -168,7 +168,7 @@ bool is_listed(const Scene& scene) {
     return scene.start.method == Start::Method::grains;
 }
 
-// At the grain in the scene's list, or at the start file.
+// Throws at the grain in the scene's list, or at the start file.
 [[noreturn]] void fail(const Scene& scene, std::int32_t id, const std::string& what) {
     if (is_listed(scene))
         throw UserError(fmt::format("{}: the grain {}; move one of the two",
@@ -186,16 +186,16 @@ void check_faces(const Scene& scene, const std::vector<Face>& faces, const Grain
     }
 }
 
-// Whether a ray from there crosses the surface an odd number of times, in a direction that no mesh has edges
-// along.
+// Whether a place is within a closed surface: a ray from there crosses it an odd number of times. No mesh
+// has edges along the direction of the ray.
 bool is_within(const Surface& surface, const Vec3& place) {
     std::vector<Surface::Hit> hits;
     surface.all_hits(place, Vec3(0.3713906763541037, 0.5570860145311556, 0.7427813527082074), hits);
     return hits.size() % 2 == 1;
 }
 
-// Why no grain can lie there, at rest; empty where one can. In a closed vessel all but its room is forbidden.
-// Around an open one grains may lie. In another closed mesh they may not.
+// Says why no grain can lie at this place, at rest; empty where one can. A grain may lie in the vessel's
+// room, around a vessel that is open, and outside any other closed mesh.
 std::string forbidden(const Scene& scene, const MeshWall& mesh, const Vec3& place) {
     if (!mesh.surface->facts().closed()) return "";
     const bool vessel = scene.vessel() != nullptr && scene.vessel()->name == mesh.name;

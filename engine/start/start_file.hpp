@@ -1,5 +1,6 @@
-// A start from an earlier run's file, or from grains listed in the scene: the grains, and whether they are
-// those that the scene speaks of. All throw UserError with the place of `start.file`, or of the list.
+// A start from an earlier run's file, or from grains listed in the scene: reads the grains and checks
+// whether they are those that the scene describes. All functions throw UserError at the place of
+// `start.file` or of the list.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +13,20 @@
 
 namespace grainreel {
 
-// Numbers from 0 without gaps, in the order of the ids. The ids of a run that grains have left have gaps.
+// Numbers from 0 without gaps, in the order of the ids. Ids have gaps where grains have left the run.
 std::vector<std::int32_t> numbers_without_gaps(const std::vector<std::int32_t>& ids);
 
-// The grains of a final.csv, in its order, numbered without gaps.
+// The grains of a final.csv, in the order of the file, numbered without gaps.
 Grains grains_from_table(const Scene& scene);
 
-// Those of [[grain]], numbered as listed.
+// The grains of [[grain]], numbered as listed.
 Grains listed_grains(const Scene& scene);
 
-// Each a grain that there can be: of a species of the scene, with finite values, not so far out that places
-// there are coarse, turned by a unit quaternion if at all; and its number is no other's.
+// Checks that each grain is possible: of a species of the scene, with finite values, not so far out that a
+// double is too coarse, with a unit quaternion if it is turned, and with a number of its own.
 void check_grains_possible(const Scene& scene, const Grains& grains);
 
-// Numbered from 0 without gaps, as grains of which none have left.
+// Checks that grains are numbered from 0 without gaps, so that none have left.
 void check_grains_numbered(const Scene& scene, const Grains& grains);
 
 // Throws UserError where the grains have other sizes than the scene says.
@@ -34,14 +35,15 @@ void check_sizes_match(const Scene& scene, const Grains& grains);
 // Throws UserError where the grains of a species are not as many, or not as large, as the scene says.
 void check_grains_match(const Scene& scene, const Grains& grains);
 
-// With the masses that their species has.
+// Throws UserError where grains have other masses than their species.
 void check_masses(const Scene& scene, const Grains& grains);
 
-// All inside the container at rest, and none in a closed mesh or so near to a mesh that it overlaps it by
-// more than a third of its radius (grains_fit.cpp).
+// Throws UserError where a grain is outside the container at rest, in a closed mesh, or so near to a mesh
+// that it overlaps it by more than a third of its radius.
 void check_grains_fit(const Scene& scene, const Surroundings& around, const Grains& grains);
 
-// None overlaps another, or a wall, by more than a third of a radius. `loop` has been restarted.
+// Throws UserError where a grain overlaps another, or a wall, by more than a third of a radius. `loop` has
+// been restarted.
 void check_grains_clear(const Scene& scene, const Surroundings& around, const Grains& grains,
                         const StepLoop& loop);
 

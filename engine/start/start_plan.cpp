@@ -25,7 +25,7 @@ std::optional<double> stiffness_there(const PairContact& here, const PairContact
     return here.normal == NormalLaw::hertz ? plan.modulus : plan.loading_stiffness;
 }
 
-// Takes the stiffness of meshes that have the same name there.
+// Takes the stiffness of contacts with meshes from meshes of the same name in the file's run.
 void take_mesh_stiffness(const Scene& scene, const StartOrigin& origin, StartFacts& facts) {
     const std::size_t count = scene.species.size();
     facts.mesh.resize(scene.contact.mesh.size());
@@ -40,7 +40,7 @@ void take_mesh_stiffness(const Scene& scene, const StartOrigin& origin, StartFac
     }
 }
 
-// What the file's run had, where its law is this scene's.
+// Takes the stiffness that the file's run had, where its law is this scene's.
 void take_stiffness(const Scene& scene, const StartOrigin& origin, StartFacts& facts) {
     const std::size_t count = scene.species.size();
     if (origin.scene.species.size() != count) return;
@@ -63,8 +63,8 @@ bool is_at_rest(const BedInFile& bed) {
     return bed.moves_because.empty();
 }
 
-// A bed at rest whose run is unknown goes on slowly, as far as one can tell: by a fall of a diameter. One
-// that moves hits the floor with what it has.
+// The speed of impacts to expect. A bed at rest from an unknown run is taken to go on slowly, with a fall
+// of one diameter. One that moves hits the floor with the speed it has.
 double expected_speed(const Scene& scene, const BedInFile& bed) {
     if (bed.origin) return std::max(bed.origin->plan.impact_speed, bed.fastest);
     if (!is_at_rest(bed)) return bed.falls;
@@ -134,7 +134,7 @@ void plan_start(const BedInFile& bed, Plan& plan) {
     plan.start.text = text_of(plan, bed, all_kept);
 }
 
-// By the start alone; meshes are not looked at.
+// The plan by the kind of start; meshes are not checked.
 Plan plan_of(const Scene& scene) {
     if (scene.start.method != Start::Method::file) return make_plan(scene, StartFacts());
     if (scene.start.keep_clock) {
@@ -146,7 +146,8 @@ Plan plan_of(const Scene& scene) {
     try {
         bed = bed_in_file(scene);
     } catch (const UserError&) {
-        // Whoever takes the grains says so. A run that goes on from its own checkpoint needs no such file.
+        // The error is left to the reader of the grains. A run that goes on from its own checkpoint needs
+        // no such file.
     }
     if (!bed) return make_plan(scene, StartFacts());
     Plan plan = make_plan(scene, facts_of(scene, *bed));
