@@ -1,9 +1,9 @@
-// A scene of a tenth of a second that has all at once which a run goes on with.
+// A scene of 0.1 s that has everything a resumed run must carry on.
 #pragma once
 
 namespace grainreel::test {
 
-// Grains that come and leave, stages of the drive, fields, contacts, instruments, a film.
+// The scene has grains that come and leave, stages of the drive, fields, contacts, instruments and a film.
 inline constexpr const char* busy_scene_text = R"(title = "Busy"
 [[species]]
 name = "big"

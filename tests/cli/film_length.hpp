@@ -1,11 +1,11 @@
-// How many pictures a player gets out of a film file.
+// Counts the pictures that a player gets out of a film file.
 #pragma once
 
 #include <filesystem>
 
 namespace grainreel::test {
 
-// Decodes all of the first video stream; -1 when the file cannot be opened.
+// Decodes the whole first video stream; -1 when the file cannot be opened.
 int decoded_pictures(const std::filesystem::path& film);
 
 }  // namespace grainreel::test

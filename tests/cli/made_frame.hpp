@@ -1,4 +1,5 @@
-// Frames and measures with numbers that no two fields share and that need every digit of a double.
+// Frames and measures with made-up numbers: no two fields have the same, and all need every digit of a
+// double.
 #pragma once
 
 #include <cmath>
@@ -37,7 +38,7 @@ inline Frame made_frame(int grains, int number, bool orientation = false) {
     return f;
 }
 
-// A row of measures.csv, `number` its step.
+// A row of measures.csv. number: its step.
 inline Measures made_measures(int number, const std::vector<std::string>& species) {
     std::vector<std::string> names;
     std::vector<double> values;

@@ -7,7 +7,7 @@
 
 namespace grainreel::test {
 
-// Side 0.2 m at z = 0, facing up; in m.
+// A square of side 0.2 m at z = 0 that faces up; the unit is m.
 inline constexpr const char* plate_stl = R"(solid plate
 facet normal 0 0 1
 outer loop
@@ -26,7 +26,7 @@ endfacet
 endsolid plate
 )";
 
-// The same as OBJ, in mm, with a triangle that is there twice and one without area.
+// The same square as OBJ in mm, with a triangle that is there twice and one without area.
 inline constexpr const char* plate_obj = R"(v -100 -100 0
 v 100 -100 0
 v 100 100 0

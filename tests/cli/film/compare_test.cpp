@@ -1,4 +1,4 @@
-// `grainreel compare` from the outside: several scenes in one film.
+// Tests of `grainreel compare` as a user sees it: several scenes in one film.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -41,7 +41,7 @@ class CompareProgram : public testing::Test {
     TemporaryFolder here;
 };
 
-// 0.2 s at half speed and 30 frames a second: one frame every 1/60 s, both ends.
+// The film shows 0.2 s at half speed and 30 frames a second: one frame every 1/60 s, both ends included.
 constexpr int frames_of_film = 13;
 
 TEST_F(CompareProgram, FilmsScenesInStepAndKeepsTheirRuns) {
@@ -50,14 +50,14 @@ TEST_F(CompareProgram, FilmsScenesInStepAndKeepsTheirRuns) {
     EXPECT_EQ(ended.out, "output/weak-vs-strong\n");
     const fs::path all = here / "output/weak-vs-strong";
     EXPECT_EQ(decoded_pictures(all / "movie.mp4"), frames_of_film);
-    // IHDR: width and height, big-endian.
+    // IHDR has width and height, big-endian.
     EXPECT_EQ(text_of(all / "frames/000000.png").substr(16, 8), std::string("\0\0\x1\xe0\0\0\x1\x0e", 8));
     const nlohmann::json record = record_of(all);
     EXPECT_EQ(record["status"], "complete");
     EXPECT_THAT(record["panels"], testing::ElementsAre("weak", "strong"));
     EXPECT_EQ(record["written"]["film_frames"], frames_of_film);
     for (const std::string name : {"weak", "strong"}) {
-        // What the same scene gives by itself, to the bit.
+        // The same scene alone gives the same results, to the bit.
         ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
         EXPECT_EQ(record_of(all / name)["engine"]["state_hash"],
                   record_of(here / name)["engine"]["state_hash"]);
@@ -68,8 +68,8 @@ TEST_F(CompareProgram, FilmsScenesInStepAndKeepsTheirRuns) {
     }
 }
 
-// The film's segments are those of one scene; the others may have fewer, and all show the same stretch of
-// time.
+// The film's segments are those of one scene. The other scenes may have fewer, and all show the same stretch
+// of time.
 TEST_F(CompareProgram, SegmentsOfOneSceneHoldForAll) {
     std::string text = text_of(here / "weak.toml");
     text.replace(text.find("[[film.segment]]"), std::string::npos,
@@ -94,7 +94,7 @@ TEST_F(CompareProgram, TakesFinishedRunsToo) {
     const nlohmann::json record = record_of(here / "runs");
     EXPECT_EQ(record["drawn"].size(), 2u);
     EXPECT_TRUE(record["engine"].is_null());
-    // Mixed: the same scene either way, and the same film.
+    // A comparison of a finished run and a scene gives the same film.
     ASSERT_EQ(program({"compare", "weak", "strong.toml", "--out", "mixed", "--frames", "--set",
                        "film.camera.frame=container"})
                   .status,
@@ -113,7 +113,7 @@ TEST_F(CompareProgram, TakesFinishedRunsToo) {
     }
 }
 
-// All that a film can show of a finished run is as it was in the run: plots, live words, displacements over a
+// A film of finished runs has all that a film can show during a run: plots, live words, displacements over a
 // period, forces, trails.
 TEST_F(CompareProgram, FinishedRunsLackNothing) {
     for (const std::string name : {"weak", "strong"}) {
@@ -139,7 +139,7 @@ TEST_F(CompareProgram, FinishedRunsLackNothing) {
     };
     compare("weak.toml", "strong.toml", "live");
     EXPECT_THAT(compare("weak", "strong", "finished"), Not(HasSubstr("warning")));
-    // (The last frame's arrows are those of a trajectory in single precision.)
+    // (The last frame is left out, because the trajectory has its arrows only in single precision.)
     for (const char* frame : {"frames/000000.png", "frames/000001.png", "frames/000003.png"}) {
         const auto pixels = [&](const char* folder) {
             const std::string text = text_of(here / folder / frame);
@@ -165,7 +165,7 @@ TEST_F(CompareProgram, WhatHasNoRoomOrCannotBeShownIsNamed) {
     EXPECT_THAT(ended.err, HasSubstr("'average' is left out: frames that a run kept are single moments"));
 }
 
-// A run that kept no frame a period before the others cannot show displacements over one.
+// A run that kept no frame a period before the others cannot show displacements over a period.
 TEST_F(CompareProgram, DisplacementsThatCannotBeKnownAreNamed) {
     const std::vector<std::string> movie = {"movie", "weak.toml", "--no-film", "--out", "run"};
     std::vector<std::string> sparse = movie;
@@ -183,7 +183,7 @@ TEST_F(CompareProgram, DisplacementsThatCannotBeKnownAreNamed) {
     EXPECT_THAT(ended.err, HasSubstr("run/trajectory.nc: 2 of its 3 frames have none a period before them"));
 }
 
-// Two drives in a locked film: each panel says of time what holds for it.
+// Two drives are in a locked film: each panel has its own words about time.
 TEST_F(CompareProgram, UnlikeDrivesHaveACaptionEach) {
     for (const auto& [name, frequency] : {std::pair{"weak", "20 Hz"}, {"strong", "25 Hz"}}) {
         std::string text = text_of(here / (std::string(name) + ".toml"));
@@ -198,7 +198,7 @@ TEST_F(CompareProgram, UnlikeDrivesHaveACaptionEach) {
                                "on average 1 frame every 1.25 periods, at phase 0 (plays 1.5×)"));
 }
 
-// The same film as of files of their own with these values, but for the panels' names.
+// The film is the same as that of files with these values, except for the panels' names.
 TEST_F(CompareProgram, VariesAKeyOfOneScene) {
     const Ended ended = program({"compare", "weak.toml", "--vary", "drive.g_level=1.2,3", "--seed", "4",
                                  "--frames", "--no-film", "--out", "varied"});
@@ -233,7 +233,7 @@ TEST_F(CompareProgram, VariesWhatIsDrawnOfARunToo) {
     EXPECT_THAT(drive.err, HasSubstr("--vary drive.g_level: the run is over"));
 }
 
-// One moment of all: of scenes, which are run, and of their runs.
+// One moment of all panels is drawn: of scenes, which are run for it, and of their finished runs.
 TEST_F(CompareProgram, AtDrawsOneMoment) {
     const std::vector<std::string> still = {"--at", "0.0333333333", "--set", "film.camera.frame=container"};
     const auto drawn = [&](std::vector<std::string> words, const std::string& out) {
@@ -253,7 +253,7 @@ TEST_F(CompareProgram, AtDrawsOneMoment) {
     EXPECT_FALSE(fs::exists(here / "far"));
 }
 
-// A caption that a scene has for its own drive is not shown over another one.
+// A caption that a scene has for its own drive is not shown over a panel with another drive.
 TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
     write_text(here / "told.toml",
                text_of(here / "weak.toml") + "[[film.caption]]\nfrom = \"0 s\"\ntext = \"Nothing flies\"\n");
@@ -286,7 +286,8 @@ TEST_F(CompareProgram, AllEndWithTheShortest) {
     EXPECT_NEAR(record_of(here / "both/long")["engine"]["simulated_s"].get<double>(), 0.2, 1e-4);
 }
 
-// Slow motion finer than the step of one of them: it shows a frame as often as the other needs.
+// The slow motion is finer than the step of one panel, so that panel shows each of its frames as often as the
+// other panel needs.
 TEST_F(CompareProgram, ACoarserStepHoldsItsFrames) {
     for (const std::string step : {"1e-5", "1e-4"}) {
         write(step + ".toml", "g_level = 2", "0.01 s");
@@ -345,7 +346,7 @@ TEST_F(CompareProgram, ASceneThatBlowsUpEndsAllAndSaysWhichItWas) {
     EXPECT_EQ(read_grain_table(here / "both/weak/final.csv").size(), 50u);
 }
 
-// Exit status 2, one line that says what is wrong, and nothing on disk.
+// The exit status is 2, one line says what is wrong, and nothing is on disk.
 TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     write_text(here / "broken.toml", "title = \n");
     write("full.toml", "g_level = 3");

@@ -1,4 +1,4 @@
-// The program's films in every format: their files, stdout, an interrupt.
+// Tests of the program's films in every format: their files, stdout, and an interrupt.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -59,8 +59,8 @@ TEST_P(EachFormat, HasAllFramesAndIsNamedInTheRecord) {
     ASSERT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(ended.out, "run\n");
     EXPECT_THAT(ended.err, HasSubstr(GetParam().file));
-    EXPECT_THAT(ended.err, Not(HasSubstr("Svt[")));  // libraries keep quiet
-    EXPECT_GE(frames_written(), 13);                 // 0.2 s twice slower at 30 a second, or 33.3
+    EXPECT_THAT(ended.err, Not(HasSubstr("Svt[")));  // libraries print nothing
+    EXPECT_GE(frames_written(), 13);                 // 0.2 s at half speed with 30 frames a second, or 33.3
     EXPECT_EQ(decoded_pictures(film()), frames_written());
     EXPECT_THAT(record()["encoder"].get<std::string>(), HasSubstr(GetParam().encoder));
     EXPECT_TRUE(fs::exists(here / "run/poster.png"));

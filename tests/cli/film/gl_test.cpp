@@ -1,5 +1,5 @@
-// `--gl`: who draws, and what is said when a library is missing. A library goes missing here by a file of its
-// name that is none, first on the search path.
+// Tests of `--gl`: which driver draws, and the messages when a library is missing. A library goes missing
+// here because a file with its name that is no library comes first on the search path.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// An orbit in a film: it lasts as long as the film, unless it is told otherwise.
+// Tests of an orbit in a film: it lasts as long as the film, unless the scene gives its length.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using namespace test;
 
 class OrbitFilm : public testing::Test {
   protected:
-    // Every frame of the film, by its bytes.
+    // The bytes of every frame of the film.
     std::vector<std::string> frames(const std::string& run, std::vector<std::string> words) {
         words.insert(words.begin(), {"movie", scene.string(), "--frames", "--no-film", "--out", run});
         const Ended ended = run_program(words, {here.path(), {}});
@@ -44,7 +44,7 @@ TEST_F(OrbitFilm, LastsAsLongAsTheFilm) {
     EXPECT_NE(slower.back(), whole.back());
 }
 
-// Locked frames that a bed of two periods leaves out are no part of the film's length.
+// Locked frames that are left out for a bed of two periods do not count in the film's length.
 TEST_F(OrbitFilm, LastsAsLongAsTheFilmOfEverySecondPeriod) {
     const auto turned = [&](const std::string& run, std::vector<std::string> more) {
         for (const char* set :

@@ -1,5 +1,5 @@
-// `grainreel render --part` and `grainreel join` from the outside: a film drawn in parts is the film drawn in
-// one go.
+// Tests of `grainreel render --part` and `grainreel join` as a user sees them: a film drawn in parts is the
+// same as the film drawn in one go.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ using testing::HasSubstr;
 
 using Words = std::vector<std::string>;
 
-// What pictures show of the film before them: trails, a plot, a camera on its way, a caption that holds the
-// film, and the heights that grains had at first.
+// A film whose pictures depend on earlier ones: it has trails, a plot, a moving camera, a caption that holds
+// the film, and the heights that grains had at first.
 constexpr const char* film_with_a_past = R"([[film.segment]]
 playback = 0.25
 [film.colour]
@@ -51,7 +51,7 @@ class PartsOfFilm : public testing::Test {
             program({"movie", name + ".toml", "--out", name, "--no-film", "--no-report", "--seed", seed});
         ASSERT_EQ(ended.status, 0) << ended.err;
     }
-    // a, b and c: the parts of a film of the run.
+    // Draws the parts a, b and c of a film of the run.
     void draw_parts(const Words& more = {}) {
         int number = 0;
         for (const std::string name : {"a", "b", "c"}) {
@@ -67,7 +67,7 @@ class PartsOfFilm : public testing::Test {
         const Ended ended = program(words);
         ASSERT_EQ(ended.status, 0) << ended.err;
     }
-    // Joins these and expects one line of refusal, and no film.
+    // Joins these parts and expects a refusal in one line and no film.
     void expect_refused(const Words& parts, const std::string& why) {
         Words words{"join"};
         words.insert(words.end(), parts.begin(), parts.end());
@@ -98,7 +98,8 @@ TEST_F(PartsOfFilm, JoinedAreTheFilmOfOneGoToTheByte) {
     EXPECT_EQ(ended.out, "film.mp4\n");
     EXPECT_TRUE(text_of(here / "film.mp4") == text_of(here / "whole/movie.mp4"));
     const int pictures = decoded_pictures(here / "film.mp4");
-    EXPECT_EQ(pictures, 31);  // 0.2 s at 30 a second and 1/4 speed, both ends, and 6 that are held
+    EXPECT_EQ(pictures,
+              31);  // 0.2 s at 30 a second and 1/4 speed, both ends included, and 6 pictures that are held
     int posters = 0, found = 0;
     for (const char* part : {"a", "b", "c"}) {
         if (fs::exists(here / part / "poster.png")) {
@@ -115,7 +116,7 @@ TEST_F(PartsOfFilm, JoinedAreTheFilmOfOneGoToTheByte) {
     EXPECT_EQ(found, pictures);
 }
 
-// With the encoder's own groups in place of those of parts the pictures are the same.
+// The pictures are the same if the encoder chooses its own groups of pictures in place of those of parts.
 TEST_F(PartsOfFilm, EachFormatThatHasAFileJoins) {
     run("run", "1");
     for (const auto& [format, file] :

@@ -1,4 +1,4 @@
-// `grainreel render` from the outside: a finished run drawn again.
+// Tests of `grainreel render` as a user sees it: a finished run is drawn again.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,8 +27,8 @@ std::ptrdiff_t entries_of(const fs::path& folder) {
 class RenderProgram : public testing::Test {
   protected:
     Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
-    // A run of the small scene in run/, its [[film.segment]] and what follows replaced. Its camera frames the
-    // container: how high the grains get is known only after the run.
+    // Runs the small scene in run/ with another [[film.segment]] and what follows it. The camera frames the
+    // container, because how high the grains get is known only after the run.
     void run(const std::string& segment, const std::vector<std::string>& more) {
         std::string text = small_scene_text;
         text.replace(text.find("[[film.segment]]"), std::string::npos, segment);
@@ -44,7 +44,7 @@ class RenderProgram : public testing::Test {
     TemporaryFolder here;
 };
 
-// Words in the PNG files included: name, title, time, phase, step and playback.
+// Compares the PNG files with their words: name, title, time, phase, step and playback.
 void expect_same_pictures(const fs::path& a, const fs::path& b) {
     ASSERT_EQ(entries_of(a), entries_of(b));
     for (const fs::directory_entry& entry : fs::directory_iterator(a)) {
@@ -59,12 +59,12 @@ TEST_F(RenderProgram, DrawsTheLockedFilmOfTheRunToTheByte) {
     const Ended ended = program({"render", "run", "--frames"});
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(ended.out, "run-render\n");
-    EXPECT_EQ(decoded_pictures(here / "run-render/movie.mp4"), 7);  // 0.3 s at 20 Hz, both ends
+    EXPECT_EQ(decoded_pictures(here / "run-render/movie.mp4"), 7);  // 0.3 s at 20 Hz, both ends included
     expect_same_pictures(here / "run/frames", here / "run-render/frames");
 }
 
 TEST_F(RenderProgram, DrawsTheFilmInMotionOfTheRunToTheByte) {
-    // 0.375 / 30 s are a quarter of a period, which is a whole number of steps.
+    // 0.375 / 30 s is a quarter of a period, which is a whole number of steps.
     run("[[film.segment]]\nplayback = 0.375\n", {"--frames", "--set", "output.trajectory_interval=0.0125"});
     ASSERT_EQ(program({"render", "run", "--frames", "--no-film", "--out", "again"}).status, 0);
     expect_same_pictures(here / "run/frames", here / "again/frames");
@@ -86,7 +86,8 @@ TEST_F(RenderProgram, KeptContactsDrawForceChainsAndTheirColours) {
     EXPECT_THAT(refused.err, HasSubstr("has no contacts.nc; the run was not told to keep contacts"));
 }
 
-// How high the grains of a finished run get is known: the picture is that of a scene that says so.
+// How high the grains got in a finished run is known. The picture is the same as that of a scene that gives
+// this height.
 TEST_F(RenderProgram, FramesWhatTheGrainsReached) {
     short_run();
     const double reach = *known_reach(*open_frames(here / "run/trajectory.nc"));
@@ -140,7 +141,7 @@ TEST_F(RenderProgram, AnotherSizeAnotherCameraAnotherColour) {
     EXPECT_EQ(text_of(here / "clear.png")[25], 6) << "colour type of IHDR: with alpha";
     const Ended small = program({"render", "run", "--at", "0", "--size", "200x100", "--out", "one.png"});
     ASSERT_EQ(small.status, 0) << small.err;
-    // IHDR: width and height, big-endian, after the signature and the chunk's head.
+    // IHDR has width and height, big-endian, after the signature and the chunk's head.
     EXPECT_EQ(text_of(here / "one.png").substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x64", 8));
 }
 
@@ -173,7 +174,7 @@ TEST_F(RenderProgram, AtDrawsTheNearestKeptFrameWhereItMayNotBringBack) {
     EXPECT_EQ(text_of(here / "run-0.150s.png"), text_of(here / "run-0.150s-2.png"));
 }
 
-// A still of a moment that the film shows is the film's picture, wherever its grains come from.
+// A still of a moment that the film shows is the same as the film's picture, wherever its grains come from.
 TEST_F(RenderProgram, AtDrawsAnyMoment) {
     run("[[film.segment]]\nplayback = 0.5\nexposure = \"10 ms\"\n", {"--frames"});
     const std::string picture = text_of(here / "run/frames/000004.png");  // 4 * 0.5 / 30 s
@@ -193,13 +194,13 @@ TEST_F(RenderProgram, AtDrawsAnyMoment) {
     const Ended odd = program({"render", "run", "--at", "0.0625s"});
     EXPECT_EQ(odd.out, "run-0.0625s.png\n");
     EXPECT_THAT(text_of(here / "run-0.0625s.png"), HasSubstr("0.0625 s"));
-    fs::remove_all(here / "run/checkpoints");  // its last one remains
+    fs::remove_all(here / "run/checkpoints");  // the last checkpoint, in another file, remains
     EXPECT_THAT(still("near.png", {}), HasSubstr("has no checkpoint before 0.3 s from which moments can be "
                                                  "brought back); 0.05 s is drawn"));
     EXPECT_EQ(program({"render", "run", "--at", "0.3", "--out", "end.png"}).status, 0);
 }
 
-// Frames of 0.1 s apart say nothing of what lies half a second behind the last of them.
+// The frames are 0.1 s apart, and the moment is half a second after the last of them.
 TEST_F(RenderProgram, AtIsRefusedWhereNothingIsNear) {
     short_run();
     fs::remove_all(here / "run/checkpoints");
@@ -214,7 +215,8 @@ TEST_F(RenderProgram, AtIsRefusedWhereNothingIsNear) {
     EXPECT_EQ(ended.out, "");
 }
 
-// Another title, and as many pictures; with the same words the same bytes, also where all is brought back.
+// With another title there are as many pictures. With the same words the bytes are the same, also if
+// everything is restored.
 TEST_F(RenderProgram, DrawsTheWholeFilmOnceMore) {
     run("[[film.segment]]\nplayback = 0.5\nduration = 0.1\n[[film.segment]]\nkind = \"locked\"\nphase = "
         "0.25\n"
@@ -234,12 +236,12 @@ TEST_F(RenderProgram, DrawsTheWholeFilmOnceMore) {
     expect_same_pictures(here / "run/frames", here / "back/frames");
     const Ended kept = program({"render", "run", "--frames", "--no-replay", "--out", "kept"});
     EXPECT_EQ(kept.status, 0) << kept.err;
-    EXPECT_EQ(entries_of(here / "kept/frames"), 7);  // 0.3 s at 20 Hz, both ends
+    EXPECT_EQ(entries_of(here / "kept/frames"), 7);  // 0.3 s at 20 Hz, both ends included
     EXPECT_THAT(kept.err, HasSubstr(fmt::format("of the film's {} pictures ", pictures)));
     EXPECT_THAT(kept.err, HasSubstr("--no-replay: nothing is brought back"));
 }
 
-// The scene is the same but for the seed, so that the checkpoints are of another run.
+// The scene differs only in the seed, so the checkpoints are of another run.
 TEST_F(RenderProgram, CheckpointsOfAnotherRunArePassedOver) {
     run("[[film.segment]]\nplayback = 0.5\n", {"--no-film"});
     ASSERT_EQ(
@@ -271,7 +273,7 @@ TEST_F(RenderProgram, SegmentsOfItsOwnAreShown) {
     EXPECT_EQ(drawn("[{kind=\"locked\",phase=0.5}]", "half"), 6);  // 0.025 s and every 0.05 s
     EXPECT_THAT(text_of(here / "half/frames/000002.png"), HasSubstr("1 frame a period at phase 0.5"));
     EXPECT_THAT(text_of(here / "half/frames/000002.png"), HasSubstr("0.125 s"));
-    EXPECT_EQ(drawn("[{playback=0.3}]", "slow"), 31);  // one every 0.3 / 30 s, both ends
+    EXPECT_EQ(drawn("[{playback=0.3}]", "slow"), 31);  // one every 0.3 / 30 s, both ends included
     const Ended cut =
         program({"render", "run", "--frames", "--no-film", "--set", "film.segment=[{playback=0.3}]", "--from",
                  "0.1", "--to", "0.2", "--out", "cut"});
@@ -279,7 +281,7 @@ TEST_F(RenderProgram, SegmentsOfItsOwnAreShown) {
     EXPECT_EQ(entries_of(here / "cut/frames"), 11);
 }
 
-// Trails in one picture are those that the film of the same frames has there.
+// Trails in one picture are the same as those in the film of the same frames.
 TEST_F(RenderProgram, AtDrawsTrailsOfTheFramesBefore) {
     short_run();
     const std::vector<std::string> trails = {"--set", "film.trails.species=[\"big\"]", "--set",
@@ -298,7 +300,7 @@ TEST_F(RenderProgram, AtDrawsTrailsOfTheFramesBefore) {
     EXPECT_NE(pixels(text_of(here / "bare.png")), pixels(last));
 }
 
-// The camera is put somewhere else, or back to the automatic one, whatever scene.toml says of it.
+// The command line puts the camera at another place, or back to the automatic one, whatever scene.toml has.
 TEST_F(RenderProgram, ThePlaceOfTheCameraTakesThePlaceOfItsAngles) {
     short_run();
     const Ended placed = program(
@@ -336,7 +338,7 @@ TEST_F(RenderProgram, FilesOfAnotherRunAreRefusedAndDamagedOnesTold) {
     EXPECT_THAT(cut.err, HasSubstr("contacts.nc: was cut off"));
 }
 
-// As a run leaves it that was killed while it wrote the frame.
+// A run that was killed while it wrote a frame leaves such a file.
 TEST_F(RenderProgram, ALastFrameThatIsNotWholeIsLeftOut) {
     short_run();
     ASSERT_EQ(program({"render", "run", "--no-film", "--frames", "--out", "all"}).status, 0);
@@ -376,7 +378,7 @@ TEST_F(RenderProgram, CtrlCLeavesAFilmThatPlays) {
     EXPECT_LT(frames, 1000);
 }
 
-// Exit status 2, one line that says what is wrong, and nothing on disk.
+// The exit status is 2, one line says what is wrong, and nothing is on disk.
 TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     short_run();
     fs::create_directory(here / "empty");

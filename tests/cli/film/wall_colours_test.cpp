@@ -1,5 +1,5 @@
-// Films whose meshes are coloured by pressure or wear: alike from the run, from its files and after a run was
-// broken off, and refused where nobody knows the wear.
+// Tests of films whose meshes are coloured by pressure or wear. They are the same when drawn from the run,
+// from its files and after a stop, and are refused if nobody knows the wear.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,12 +37,12 @@ class WallColourFilm : public testing::Test {
     TemporaryFolder here;
 };
 
-// Records of 20 ms, which frames lie between: the ball hits the plate at once.
+// Records last 20 ms, and there are frames between their ends; the ball hits the plate at once.
 TEST_F(WallColourFilm, IsAlikeFromTheRunAndFromItsFiles) {
     std::vector<std::string> more = coloured;
     for (const char* set : {"output.fields.interval=20 ms", "film.walls.range=[\"1 nJ/m2\", \"1 J/m2\"]"})
         more.insert(more.end(), {"--set", set});
-    movie("plate", more);  // named as the scene is, which its pictures say
+    movie("plate", more);  // the name is the scene's, because its pictures show it
     const Ended render = program({"render", "plate", "--frames", "--out", "again"});
     ASSERT_EQ(render.status, 0) << render.err;
     const std::vector<std::string> run = pictures("plate");

@@ -1,4 +1,4 @@
-// [output] also: a run's folder gets formats of other programs when the run ends, however it ends.
+// Tests of [output] also: a run's folder gets formats of other programs when the run ends, however it ends.
 #include <signal.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class Also : public testing::Test {
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
-    // Adds lines behind the line [run] of the small scene, or at its end.
+    // Adds lines after the line [run] of the small scene, or at its end.
     std::string with(const std::string& output) const {
         const std::string name = "also.toml";
         std::string text = small_scene_text;
@@ -41,7 +41,7 @@ class Also : public testing::Test {
         write_text(here / name, text);
         return name;
     }
-    // What lies there has the moments and the grains of the run's own trajectory.
+    // Expects that the files there have the moments and the grains of the run's own trajectory.
     void expect_like_run(const std::string& inside) const {
         SCOPED_TRACE(inside);
         const auto wanted = open_frames(here / "run"), found = open_frames(here / "run" / "also" / inside);
@@ -52,7 +52,7 @@ class Also : public testing::Test {
         for (std::size_t i = 0; i < a.size(); ++i)
             ASSERT_LT((a.position[i] - b.position[i]).norm(), 1e-8) << a.id[i];  // floats of 0.1 m
     }
-    // Names in the folder also, parted by blanks.
+    // Names in the folder also/, separated by blanks.
     std::string names(const std::string& folder = "run") const {
         std::vector<std::string> all;
         std::error_code none;

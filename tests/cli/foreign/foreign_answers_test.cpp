@@ -1,4 +1,5 @@
-// Questions to files of other programs, pages of them, files compared, and the cache that they are read into.
+// Tests of questions to files of other programs, pages about them, comparisons of files, and the cache into
+// which files are imported.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ class ForeignAnswers : public ForeignBed {
         EXPECT_EQ(ended.status, 0) << ended.err;
         return nlohmann::json::parse(ended.out, nullptr, false);
     }
-    // What is left of the folder beside what the test wrote, the cache left out.
+    // Number of entries in the folder, without the test's own files and the cache.
     std::ptrdiff_t entries() const {
         std::ptrdiff_t count = 0;
         for (const auto& one : fs::directory_iterator(here.path())) count += one.path().filename() != "cache";
@@ -49,8 +50,8 @@ TEST_F(ForeignAnswers, AreOfTheFrameThatIsAskedFor) {
     EXPECT_NEAR(grains["rows"][0][4].get<double>(), 0.015 + 0.002, 1e-12);  // z of the upper layer
 }
 
-// A dump of places alone: what needs velocities or spins is left out of tables, and refused where it is asked
-// for.
+// A dump has only places. Columns that need velocities or spins are left out of tables, and refused if a
+// question asks for them.
 TEST_F(ForeignAnswers, SayNothingOfVelocitiesThatAFileDoesNotHave) {
     std::string text = foreign_frame(0);
     const auto replace_all = [&](const std::string& from, const std::string& to) {
@@ -155,7 +156,7 @@ TEST_F(ForeignAnswers, ASecondCallUsesWhatTheFirstRead) {
     const auto written = fs::last_write_time(measures);
     const Ended again = timed({"report", "bed.dump"});
     EXPECT_EQ(again.status, 0);
-    EXPECT_THAT(again.err, HasSubstr("says no density"));  // also where it was read before
+    EXPECT_THAT(again.err, HasSubstr("says no density"));  // also if the file was imported before
     EXPECT_EQ(imports().size(), 1u);
     EXPECT_EQ(fs::last_write_time(measures), written);
 }

@@ -1,4 +1,4 @@
-// Files of another program, written by the test: 40 grains of two types that rise by 1 mm a frame, a paddle
+// Files of another program that the test writes: 40 grains of two types that rise by 1 mm a frame, a paddle
 // that turns about z, and contacts.
 #pragma once
 
@@ -23,8 +23,8 @@ inline constexpr int kForeignGrains = 40, kForeignFrames = 4;
 inline constexpr double kForeignStep = 1e-5;                        // s
 inline constexpr double kPaddleTurn = 20 * std::numbers::pi / 180;  // rad, from frame to frame
 
-// One frame of a dump, its rows from the last id to the first. Odd ids are of type 2 with a radius of 3 mm,
-// the others of type 1 with 4 mm.
+// One frame of a dump, with rows from the last id to the first. Odd ids are of type 2 with a radius of 3 mm,
+// and the others of type 1 with 4 mm.
 inline std::string foreign_frame(int k, bool with_radius = true) {
     std::string text = fmt::format(
         "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n0 0.05\n0 0.04\n0 0.06\n"
@@ -65,7 +65,7 @@ inline std::string foreign_paddle(double turn) {
     return text + "endsolid paddle\n";
 }
 
-// Two contacts a frame: 40 and 39 with 0.5 N, 39 and 38 with 0.25 N.
+// Each frame has two contacts: 40 and 39 with 0.5 N, 39 and 38 with 0.25 N.
 inline std::string foreign_contacts() {
     std::string text;
     for (int k = 0; k < kForeignFrames; ++k)
@@ -76,7 +76,7 @@ inline std::string foreign_contacts() {
     return text;
 }
 
-// A folder with these files, and a cache of imports of its own.
+// A folder with these files, which has a cache of imports of its own.
 class ForeignBed : public testing::Test {
   protected:
     void SetUp() override {
@@ -90,7 +90,7 @@ class ForeignBed : public testing::Test {
         return {here.path(), {"XDG_CACHE_HOME=" + (here / "cache").string()}};
     }
     Ended program(const std::vector<std::string>& words) { return run_program(words, setting()); }
-    // With the length of a step, so that the dump has times.
+    // Adds the length of a step, so that the dump has times.
     Ended timed(std::vector<std::string> words) {
         words.insert(words.end(), {"--time-step", "1e-5"});
         return program(words);

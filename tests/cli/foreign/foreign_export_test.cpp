@@ -1,4 +1,5 @@
-// `grainreel export`: from a file of another program to each format, and back where the format is read.
+// Tests of `grainreel export`: from a file of another program to each format, and back if the format can be
+// read.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -30,7 +31,7 @@ class ForeignExport : public ForeignBed {
     }
 };
 
-// Each grain by its id, to the format's precision (m).
+// Compares grains by their ids, to the precision (m) of the format.
 void expect_same_grains(const Frame& a, const Frame& b, double precision) {
     ASSERT_EQ(a.id, b.id);
     EXPECT_EQ(a.species, b.species);
@@ -66,10 +67,10 @@ TEST_F(ForeignExport, WhatIsReadBackHasTheSameGrains) {
     }
 }
 
-// What comes back of a run of ours that went through a format.
+// A format through which a run of ours goes, and what comes back.
 struct Returned {
     const char* format;
-    const char* inside;  // what is read of a folder
+    const char* inside;  // the file in the folder that is read
     double precision;    // m, of places and radii of some centimetres: 0 for doubles, 2^-24 of it for floats
     bool names;          // whether species have their names, and not only their numbers
 };
@@ -79,7 +80,7 @@ constexpr Returned returned_formats[] = {
     {"vtk", "grains.pvd", 0, true}, {"gsd", "", 4e-9, true}, {"netcdf", "", 0, true},
 };
 
-// Ours, theirs made of ours, and both in one picture.
+// Our run, files of other programs made from it, and both in one picture.
 TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
     std::string scene = small_scene_text;
     ASSERT_NE(scene.find("duration = \"0.2 s\""), std::string::npos);
@@ -119,7 +120,7 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
     EXPECT_EQ(both.status, 0) << both.err;
 }
 
-// read_data: section Atoms of atom_style sphere has id, type, diameter, density, x, y, z.
+// The section Atoms of atom_style sphere has id, type, diameter, density, x, y, z (LAMMPS, read_data).
 TEST_F(ForeignExport, ADataFileOfLammpsHasTheLastFrame) {
     const fs::path made = exported("bed.dump", "lammps-data");
     FrameRequest request;
@@ -157,7 +158,7 @@ TEST_F(ForeignExport, TakesTheMomentsThatWereChosen) {
             .status,
         0);
     const std::string text = text_of(here / "two.csv");
-    // A line a grain of frames 1 and 3, and the header.
+    // There is a line for each grain of frames 1 and 3, and the header.
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 * kForeignGrains + 1);
     const Ended none = timed({"export", "bed.dump", "--to", "csv", "--from", "7", "--out", "none.csv"});
     EXPECT_EQ(none.status, 2) << none.err;

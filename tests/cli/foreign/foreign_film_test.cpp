@@ -1,4 +1,4 @@
-// Films and pictures of files of other programs.
+// Tests of films and pictures of files of other programs.
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -24,7 +24,7 @@ using testing::Not;
 
 class ForeignFilm : public ForeignBed {};
 
-// The chunk of a PNG of that name; empty: there is none.
+// The chunk with that name in a PNG; empty if there is none.
 std::string chunk_of(const std::string& png, const std::string& name) {
     const auto number = [&](std::size_t at) {
         std::size_t value = 0;
@@ -52,14 +52,14 @@ TEST_F(ForeignFilm, AStillForPrintTellsItsPixelsAnInch) {
                      "print.png"})
                   .status,
               0);
-    // 254 pixels an inch are 10,000 a metre; the last byte says that metres are meant.
+    // 254 pixels an inch are 10,000 a metre; the last byte says that the unit is the metre.
     EXPECT_EQ(chunk_of(text_of(here / "print.png"), "pHYs"), std::string("\0\0\x27\x10\0\0\x27\x10\x01", 9));
     ASSERT_EQ(
         timed({"render", "bed.dump", "--at", "0.02", "--size", "160x120", "--out", "screen.png"}).status, 0);
     EXPECT_EQ(chunk_of(text_of(here / "screen.png"), "pHYs"), "");
 }
 
-// Two panels in the width of a journal's column: 85 mm at 300 pixels an inch.
+// Two panels are as wide as a journal's column: 85 mm at 300 pixels an inch.
 TEST_F(ForeignFilm, AComparisonAtAMomentIsForPrintToo) {
     const Ended ended = timed({"compare", "bed.dump", "bed.dump", "--at", "0.02", "--size", "320x180",
                                "--captions", "one|other", "--width-mm", "85", "--out", "both"});
@@ -106,7 +106,7 @@ TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {
     for (int k = 0; k < kForeignFrames; ++k) {
         const Frame frame = frames->grains(static_cast<std::size_t>(k));
         const Quaternion turn(Eigen::AngleAxisd(k * kPaddleTurn, Vec3::UnitZ()));
-        // The files have nine digits of lengths up to 0.03 m.
+        // The files have nine digits for lengths up to 0.03 m.
         EXPECT_NEAR(frame.body(kFirstPlaneBody).rotation.angularDistance(turn), 0, 1e-6) << k;
         const Vec3 corner(0.03, 0.004, -0.01);
         EXPECT_NEAR((frame.body(kFirstPlaneBody).moved(corner) - turn * corner).norm(), 0, 1e-8) << k;
@@ -149,7 +149,8 @@ duration = "1 s"
     }
 }
 
-// A bed that lies closer than a scene packs its grains: a cube of eight that touch, 52 %, and one within.
+// The bed is denser than the beds that a scene packs: a cube of eight grains that touch, 52 %, with one grain
+// inside.
 TEST_F(ForeignFilm, ABedMayBeCloserThanAScenePacksIt) {
     std::string text =
         "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n9\nITEM: BOX BOUNDS pp pp pp\n0 0.02\n0 0.02\n0 0.02\n"
@@ -172,7 +173,7 @@ TEST_F(ForeignFilm, AWallThatIsCalledLikeAFaceIsShown) {
     EXPECT_THAT(text_of(import() / "scene.toml"), HasSubstr("floor of the files"));
 }
 
-// The test writes a frame whenever one more was told.
+// The test writes a frame each time another one was reported.
 TEST_F(ForeignFilm, FollowsAFileThatGrows) {
     const fs::path file = here / "growing.dump";
     write_text(file, foreign_frame(0) + foreign_frame(1));

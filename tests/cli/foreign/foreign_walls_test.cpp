@@ -1,4 +1,4 @@
-// Walls of other programs with colours, pictures of single frames, and the copies in the cache.
+// Tests of walls of other programs with colours, pictures of single frames, and the copies in the cache.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -17,8 +17,8 @@ using testing::HasSubstr;
 
 class ForeignWalls : public ForeignBed {
   protected:
-    // As LIGGGHTS' dump mesh/vtk: vertices are not shared, and one triangle of no area stands among the
-    // others. Stress rises from frame to frame.
+    // Writes walls as LIGGGHTS' dump mesh/vtk does: vertices are not shared, and one of the triangles has no
+    // area. Stress rises from frame to frame.
     void write_walls(const std::string& stress = "normal_stress_average") {
         for (int k = 0; k < kForeignFrames; ++k)
             write_old_text(

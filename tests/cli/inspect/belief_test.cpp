@@ -1,5 +1,5 @@
-// What `inspect` believes of a run's folder: nothing that is not of this run, or damaged, goes into an answer
-// without a word.
+// Tests of what `inspect` believes in a run's folder: nothing that is damaged or of another run goes into an
+// answer without a message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,14 +55,14 @@ TEST_F(Belief, ACheckpointOfAnotherSeedOrSceneIsPassedOver) {
     const fs::path first = here / "run/checkpoints/000000000000.grs";
     ASSERT_TRUE(fs::exists(first));
     for (const char* other : {"seed", "drive"}) {
-        // Nearer to the moment than the run's own.
+        // This checkpoint is nearer to the moment than the run's own.
         const fs::path foreign = here / "run/checkpoints" / fs::path("000000000001.grs");
         fs::copy(here / other / "checkpoints/000000000000.grs", foreign);
         const Ended renamed = ask(question);
         EXPECT_EQ(renamed.out, before.out);
         EXPECT_THAT(renamed.err, HasSubstr("000000000001.grs: is of another moment, step 0"));
         fs::remove(foreign);
-        // Alone in the folder: nothing can be brought back, and the run cannot go on.
+        // If the foreign checkpoint is the only one, nothing can be restored, and the run cannot continue.
         fs::rename(here / "run/checkpoints", here / "ring");
         fs::rename(here / "run/checkpoint.grs", here / "last.grs");
         fs::create_directory(here / "run/checkpoints");
@@ -75,7 +75,7 @@ TEST_F(Belief, ACheckpointOfAnotherSeedOrSceneIsPassedOver) {
         fs::rename(here / "ring", here / "run/checkpoints");
         fs::rename(here / "last.grs", here / "run/checkpoint.grs");
     }
-    // As the run's last one, which says how far it has come.
+    // The checkpoint is put in place of the run's last one, which says how far the run has come.
     make("longer", {"--seed", "7"}, "0.15 s");
     const Ended last_before = ask({"--json"});
     fs::rename(here / "run/checkpoint.grs", here / "last.grs");
@@ -94,8 +94,8 @@ TEST_F(Belief, ADamagedLastCheckpointDoesNotSayHowFarTheRunCame) {
     std::uint64_t scene_length = 0;
     const std::size_t at_length = 8 + 8;  // name with version, checksum
     std::memcpy(&scene_length, bytes.data() + at_length, sizeof scene_length);
-    bytes[at_length + 8 + scene_length + 4] ^= 1;  // its step is 2^32 larger
-    fs::remove(file);                              // a hard link to one of the ring
+    bytes[at_length + 8 + scene_length + 4] ^= 1;  // the step in the file becomes larger by 2^32
+    fs::remove(file);                              // the file is a hard link to one of the ring
     write_text(file, bytes);
     ASSERT_GT(label_of_checkpoint(file)->step, std::int64_t{1} << 32);
     const Ended ended =
@@ -105,7 +105,7 @@ TEST_F(Belief, ADamagedLastCheckpointDoesNotSayHowFarTheRunCame) {
     EXPECT_LE(nlohmann::json::parse(ended.out)["moment"]["step"].get<std::int64_t>(), last);
 }
 
-// What --accept changed is told from what another run had.
+// A change made by --accept is told apart from a value that another run had.
 TEST_F(Belief, ACheckpointFromBeforeAnAcceptedChangeIsOfTheRun) {
     make("run", {"--seed", "3"});
     make("strange", {"--seed", "3", "--set", "contact.friction=0.3"});
@@ -119,7 +119,7 @@ TEST_F(Belief, ACheckpointFromBeforeAnAcceptedChangeIsOfTheRun) {
     EXPECT_EQ(after.err, "");
     ASSERT_EQ(run({"resume", "run", "--for", "0.05 s", "--no-report"}).status, 0) << "which writes run.json";
     EXPECT_EQ(ask(question).out, before.out);
-    // Which others there are follows the clock.
+    // Which other checkpoints there are depends on the speed of the machine.
     fs::remove_all(here / "run/checkpoints");
     fs::create_directory(here / "run/checkpoints");
     fs::copy(here / "strange/checkpoints/000000000000.grs", here / "run/checkpoints/000000000000.grs");
@@ -151,7 +151,7 @@ TEST_F(Belief, ContactsThatWereCutOffAreBroughtBack) {
     write_text(here / "run/contacts.nc", "");
     expect_brought_back("empty");
     std::string damaged = whole;
-    damaged[damaged.size() - 20] ^= 4;  // a number of the last row
+    damaged[damaged.size() - 20] ^= 4;  // damages a number of the last row
     write_text(here / "run/contacts.nc", damaged);
     const Ended ended = ask(question);
     EXPECT_EQ(matching(ended), matching(before)) << ended.err;
@@ -164,12 +164,12 @@ TEST_F(Belief, ADamagedFrameIsBroughtBackAndSaidSo) {
     const Ended before = ask(question);
     const std::string whole = text_of(here / "run/trajectory.nc");
     std::string damaged = whole;
-    damaged[damaged.size() - 600] ^= 8;  // of the last frame's grains
+    damaged[damaged.size() - 600] ^= 8;  // damages the last frame's grains
     write_text(here / "run/trajectory.nc", damaged);
     const Ended ended = ask(question);
     ASSERT_EQ(ended.status, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is damaged"));
-    // Velocities are not rounded then, as kept ones are.
+    // Restored velocities are not rounded, as those that were kept are.
     EXPECT_EQ(nlohmann::json::parse(ended.out)["tables"]["count"],
               nlohmann::json::parse(before.out)["tables"]["count"]);
     cut("trajectory.nc", 0.99);
@@ -177,7 +177,7 @@ TEST_F(Belief, ADamagedFrameIsBroughtBackAndSaidSo) {
                 HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is not whole"));
 }
 
-// What a run with grains glued to its floor kept comes back as it was.
+// A kept moment of a run with grains glued to its floor is restored as it was.
 TEST_F(Belief, AFrameBesideGluedGrainsComesBackAsItWas) {
     make("run",
          {"--set", "output.trajectory_interval=20 ms", "--set", "container.wall_grains={faces=[\"floor\"]}"});
@@ -195,16 +195,16 @@ TEST_F(Belief, AFrameBesideGluedGrainsComesBackAsItWas) {
     for (const auto& entry : fs::directory_iterator(here / "run/checkpoints"))
         if (entry.path().filename() != "000000000000.grs") fs::remove_all(entry.path());
     std::string damaged = text_of(here / "run/trajectory.nc");
-    damaged[damaged.size() - 600] ^= 8;  // of the last frame's grains
+    damaged[damaged.size() - 600] ^= 8;  // damages the last frame's grains
     write_text(here / "run/trajectory.nc", damaged);
     const auto back = grains(true);
     ASSERT_EQ(back.size(), kept.size());
     for (std::size_t i = 0; i < kept.size(); ++i)
-        for (int column : {2, 3, 4})  // m; kept ones are rounded
+        for (int column : {2, 3, 4})  // m; values that were kept are rounded
             EXPECT_NEAR(back[i][column].get<double>(), kept[i][column].get<double>(), 1e-8) << i;
 }
 
-// A table knows no end; the run.json beside it does.
+// A table does not say where it ends; the run.json beside it does.
 TEST_F(Belief, AFinalTableThatWasCutAtARowsEndIsRefused) {
     make("run");
     const std::string whole = text_of(here / "run/final.csv");
@@ -232,10 +232,10 @@ TEST_F(Belief, AFinalTableThatWasCutAtARowsEndIsRefused) {
     const std::size_t digit = changed.find("0.0", 300) + 3;
     changed[digit] = changed[digit] == '9' ? '8' : '9';
     expect_refused(changed, "run/final.csv: is not what its run wrote");
-    // Under another name it is whatever its owner made of it.
+    // A table under another name may be whatever its owner made of it.
     write_text(here / "run/mine.csv", rows(44));
     EXPECT_EQ(run({"inspect", "run/mine.csv"}).status, 0);
-    // Without a run.json the scene beside it knows how many there are.
+    // Without a run.json, the scene beside the table gives the number of grains.
     fs::rename(here / "run/run.json", here / "run.json");
     write_text(here / "run/final.csv", rows(44));
     const Ended alone = run({"inspect", "run/final.csv"});
@@ -248,7 +248,7 @@ TEST_F(Belief, AFinalTableThatWasCutAtARowsEndIsRefused) {
     EXPECT_EQ(run({"inspect", "run/final.csv"}).status, 0) << "a longer run has marked its table anew";
 }
 
-// A trajectory by itself, under another name, has the same grains; what only the run knew is not there.
+// A trajectory alone, under another name, has the same grains. What only the run knew is missing.
 TEST_F(Belief, ATrajectoryAloneAnswersAsItsRunDoes) {
     make("run", {"--set", "output.trajectory_interval=20 ms"});
     fs::copy(here / "run/trajectory.nc", here / "moments");

@@ -1,4 +1,4 @@
-// The quantities of a grain, each against what a formula or the film says of the same grain.
+// Tests of the quantities of a grain, each against a formula or against the film's value for the same grain.
 #include "engine/questions/grain_columns.hpp"
 
 #include <gmock/gmock.h>
@@ -23,8 +23,8 @@ using testing::HasSubstr;
 
 constexpr double d = 0.004, r = d / 2;  // m
 
-// A cube of 5 x 5 x 5 grains that touch fills a box as wide as it. Layer k rises at k cm/s. Grain 62, in the
-// middle, is of the other species.
+// A cube of 5 x 5 x 5 grains that touch, in a box as wide as the cube. Layer k rises at k cm/s. Grain 62, in
+// the middle, is of the other species.
 struct Cube {
     FilmedScene scene = read_filmed_scene_text(R"(
 [[species]]
@@ -75,7 +75,7 @@ duration = "1 s"
     }
 };
 
-// 31 is inside the second layer, 62 the middle of the cube, 0 a corner at the floor.
+// Grain 31 is inside the second layer, 62 is the middle of the cube, and 0 is a corner at the floor.
 TEST(GrainColumns, SayHowAGrainLiesInTheBed) {
     const Cube cube;
     EXPECT_EQ(cube.of("neighbours", 62), 6);
@@ -108,7 +108,7 @@ ContactForce push(std::int32_t first, std::int32_t second, const Vec3& normal, d
             {1e-6, 0, 0}, {0, 1e-6, 0}, 0.5,    {0, 0, 0}, r,     2e-7};
 }
 
-// Grain 62 is squeezed from above and below by 2 N, and a wall pushes it by 1 N along x.
+// Grain 62 is pressed from above and below by 2 N, and a wall pushes it by 1 N along x.
 struct Squeezed : Cube {
     Squeezed() {
         snapshot.forces.emplace();
@@ -128,7 +128,8 @@ TEST(GrainColumns, SayWhatContactsDo) {
     EXPECT_NEAR(cube.of("fy", 62), 0.5 - 1, 1e-12);
     EXPECT_NEAR(cube.of("fz", 62), 0, 1e-12);
     EXPECT_NEAR(cube.of("force", 62), std::sqrt(1.25), 1e-12);
-    EXPECT_NEAR(cube.of("torque", 62), std::sqrt(5) * 1e-6, 1e-15);  // first of two contacts, second of one
+    EXPECT_NEAR(cube.of("torque", 62), std::sqrt(5) * 1e-6,
+                1e-15);  // it is the first body of two contacts and the second of one
     EXPECT_EQ(cube.of("sliding", 62), 1);
     EXPECT_NEAR(cube.of("largest_overlap", 62), 2e-5 / r, 1e-12);
     EXPECT_NEAR(cube.of("elastic_energy", 62), 2e-7 * (0.5 + 0.5 + 1), 1e-18);
@@ -160,7 +161,7 @@ TEST(GrainColumns, TellWhatTheyLack) {
     EXPECT_EQ(needs_of("x > 1 pressures"), std::vector<Needs>{Needs::nothing});
 }
 
-// Whatever can colour a grain can be asked for, and is the same number.
+// Each quantity that can colour a grain is also a column, with the same numbers.
 TEST(GrainColumns, HaveAllColoursOfTheFilm) {
     Squeezed cube;
     Frame before = cube.snapshot.frame;
@@ -182,7 +183,7 @@ TEST(GrainColumns, HaveAllColoursOfTheFilm) {
     }
 }
 
-// The arrows of a grain end on its surface, and their sum is the force on it.
+// The arrows of a grain end on its surface, and their sum is the force on the grain.
 TEST(AnswerForces, AreThoseOfAllContactsOnTheGrain) {
     const Squeezed cube;
     const AnswerForces answer = forces_on_grain(cube.snapshot, 62);

@@ -1,4 +1,4 @@
-// Questions to a moment of a run: expressions, tables, and the verb.
+// Tests of questions about a moment of a run: expressions, tables, and the verb `inspect`.
 #include "engine/questions/questions.hpp"
 
 #include <gmock/gmock.h>
@@ -56,8 +56,8 @@ duration = "1 s"
                                   "two.toml");
 }
 
-// A cubic lattice of 4 x 4 x 4 grains that touch, from the floor up; grain 63, the one far up in a corner, is
-// of the other species. Layer k moves upwards at k cm/s.
+// A cubic lattice of 4 x 4 x 4 grains that touch, from the floor up. Grain 63, in an upper corner, is of the
+// other species. Layer k moves upwards at k cm/s.
 Frame lattice() {
     Frame frame;
     for (int i = 0; i < 64; ++i) {
@@ -99,7 +99,7 @@ TEST(Expressions, CountTheGrainsOfALattice) {
     EXPECT_EQ(bed.count("species != 'big beads' && y > 0"), 31u);
     EXPECT_EQ(bed.count("4 mm < height < 8 mm"), 16u);
     EXPECT_EQ(bed.count("sqrt(x^2 + y^2) < 3 mm"),
-              16u);  // the inner four of each layer, 2.83 mm from the axis
+              16u);  // four grains in the middle of each layer, 2.83 mm from the axis
     EXPECT_EQ(bed.count("max(abs(x), abs(y)) < 3 mm"), 16u);
     EXPECT_EQ(bed.count("kinetic_energy > 0.5 * mass * (15 mm/s)^2"), 32u);
     EXPECT_EQ(bed.count("-vz <= -0.02 m/s"), 32u);
@@ -138,7 +138,8 @@ double number(const AnswerCell& cell) {
     return std::get<double>(cell);
 }
 
-// Grain 63 is lifted out of the lattice: it is the highest, and one of the layer below it is the tip.
+// Grain 63 is lifted out of the lattice: it is the highest grain, and a grain of the layer below it is the
+// tip.
 TEST(Questions, TheTipOfTheBedIsNotInFlight) {
     Bed bed;
     bed.snapshot.frame.position[63].z() += 3 * d;
@@ -179,7 +180,8 @@ TEST(Questions, AProfileHasTheSolidFraction) {
     for (std::size_t k = 0; k < 4; ++k)
         EXPECT_NEAR(number(cell_of(box, k, "solid_fraction")), std::numbers::pi / 6, 1e-12);
     EXPECT_EQ(box.columns[box.columns.size() - 2].unit, "m3");
-    // The same over the room of a wedge and of a cylinder between the heights k d and (k + 1) d.
+    // The same fraction is found in a wedge and in a cylinder, with their volumes between the heights k d and
+    // (k + 1) d.
     Container& c = bed.scene.container;
     const double layer = 16 * std::numbers::pi / 6 * d * d * d;
     c.shape = Container::Shape::wedge;
@@ -195,7 +197,7 @@ TEST(Questions, AProfileHasTheSolidFraction) {
     const AnswerTable round = profile_answer(bed.snapshot, "z").tables[0];
     EXPECT_NEAR(number(cell_of(round, 2, "solid_fraction")), layer / (std::numbers::pi * 0.02 * 0.02 * d),
                 1e-12);
-    // Half a layer lies above the rim, whose grains do not count there.
+    // Half a layer lies above the rim, and its grains do not count there.
     c.height = 3.5 * d;
     const AnswerTable open = profile_answer(bed.snapshot, "height").tables[0];
     EXPECT_NEAR(number(cell_of(open, 3, "solid_fraction")), layer / (std::numbers::pi * 0.02 * 0.02 * d),
@@ -204,7 +206,7 @@ TEST(Questions, AProfileHasTheSolidFraction) {
     EXPECT_THROW(cell_of(profile_answer(bed.snapshot, "height").tables[0], 0, "solid_fraction"), UserError);
 }
 
-// A grain half a diameter up lies half in each of two bins; with a floor that moves heights are above it.
+// A grain that is half a diameter up lies half in each of two bins. If the floor moves, heights are above it.
 TEST(Questions, TheSolidFractionCutsGrainsAtTheEdges) {
     Bed bed;
     Frame& frame = bed.snapshot.frame;
@@ -232,7 +234,7 @@ TEST(Questions, AHistogramHasEveryGrainOnce) {
     for (const auto& row : table.rows) EXPECT_EQ(number(row[2]) + number(row[3]), 16);
 }
 
-// A plane at the height of half a radius above the centres of the lowest layer.
+// The plane is half a radius above the centres of the lowest layer.
 TEST(Questions, ASliceHasTheCirclesOfALayer) {
     const Bed bed;
     const Answer answer = slice_answer(bed.snapshot, "z = 3 mm", 100);
@@ -245,7 +247,8 @@ TEST(Questions, ASliceHasTheCirclesOfALayer) {
     EXPECT_THROW(slice_answer(bed.snapshot, "y = 2 s", 100), UserError);
 }
 
-// A cubic lattice of spacing d has partners at d (6), d sqrt 2 (12), d sqrt 3 (8), 2 d (6) ..., none between.
+// A cubic lattice of spacing d has partners at d (6), d sqrt 2 (12), d sqrt 3 (8), 2 d (6) ..., and none
+// between.
 TEST(Questions, ThePairDistributionOfALatticeHasItsShells) {
     Bed bed;
     Frame& frame = bed.snapshot.frame;
@@ -260,7 +263,7 @@ TEST(Questions, ThePairDistributionOfALatticeHasItsShells) {
     frame.velocity.assign(frame.id.size(), Vec3(0, 0, 0));
     frame.spin = frame.velocity;
     const AnswerTable table = pair_distribution_answer(bed.snapshot).tables[0];
-    const double density = std::pow(side, 3) / std::pow((side - 1) * d, 3);  // in the box about the centres
+    const double density = std::pow(side, 3) / std::pow((side - 1) * d, 3);  // in the box around the centres
     double partners = 0;
     for (const auto& row : table.rows) {
         const double from = number(row[0]), to = number(row[1]);
@@ -288,7 +291,7 @@ TEST(Questions, ComparingMomentsIsDoneInTheContainersFrame) {
     EXPECT_NEAR(number(answer.tables[0].rows[1][2]), 0, 1e-15);  // the big bead has not moved
 }
 
-// What contacts.nc has of them.
+// The contacts are those of contacts.nc.
 TEST(Questions, WallsOfAKeptMomentHaveTheirContacts) {
     Bed bed;
     bed.snapshot.contacts = true;
@@ -344,7 +347,7 @@ TEST(InspectProgram, AnswersFromARunOnDisk) {
     EXPECT_EQ(run_program({"inspect", "nowhere"}, {.folder = folder.path()}).status, 2);
 }
 
-// By hand: (1 * 4 + 3 * 8) / 4 = 7; a row that one of two moments lacks counts as 0 there.
+// By hand, (1 * 4 + 3 * 8) / 4 = 7; a row that one of two moments lacks counts as 0 there.
 TEST(MeanAnswer, WeighsMeansAndHalvesWhatIsThereHalfTheTime) {
     const auto moment = [](std::vector<std::vector<AnswerCell>> rows) {
         const AnswerTable table{"bins",
@@ -367,8 +370,8 @@ TEST(MeanAnswer, WeighsMeansAndHalvesWhatIsThereHalfTheTime) {
     EXPECT_EQ(rows[1], (std::vector<AnswerCell>{0.1, 1.0, 5.0}));
 }
 
-// Words keep their order; a value that a moment lacks has no say, and what none has stays empty. Of lists the
-// largest of all moments come, with their times.
+// Words keep their order. A value that a moment lacks does not count, and a value that no moment has stays
+// empty. Lists give the largest values of all moments with their times.
 TEST(MeanAnswer, KeepsOrderAndTheLargestOfAllMoments) {
     const auto moment = [](std::vector<std::vector<AnswerCell>> rows, double most) {
         AnswerTable list{"list", "A list", {{"size", Dimension::length}}, {{most}, {most / 2}}};
@@ -393,7 +396,7 @@ TEST(MeanAnswer, KeepsOrderAndTheLargestOfAllMoments) {
     EXPECT_EQ(answer.tables[1].rows, (std::vector<std::vector<AnswerCell>>{{8.0, 0.5}, {6.0, 0.75}}));
 }
 
-// A run of fifty grains with a film, in run/.
+// A run of fifty grains with a film, in the folder run/.
 class InspectedMoment : public testing::Test {
   protected:
     void SetUp() override {
@@ -423,7 +426,7 @@ class InspectedMoment : public testing::Test {
     TemporaryFolder folder;
 };
 
-// Newton's second law, of each grain, at a moment that the run did not keep.
+// Newton's second law is checked for each grain, at a moment that the run did not keep.
 TEST_F(InspectedMoment, TheForcesOnAGrainAddUpToItsAcceleration) {
     for (const char* id : {"0", "17", "45"}) {
         const auto told = answer({"--at", "0.0731 s", "--grain", id})["tables"];
@@ -446,13 +449,14 @@ TEST_F(InspectedMoment, AWallTellsWhoTouchesIt) {
     for (const auto& one : told["touching"]["rows"]) normal += one[4].get<double>();
     EXPECT_EQ(told["touching"]["rows"].size(), sum[0].get<std::size_t>());
     EXPECT_NEAR(normal, sum[4].get<double>(), 1e-9 * normal);
-    EXPECT_NEAR(-sum[3].get<double>(), normal, 1e-9 * normal);  // the floor is level, friction along it
-    // Pressure on a wall that stands is its force over width and height of a bin.
+    EXPECT_NEAR(-sum[3].get<double>(), normal,
+                1e-9 * normal);  // the floor is level, and friction acts along it
+    // The pressure on a wall at rest is its force divided by width and height of a bin.
     int bins = 0;
     for (const auto& [name, width] : std::map<std::string, double>{
              {"left wall", 0.02}, {"right wall", 0.02}, {"front", 0.03}, {"back", 0.03}}) {
         const auto side = answer({"--at", "0.05 s", "--wall", name})["tables"];
-        if (!side.contains("by_height")) continue;  // nothing touches it
+        if (!side.contains("by_height")) continue;  // nothing touches this wall
         for (const auto& bin : side["by_height"]["rows"]) {
             const double area = width * (std::min(bin[1].get<double>(), 0.040) - bin[0].get<double>());
             EXPECT_NEAR(bin[4].get<double>(), bin[3].get<double>() / area, 1e-9 * bin[4].get<double>());
@@ -471,7 +475,7 @@ TEST_F(InspectedMoment, AFrameOfTheFilmHasTheMomentOfItsPicture) {
         return answer({"--frame", frame})["tables"]["moment"]["rows"][0][0].get<double>();
     };
     EXPECT_NEAR(moment("0"), 0, 1e-12);
-    EXPECT_NEAR(moment("5"), 5 * 0.5 / 30, 1e-4);  // playback over rate, to the nearest step
+    EXPECT_NEAR(moment("5"), 5 * 0.5 / 30, 1e-4);  // playback divided by rate, to the nearest step
     EXPECT_THAT(refusal({"--frame", "1000"}), HasSubstr("--frame: the film has the frames 0 to "));
     std::filesystem::remove(folder / "run/film_moments.nc");
     EXPECT_THAT(refusal({"--frame", "1"}), HasSubstr("has no film_moments.nc"));
@@ -490,8 +494,8 @@ TEST_F(InspectedMoment, WhatCannotComeBackIsToldInOneLine) {
     EXPECT_EQ(answer({"--grain", "3"})["tables"].contains("forces"), false);
 }
 
-// Over the moments of a whole period every grain is in some bin at each of them, and the mean of means over
-// grains is the mean over all.
+// At each moment of a whole period every grain is in some bin, so the mean over bins, weighted by grains, is
+// the mean over all grains.
 TEST_F(InspectedMoment, TheMeanOverAPeriodHasAllGrainsAndTheirMeanSpeed) {
     const auto told = answer({"--at", "0.1 s", "--average", "1", "--profile", "height"})["tables"];
     double grains = 0, speed = 0, expected = 0;
@@ -500,7 +504,7 @@ TEST_F(InspectedMoment, TheMeanOverAPeriodHasAllGrainsAndTheirMeanSpeed) {
         if (!row[3].is_null()) speed += row[2].get<double>() * row[3].get<double>();
     }
     EXPECT_NEAR(grains, 50, 1e-9);
-    for (int k = 0; k < 20; ++k) {  // 20 Hz: 2.5 ms apart
+    for (int k = 0; k < 20; ++k) {  // the period of 20 Hz in steps of 2.5 ms
         const std::string at = fmt::format("{} s", 0.1 - 0.0025 * k);
         const auto all = answer({"--at", at, "--where", "speed >= 0"})["tables"]["statistics"]["rows"];
         for (const auto& row : all)
@@ -518,7 +522,7 @@ TEST_F(InspectedMoment, TheMeanOverAPeriodHasAllGrainsAndTheirMeanSpeed) {
 // The mean of each answer is the mean of the answers.
 TEST_F(InspectedMoment, EveryAnswerHasItsMean) {
     double grains = 0, height = 0, floor = 0, largest = 0, touching = 0;
-    for (int k = 0; k < 5; ++k) {  // a quarter of a period of 20 Hz, 2.5 ms apart
+    for (int k = 0; k < 5; ++k) {  // a quarter of a period of 20 Hz, in steps of 2.5 ms
         const std::string at = fmt::format("{} s", 0.1 - 0.0025 * k);
         const auto overlaps = answer({"--at", at, "--largest-overlap", "--limit", "1"})["tables"];
         touching += overlaps["touching"]["rows"][0][0].get<double>() / 5;
@@ -552,7 +556,7 @@ TEST_F(InspectedMoment, EveryAnswerHasItsMean) {
     EXPECT_EQ(mean({"--slice", "z=2 mm"})["areas"]["rows"].size(), 2u);
 }
 
-// What touches, and what pushes: a count of each, the same in all answers.
+// Grains that touch and grains that push are counted separately, and all answers have the same counts.
 TEST_F(InspectedMoment, ContactsAreCountedOneWay) {
     const auto at = [&](std::vector<std::string> words) {
         words.insert(words.end(), {"--at", "0.0731 s"});
@@ -577,7 +581,7 @@ TEST_F(InspectedMoment, WhatSaysHowAPictureIsDrawnNeedsOne) {
     EXPECT_THAT(refusal({"--film-time", "1 s"}), HasSubstr("--film-time: says what a picture shows"));
 }
 
-// A table has no room for words.
+// A CSV table has no room for words, so they are in a file beside it.
 TEST_F(InspectedMoment, ACsvHasItsMomentAndNotesBesideIt) {
     const Ended ended = inspect({"--at", "0.0731 s", "--no-replay", "--where", "id < 3", "--csv"});
     EXPECT_THAT(ended.out, testing::StartsWith("species,grains,of,share\n"));
@@ -585,7 +589,8 @@ TEST_F(InspectedMoment, ACsvHasItsMomentAndNotesBesideIt) {
     EXPECT_THAT(ended.err, HasSubstr(" s was not kept; this is the nearest kept moment"));
 }
 
-// A checkpoint alone has all that the run has there, a table of grains what its columns say.
+// A checkpoint alone has everything that the run has at that moment, and a table of grains has what its
+// columns say.
 TEST_F(InspectedMoment, AStateAloneAnswersToo) {
     const auto alone = [&](const std::string& file, std::vector<std::string> words) {
         words.insert(words.begin(), {"inspect", file, "--json"});
@@ -607,7 +612,7 @@ TEST_F(InspectedMoment, AStateAloneAnswersToo) {
     const auto table_all = alone("alone/final.csv", {"--where", "id >= 0"});
     for (const char* column : {"z", "vz", "spin", "diameter"})
         EXPECT_EQ(spread(table_all, column), spread(run_all, column)) << column;
-    EXPECT_TRUE(spread(table_all, "mass").is_null());  // a table says no densities
+    EXPECT_TRUE(spread(table_all, "mass").is_null());  // a table has no densities
     EXPECT_EQ(table_all["count"]["rows"][1][0], "type 2");
     EXPECT_EQ(alone("run/final.csv", {"--where", "species == big"})["count"]["rows"][1][1], 10);
 }
@@ -663,7 +668,7 @@ TEST_F(InspectedMoment, OverlapsHaveOneConvention) {
     EXPECT_DOUBLE_EQ(largest, of_grains);
 }
 
-// A period of 20 Hz earlier the container is where it is now.
+// The container is at the same place a period of 20 Hz earlier.
 TEST_F(InspectedMoment, AskedForWaysOverAPeriodTheMomentBeforeComesBackToo) {
     const auto list = [&](std::vector<std::string> words) {
         words.insert(words.end(), {"--limit", "100"});
@@ -687,7 +692,7 @@ TEST_F(InspectedMoment, AskedForWaysOverAPeriodTheMomentBeforeComesBackToo) {
                 HasSubstr("'fx' is known only of a moment that is brought back"));
 }
 
-// Each dimension has one unit in all tables of an answer.
+// Each dimension has the same unit in all tables of an answer.
 TEST_F(InspectedMoment, LengthsHaveOneUnit) {
     const auto touching = answer({"--wall", "floor", "--at", "0.1 s"})["tables"]["touching"]["rows"];
     const std::string id = std::to_string(touching[0][0].get<int>());
@@ -700,7 +705,7 @@ TEST_F(InspectedMoment, LengthsHaveOneUnit) {
         EXPECT_THAT(where, HasSubstr(fmt::format("\n  {} ", name)));
 }
 
-// The words beside the grains and the arrows make the difference between two pictures.
+// Two pictures differ only in the words beside the grains and in the arrows.
 TEST_F(InspectedMoment, AWallHasItsPictureToo) {
     EXPECT_EQ(inspect({"--wall", "floor", "--at", "0.05 s", "--png", "floor.png"}).status, 0);
     EXPECT_TRUE(std::filesystem::exists(folder / "floor.png"));

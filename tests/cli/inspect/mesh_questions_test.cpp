@@ -1,4 +1,4 @@
-// Questions to moments of scenes with meshes.
+// Tests of questions about moments of scenes with meshes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-// A square of side 2 in the plane x = 0, about the z axis at rest.
+// A square of side 2 in the plane x = 0, which turns about the z axis.
 Scene with_square() {
     TriangleMesh square{{{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}, {{0, 1, 2}, {0, 2, 3}}};
     Scene scene;
@@ -36,8 +36,8 @@ Frame with_vane_at(const Vec3& place, double angle) {
     return frame;
 }
 
-// It has turned by 60 degrees and gone 5 along x: a ray along x through y = 0.2 meets it where
-// x cos 60 + y sin 60 = 0 there.
+// The square has turned by 60 degrees and gone 5 along x: a ray along x through y = 0.2 meets it where x cos
+// 60 + y sin 60 = 0 relative to it.
 TEST(RayAndMesh, MeetWhereTheMeshIsNow) {
     const Scene scene = with_square();
     const Frame frame = with_vane_at({5, 0, 0}, std::numbers::pi / 3);
@@ -88,7 +88,8 @@ class InspectedMesh : public testing::Test {
     TemporaryFolder folder;
 };
 
-// 30 rpm from 10 ms on, smoothly begun within 20 ms: as far as at the full rate from 20 ms on.
+// The mesh turns at 30 rpm from 10 ms on, after a smooth start of 20 ms. It is as far as if it had turned at
+// the full rate from 20 ms on.
 TEST_F(InspectedMesh, TheOverviewSaysWhereBodiesAre) {
     const auto all = answer({"run"});
     const auto& bodies = all["tables"]["bodies"]["rows"];
@@ -100,7 +101,7 @@ TEST_F(InspectedMesh, TheOverviewSaysWhereBodiesAre) {
     EXPECT_NEAR(bodies[1][7].get<double>(), std::numbers::pi, 1e-9);
 }
 
-// The ball rests on the plate, or is on its way back to it.
+// The ball rests on the plate, or comes back to it.
 TEST_F(InspectedMesh, AMeshIsAWall) {
     const auto wall = tables({"run", "--wall", "plate"});
     ASSERT_TRUE(wall.contains("wall"));

@@ -1,4 +1,4 @@
-// Which grain is at a pixel: against the picture that the run's film shows.
+// Tests of which grain is at a pixel, against the picture in the run's film.
 #include <png.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using namespace test;
 
 constexpr int kinds = 12;  // species, whose hues are 30 degrees apart
 constexpr int width = 480, height = 360;
-constexpr int shown_frame = 4;  // of the film
+constexpr int shown_frame = 4;  // number in the film
 
 std::string colour_of(int kind) {
     const auto channel = [&](double at) {
@@ -91,7 +91,7 @@ Pixels read_picture(const std::filesystem::path& file) {
     return pixels;
 }
 
-// What a pixel shows by its colour: a species, or -1 for the light background; nothing where one cannot tell.
+// What a pixel shows, by its colour: a species, or -1 for the light background; none if it cannot be told.
 std::optional<int> shown_by(const std::uint8_t* pixel) {
     const int most = std::max({pixel[0], pixel[1], pixel[2]}),
               least = std::min({pixel[0], pixel[1], pixel[2]});
@@ -108,7 +108,7 @@ std::optional<int> shown_by(const std::uint8_t* pixel) {
     return static_cast<int>(nearest) % kinds;
 }
 
-// Likewise, and its neighbours show the same, so that no edge is near.
+// The same, if the neighbours of the pixel show it too, so that no edge is near.
 std::optional<int> shown_about(const Pixels& picture, int x, int y) {
     const std::optional<int> here = shown_by(picture.at(x, y));
     for (int dy = -1; dy <= 1; ++dy)
@@ -144,7 +144,7 @@ TEST_P(PixelOfTheFilm, IsOfTheGrainThatThePictureShows) {
         try {
             rows = picker.at(x, y, false).tables[0].rows;
         } catch (const UserError&) {
-            continue;  // words and their legend
+            continue;  // there are words and their legend
         }
         const bool is_grain = !rows.empty() && std::holds_alternative<std::int64_t>(rows[0][0]);
         if (*expected < 0) {

@@ -1,4 +1,5 @@
-// Steady or not: the two tests against closed forms, and what the verb says of measures with known drift.
+// Tests of whether a run is steady: two statistical tests against closed forms, and the verb's answers for
+// measures with known drift.
 #include "engine/questions/steadiness.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@ using namespace test;
 using testing::HasSubstr;
 using Verdict = Steadiness::Verdict;
 
-// Numbers between -1 and 1 without a trend: the fractions of multiples of the golden ratio.
+// Numbers between -1 and 1 without a trend: fractions of multiples of the golden ratio.
 double noise(std::size_t i) {
     const double x = static_cast<double>(i + 1) * std::numbers::phi;
     return 2 * (x - std::floor(x)) - 1;
@@ -37,8 +38,8 @@ Steadiness of(std::size_t rows, double interval, double period, const Value& val
     return steadiness_of(times, values, period);
 }
 
-// n values that rise: S = n (n - 1) / 2, its variance n (n - 1) (2 n + 5) / 18. For n = 10: 45, 125, and so z
-// = 44 / sqrt(125).
+// If n values rise, S = n (n - 1) / 2 and its variance is n (n - 1) (2 n + 5) / 18. For n = 10 they are 45
+// and 125, so z = 44 / sqrt(125).
 TEST(MannKendallTest, OfARisingAndAFallingSeries) {
     std::vector<double> rising;
     for (int i = 0; i < 10; ++i) rising.push_back(i * i);
@@ -52,7 +53,7 @@ TEST(MannKendallTest, OfARisingAndAFallingSeries) {
     EXPECT_DOUBLE_EQ(down.p, up.p);
 }
 
-// Two ties of five among ten: the variance is 125 - 2 * 5 * 4 * 15 / 18.
+// There are two ties of five values each among ten: the variance is 125 - 2 * 5 * 4 * 15 / 18.
 TEST(MannKendallTest, CountsTies) {
     const MannKendall test = mann_kendall({0, 0, 0, 0, 0, 1, 1, 1, 1, 1});
     EXPECT_EQ(test.s, 25);
@@ -60,7 +61,7 @@ TEST(MannKendallTest, CountsTies) {
     EXPECT_EQ(mann_kendall({3, 3, 3, 3}).p, 1);
 }
 
-// A step from 1 to 0 at the k-th of n: what is dropped is the k before it.
+// The series steps from 1 to 0 at the k-th of n values, and the k values before the step are dropped.
 TEST(Mser, DropsTheTransient) {
     for (const std::size_t k : {0u, 3u, 10u}) {
         std::vector<double> means(40, 0);
@@ -69,16 +70,16 @@ TEST(Mser, DropsTheTransient) {
     }
 }
 
-// The variance of the rest of a straight line is (n^2 - 1) / 12 over n: it falls to the end, so nothing of it
-// is steady.
+// For a straight line the variance of the rest is (n^2 - 1) / 12, and divided by n it falls to the end, so
+// nothing of the line is steady.
 TEST(Mser, KeepsNothingOfALine) {
     std::vector<double> line;
     for (int i = 0; i < 40; ++i) line.push_back(i);
     EXPECT_EQ(mser_truncation(line), line.size());
 }
 
-// A decay of 1 s, then noise: dropped up to where the decay is below the noise, and the mean is that of what
-// is left.
+// The series is a decay of 1 s and then noise. It is dropped up to the time when the decay is below the
+// noise, and the mean is that of the rest.
 TEST(Steady, AfterATransient) {
     const Steadiness found =
         of(2000, 0.01, 0, [](double t, std::size_t i) { return 5 + 3 * std::exp(-t) + 0.1 * noise(i); });
@@ -90,7 +91,7 @@ TEST(Steady, AfterATransient) {
     EXPECT_EQ(found.tested, kMostBatches);
 }
 
-// A drift of 0.02 a second under noise of 0.1: Sen's slope finds it.
+// A drift of 0.02 a second lies under noise of 0.1; Sen's slope finds it.
 TEST(Steady, NotWhereItDrifts) {
     const Steadiness found =
         of(2000, 0.01, 0, [](double t, std::size_t i) { return 0.02 * t + 2 * noise(i); });
@@ -99,7 +100,7 @@ TEST(Steady, NotWhereItDrifts) {
     EXPECT_LT(found.p, kSignificance);
 }
 
-// A sine of the drive's period is no drift, whatever its height: its rows of a period are one mean.
+// A sine of the drive's period is no drift, however large it is: the rows of a period make one mean.
 TEST(Steady, WhateverThePhaseOfTheDrive) {
     const double period = 0.05;
     const Steadiness found = of(400, period / 8, period, [&](double t, std::size_t i) {
@@ -147,7 +148,8 @@ TEST_F(InspectOverTime, TellsWhetherAColumnIsSteady) {
     write_text(here / "run/measures.csv", table);
     const auto answer =
         nlohmann::json::parse(ask({"--steady", "height_m", "--json", "--set", "run.threads=1"}).out);
-    EXPECT_THAT(answer.dump(), HasSubstr("too short to tell"));  // of a line the transient never ends
+    EXPECT_THAT(answer.dump(),
+                HasSubstr("too short to tell"));  // the transient of a straight line never ends
     const Ended wrong = ask({"--steady", "heigth_m"});
     EXPECT_EQ(wrong.status, 2);
     EXPECT_THAT(wrong.err,
@@ -156,7 +158,7 @@ TEST_F(InspectOverTime, TellsWhetherAColumnIsSteady) {
                 HasSubstr("--steady: is of the whole run"));
 }
 
-// Twenty moments of 10 ms from 0 to 0.2 s, brought back; all grains lie above the floor.
+// There are twenty moments from 0 to 0.2 s, restored every 10 ms; all grains lie above the floor.
 TEST_F(InspectOverTime, GivesCountsAndMeansAtEachMultipleOfATime) {
     const Ended ended =
         ask({"--where", "height > 0", "--every", "10 ms", "--mean", "height", "--csv", "--limit", "0"});
@@ -188,7 +190,7 @@ TEST_F(InspectOverTime, RefusesWhatMakesNoSense) {
         HasSubstr("touches: 'nobody' is no species, no wall and no id of a grain; there are wall, small"));
 }
 
-// A grain touches a wall or grains, or both, exactly where it has contacts.
+// A grain touches a wall, grains, or both exactly if it has contacts.
 TEST_F(InspectOverTime, KnowsWhatTouches) {
     const auto count = [&](const std::string& condition) {
         const Ended ended = ask({"--where", condition, "--at", "0 s", "--json", "--limit", "0"});

@@ -1,4 +1,4 @@
-// A visitor of a page on this machine, by bare sockets, who may also do what no browser does.
+// A visitor of a page on this machine. It uses bare sockets, so it can also do what no browser does.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ class Visitor {
     Visitor& operator=(const Visitor&) = delete;
 
     bool send(std::string_view text) const;  // false once the other side has closed
-    // All that comes until the other side closes, nothing comes for so long (s), or so many bytes have come.
+    // Returns all that comes until the other side closes, nothing has come for so long (s), or so many bytes
+    // have come.
     std::string receive(double seconds = 20, std::size_t most = std::size_t(1) << 30) const;
 
   private:
@@ -23,12 +24,13 @@ class Visitor {
 };
 
 struct HttpAnswer {
-    int status = 0;  // 0: none came
+    int status = 0;  // 0: no status came
     std::string head, body;
 };
 
 HttpAnswer parsed(const std::string& received);
-// host: the header; empty for "127.0.0.1:port". more: further header lines, each with its \r\n.
+// host: value of the header; empty stands for "127.0.0.1:port". more: further header lines, each with its
+// \r\n.
 HttpAnswer get(int port, const std::string& path, const std::string& host = "", const std::string& more = "");
 
 }  // namespace grainreel::test
