@@ -39,7 +39,7 @@ Species species(const char* name, double diameter) {
     return s;
 }
 
-// A box as high as the bed.
+// A scene whose container is a box as high as the bed.
 FilmedScene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
     FilmedScene scene;
     scene.name = "bench";
@@ -72,13 +72,13 @@ Frame frame_of(const SettledBed& bed) {
     return frame;
 }
 
-// Closer, until the grains fill the height of their part of the picture, or its width; then by the zoom asked
-// for.
+// Moves the camera closer until the grains fill the height or the width of their part of the picture, then
+// applies the zoom that was asked for.
 void fill_picture(FilmedScene& scene, const Frame& frame) {
-    scene.film.words = WordPlace::gutters;  // the zoom is not a user's
+    scene.film.words = WordPlace::gutters;  // this zoom is not one that a user has set
     const double zoom = std::exchange(scene.film.camera.zoom, 1.0);
     const View view = frame_container(scene, plan_layout(scene));
-    double widest = 1, highest = 1;  // pixels from the middle
+    double widest = 1, highest = 1;  // largest distances from the middle in pixels
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Vec3 at = view.to_view(frame.position[i]);
         const double scale = view.focal / (view.orthographic ? 1 : at.z());
@@ -112,7 +112,7 @@ constexpr std::array<DrawStage, 8> kStages = {{{"upload", &DrawTimes::upload},
                                                {"overlay", &DrawTimes::overlay},
                                                {"readback", &DrawTimes::readback}}};
 
-// The share of the picture that shows grains: where it differs from one without them.
+// The share of the picture that shows grains. It is found by comparing the picture with one without grains.
 double coverage(Renderer& renderer, const Frame& frame) {
     const Picture full = renderer.draw(frame, "");
     const Picture& bare = renderer.draw(Frame{}, "");
@@ -122,8 +122,8 @@ double coverage(Renderer& renderer, const Frame& frame) {
     return static_cast<double>(covered) / (static_cast<double>(full.width) * full.height);
 }
 
-// Medians of the stages, as they are drawn: what shadows and occlusion cost is what a picture costs less
-// without them, since both are part of a grain's light.
+// Medians of the times of the drawing stages. Shadows and occlusion are part of a grain's light, so their
+// cost is the difference to a picture without them.
 class DrawnStages {
   public:
     DrawnStages(const FilmedScene& scene, int threads) {
@@ -193,8 +193,8 @@ double encode_time(const Picture& picture, const Film& film, int threads) {
     return taken / kFrames;
 }
 
-// The picture, and what another renderer needs for the same one: spheres in view coordinates (x right, y up,
-// z away from the eye) and the camera.
+// Writes the picture, and what another renderer needs for the same picture: the spheres in view coordinates
+// (x right, y up, z away from the eye) and the camera.
 void keep(const std::filesystem::path& folder, const Picture& picture, const Frame& frame, const View& view) {
     std::filesystem::create_directories(folder);
     write_png(folder / "picture.png", picture, {});

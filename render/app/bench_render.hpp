@@ -1,4 +1,4 @@
-// The case `render` of `grainreel bench`: the drawing of a bed at rest, by stage.
+// The case `render` of `grainreel bench`: measures the stages of drawing a bed at rest.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@ namespace grainreel {
 struct BenchRenderRequest {
     int grains = 10125;
     std::string style = "studio";  // a film's style, or "plain"
-    Film film;                     // as that style has it
-    int threads = 0;               // 0: as many as there are processors
+    Film film;                     // the film's settings for that style
+    int threads = 0;               // 0: as many threads as there are processors
     int repeats = 1;
-    std::optional<std::filesystem::path> out;  // where the picture and what other renderers need is kept
+    std::optional<std::filesystem::path> out;  // folder for the picture and the files for other renderers
     bool json = false;
 };
 

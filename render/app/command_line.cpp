@@ -21,7 +21,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t most_of_a_mistake = 300;  // characters of what CLI11 says
+constexpr std::size_t most_of_a_mistake = 300;  // characters that are shown of CLI11's message
 
 using Verbs = std::vector<std::unique_ptr<Verb>>;
 
@@ -36,12 +36,12 @@ void check_verb(const Verbs& verbs, const std::string& word) {
         meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", ")));
 }
 
-// "--duratoin=3" and "--duratoin" are the option "--duratoin". Empty for what is none.
+// The option's name in a word: "--duratoin" for "--duratoin=3". Empty when the word is no option.
 std::string option_name(const std::string& word) {
     return word.compare(0, 2, "--") == 0 && word.size() > 2 ? word.substr(0, word.find('=')) : "";
 }
 
-// Tells the first option that the verb does not have, if there is one.
+// Throws for the first option that the verb does not have, if there is one.
 void check_options(const Verb& verb, const CLI::App& parser, int argc, const char* const* argv) {
     std::vector<std::string> names = {"--help"};
     for (const CLI::Option* option : parser.get_options())
@@ -55,7 +55,7 @@ void check_options(const Verb& verb, const CLI::App& parser, int argc, const cha
     }
 }
 
-// Where one of many options can be had, its line does not name all others.
+// A formatter of help whose line for an option does not name all the options that it excludes.
 class ShortFormatter final : public CLI::Formatter {
   public:
     std::string make_option_opts(const CLI::Option* option) const override {

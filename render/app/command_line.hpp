@@ -1,4 +1,4 @@
-// The command line: words in, a verb that knows what they say out.
+// Parses the command line: turns its words into a verb with its options.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ namespace grainreel {
 inline constexpr const char* about_program =
     "One scene file becomes a film of vibrated grains and the numbers behind it.";
 
-// The parser of all verbs. It writes into them, so they must live as long.
+// Makes the parser of all verbs. It writes into the verbs, so they must outlive it.
 std::unique_ptr<CLI::App> make_parser(const std::vector<std::unique_ptr<Verb>>& verbs);
 
-// Null when the words ask for help or the version, which then has been printed as the result. Throws
+// Returns the verb; null when the words ask for help or the version, which has then been printed. Throws
 // UserError for words that make no sense.
 std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int run_failed = 1, user_mistake = 2;
 
-// The exit status of what is done, or of the mistake or failure that ends it, which is told.
+// Does the work and returns its exit status. A mistake or failure that ends it is told, and gives the status.
 int status_of(const std::function<int()>& work, const std::function<void(const std::string&)>& tell) {
     try {
         return work();

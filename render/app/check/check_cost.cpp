@@ -21,25 +21,27 @@ namespace grainreel {
 
 namespace {
 
-// How often records come.
+// Words for how often records come.
 std::string interval_text(double periods, double steps, const Plan& plan) {
     if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
     return span_text(steps * plan.clock.step);
 }
 
 constexpr double engine_bytes_a_grain = 600;
-constexpr double bytes_a_pixel = 122;  // from the renderer to the encoder, and what those keep themselves
-constexpr double bytes_of_program = 138e6;  // with its libraries, the software rasteriser above all
+constexpr double bytes_a_pixel = 122;  // on the way from the renderer to the encoder, and inside both
+constexpr double bytes_of_program =
+    138e6;  // with its libraries, of which the software rasteriser is the largest
 
 std::string film_format_text(const Film& film) {
     return film.format == FilmFormat::png ? std::string("PNG pictures") : codec_of(film.format).words;
 }
 
-constexpr std::int64_t fewest_to_hand_over = 20000;  // grains; four ranks' worth
+constexpr std::int64_t fewest_to_hand_over = 20000;  // grains; enough for four ranks
 constexpr double long_run = 24 * 3600;               // s
 constexpr double much_faster = 3;
 
-// Where the run is better off: here, or on the ranks that its grains feed. For beds that one may think of.
+// Says where the run is faster: here, or on as many ranks as its grains can use. Only for beds that are large
+// enough to be handed over.
 void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& here, Listing& list) {
     const std::int64_t grains = scene.grains(), ranks = useful_ranks(grains);
     if (grains < fewest_to_hand_over) return;
@@ -135,7 +137,7 @@ void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<Se
 namespace {
 
 constexpr double usual_lattice = 1e7;  // grain-steps a second
-// What the poster of a setting's first seed costs.
+// Cost of the poster of a setting's first seed.
 constexpr double poster_seconds = 0.5, poster_bytes = 0.5e6;
 
 }  // namespace
@@ -145,7 +147,7 @@ void StudyEstimate::add_setting(const FilmedScene& scene, const Plan& plan) {
     if (settings_.empty()) {
         machine_.lattice_one = machine_.lattice_team = usual_lattice;
         if (measured_) {
-            // A team on all processors shares caches and clock rate as the members will.
+            // A team on all processors is measured too: it shares caches and clock rate, as the members will.
             machine_ = machine_figures(scene, plan, {jobs_, 1, 1, true}, films_);
             const int team = std::min(jobs_, machine_.processors);
             side_by_side_ =

@@ -16,22 +16,23 @@ struct MemberEstimate {
     double seconds = 0, bytes = 0;
 };
 
-// Settings are told as they are planned.
+// The estimate takes the settings as they are planned.
 class StudyEstimate {
   public:
-    // measured: false reckons with a machine of the kind, which does for comparing members.
+    // measured: false assumes a usual machine, which is enough for comparing members.
     StudyEstimate(int jobs, bool films, bool measured) : jobs_(jobs), films_(films), measured_(measured) {}
 
     void add_setting(const FilmedScene& scene, const Plan& plan);
     MemberEstimate of(const Member& member) const;
-    // s, until the last of these members is done when so many run at a time, each begun when another ends.
+    // Time in s until the last of these members is done, when `jobs` of them run at a time and each starts as
+    // soon as another one ends.
     double wall_seconds(const std::vector<const Member*>& members) const;
 
   private:
     int jobs_;
     bool films_, measured_;
     MachineFigures machine_;
-    double side_by_side_ = 1;  // speed of one of the jobs over that of one alone
+    double side_by_side_ = 1;  // speed of one of several jobs over the speed of a single one
     std::vector<MemberEstimate> settings_;
 };
 

@@ -1,4 +1,4 @@
-// What `check` says of the model: what is computed and how, each kind of contact, and walls that come from
+// What `check` says about the model: what is computed and how, each kind of contact, and walls that come from
 // files.
 
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ void print_model(const FilmedScene& scene, const Plan& plan, Listing& list) {
 
 namespace {
 
-// A row of the table.
+// A row of the table of contacts.
 struct Kind {
     std::string name, restitution;
     const PairPlan* pair;
@@ -77,7 +77,7 @@ struct Kind {
     const Species* second;  // null for a wall
 };
 
-// "0.5", or over the sizes of both: "0.29 to 0.82".
+// The restitution as text: "0.5", or the range over the sizes of both grains, "0.29 to 0.82".
 std::string restitution_text(const Plan& plan, const PairPlan& pair, const Species& a, const Species* b) {
     const RestitutionRange range = restitution_range(plan, pair, a, b);
     const std::string low = fmt::format("{:.3g}", range.low), high = fmt::format("{:.3g}", range.high);
@@ -91,10 +91,11 @@ std::vector<Kind> kinds_of(const FilmedScene& scene, const Plan& plan, const Spe
     };
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         const Species& first = scene.species[a];
-        if (first.all() == 0) continue;  // glued only
+        if (first.all() == 0) continue;  // all its grains are glued to walls
         for (std::size_t b = a; b < scene.species.size(); ++b) {
             const Species& second = scene.species[b];
-            if (second.all() > 0 && (a != b || first.all() > 1))  // a single grain never meets its like
+            if (second.all() > 0 &&
+                (a != b || first.all() > 1))  // a single grain never meets another one of its species
                 add(first.name + " - " + second.name, plan.between(a, b), first, &second);
         }
         const Container::Shape shape = scene.container.shape;

@@ -1,4 +1,4 @@
-// What `check` says of the experiment: grains, container, drive.
+// What `check` says about the experiment: grains, container, drive.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -135,7 +135,7 @@ void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list) {
     list.line("scene", fmt::format("{} ({})", scene.title, scene.file));
     list.line("grains", fmt::format("{}, {:.3g} kg", grouped(scene.grains()), total_mass(scene)));
     for (const Species& s : scene.species) {
-        if (s.all() == 0) continue;  // glued to walls only
+        if (s.all() == 0) continue;  // all its grains are glued to walls
         list.line("", fmt::format("{} {} of {}, {:.4g} kg/m3{}", grouped(s.all()), s.name,
                                   diameter_text(s.diameter), s.density,
                                   s.fed > 0 ? fmt::format(", {} of them fed", grouped(s.fed)) : ""));

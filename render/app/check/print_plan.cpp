@@ -47,7 +47,7 @@ void print_time(const FilmedScene& scene, const Plan& plan, Listing& list) {
                     plan.impact_speed, 100 * std::max(scene.run.overlap, plan.usual_overlap)));
 }
 
-// What was mended stands with its mesh already.
+// Whether a warning is about a mesh that was mended. The lines about that mesh say so already.
 bool is_of_mended_mesh(const Scene& scene, const std::string& warning) {
     return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const SceneMesh& mesh) {
         const std::vector<std::string>& mended = mesh.surface->facts().mended;

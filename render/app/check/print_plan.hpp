@@ -1,5 +1,5 @@
-// What `grainreel check` prints: the plan of a scene, chapter by chapter. A chapter is a function below;
-// check_setup.cpp, check_model.cpp and check_cost.cpp have them.
+// What `grainreel check` prints: the plan of a scene, chapter by chapter. Each chapter is a function declared
+// below and defined in check_setup.cpp, check_model.cpp or check_cost.cpp.
 #pragma once
 
 #include <fmt/ostream.h>
@@ -17,19 +17,19 @@
 
 namespace grainreel {
 
-// The plan of a scene in words: what is modelled and what is left out, how it will be computed, what will
-// come out of it and what it will cost. Ends with the plan's warnings and the film's.
+// Prints the plan of a scene in words: what is modelled and what is left out, how it will be computed, what
+// the results will be and what it will cost. The warnings of the plan and the film come last.
 void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out);
 
-// The part of it that holds for a run that is over: lines of a name (empty where the line goes on with the
-// one before) and a text, and the table of contacts, in columns.
+// The part of the plan in words that also holds for a finished run. Each line has a name and a text; the name
+// is empty when the line continues the one before. The table of contacts is in columns.
 struct PlanWords {
     std::vector<std::pair<std::string, std::string>> lines;
     std::string contacts;
 };
 PlanWords plan_words(const FilmedScene& scene, const Plan& plan);
 
-// Lines of a name and a text, the texts below each other. They are printed and kept.
+// Prints lines of a name and a text, with the texts below each other, and keeps them.
 class Listing {
   public:
     explicit Listing(std::ostream& out) : out_(out) {}
@@ -52,14 +52,14 @@ std::string grouped(std::int64_t count);  // 1234567 as "1,234,567"
 std::string turn_text(const BodyTurn& turn);     // "turns at 30 rpm about ..."
 std::string motion_text(const SceneMesh& mesh);  // "stands still"
 
-// Three lines a mesh, and one for each kind of fault that was mended.
+// Prints three lines for each mesh, and one for each kind of fault that was mended.
 void print_meshes(const Scene& scene, Listing& list);
 void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list);
 void print_model(const FilmedScene& scene, const Plan& plan, Listing& list);
 void print_contacts(const FilmedScene& scene, const Plan& plan, std::ostream& out);
 void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
                  Listing& list);
-// Measures the machine when its cache has nothing (cost_estimate.hpp).
+// Prints the costs. The machine is measured when the cache has no figures of it (cost_estimate.hpp).
 void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
                 Listing& list);
 

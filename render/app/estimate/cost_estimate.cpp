@@ -28,10 +28,10 @@ namespace grainreel {
 
 namespace {
 
-// Two threads gain half of what they could with so many grains: they wait for each other once a step.
+// With this many grains two threads gain half of what they could gain: they wait for each other once a step.
 constexpr double grains_of_half_gain = 1000;
 constexpr double seconds_to_start = 0.1;
-// Where no frame can be drawn for a measurement: s a million pixels.
+// s for a million pixels, used when no frame can be drawn for a measurement.
 constexpr double assumed_seconds = 0.02;
 
 // Drawing and encoding have a thread each, and more where there are processors for them. Two threads are not
@@ -55,7 +55,7 @@ double film_processor_seconds(const std::vector<SegmentCount>& film, const Machi
     return pictures * machine.frame_seconds;
 }
 
-// What the picture depends on, and no more of the scene than can be helped.
+// A text of everything in the scene on which the cost of a picture depends, and as little else as possible.
 std::string look_of(const FilmedScene& scene, const Plan& plan, const ThreadPlan& threads) {
     FilmedScene look = scene;
     look.run = Run();
@@ -84,7 +84,7 @@ CostEstimate estimate_cost(const FilmedScene& scene, const Plan& plan, const std
     double film_seconds = 0;
     if (cost.frames > 0) {
         const double used = film_processor_seconds(film, machine);
-        // Who asks for one thread is told what one processor does.
+        // A run on one thread gets the estimate for one processor.
         const int processors =
             scene.run.threads > 0 ? std::min(scene.run.threads, machine.processors) : machine.processors;
         cost.frame_seconds = used / static_cast<double>(cost.frames);
@@ -129,15 +129,15 @@ MachineFigures machine_figures(const FilmedScene& scene, const Plan& plan, const
 
 namespace {
 
-// A grain and frame: id, type, radius, x in double, v, spin, contact number.
+// Bytes for each grain and frame: id, type, radius, x in double, v, spin, contact number.
 constexpr double trajectory_bytes = 68;
 constexpr double orientation_bytes = 16;
 constexpr double measures_bytes = 400;     // a row
-constexpr double checkpoint_bytes = 1300;  // a grain: lists and histories
+constexpr double checkpoint_bytes = 1300;  // bytes of a grain: lists and histories
 constexpr double end_state_bytes =
-    1500;  // a grain: its row of final.csv, and lists and histories of the checkpoint
+    1500;  // bytes of a grain: its row in final.csv, and lists and histories in the checkpoint
 
-// every: steps from one to the next, not always a whole number.
+// Number of moments. every: steps from one to the next, not always a whole number.
 std::int64_t moments(std::int64_t steps, double every) {
     return static_cast<std::int64_t>(static_cast<double>(steps) / every) + 1;
 }
@@ -168,10 +168,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int most_drawn = 48, least_drawn = 4;
-constexpr double patience = 1.5;  // s, after which no further frame is begun
+constexpr double patience = 1.5;  // s after which no further frame is begun
 constexpr std::int64_t most_grains = 200'000;
-constexpr double solid_fraction = 0.5;  // of a bed that is shaken
-// A frame of the shipped scenes' runs takes 0.7 to 0.9 of one of the stack, in which more grains are seen.
+constexpr double solid_fraction = 0.5;  // solid fraction of a shaken bed
+// A frame of a run takes less time than a frame of the stack, in which more grains are visible: 0.7 to 0.9 of
+// it for the scenes that come with the program.
 constexpr double run_over_stack = 0.8;
 
 double processor_seconds() {
@@ -211,7 +212,7 @@ void add_grain(Frame& frame, std::size_t species, double radius, const Vec3& pos
     frame.spin.push_back(Vec3::Zero());
 }
 
-// Which species come one after another, so that all are spread over the bed.
+// An order of the grains' species in which all species are spread over the bed.
 std::vector<std::size_t> spread_species(const FilmedScene& scene) {
     std::vector<std::size_t> all;
     for (std::size_t s = 0; s < scene.species.size(); ++s)
@@ -224,7 +225,7 @@ std::vector<std::size_t> spread_species(const FilmedScene& scene) {
     return all;
 }
 
-// As between two frames in slow motion: the bed moves as a whole, and every grain a little off its place.
+// Moves the bed as between two frames in slow motion: as a whole, and every grain a little off its place.
 FramePtr shaken(const Frame& bed, int k, Random& random) {
     Frame frame = bed;
     frame.step = k;
@@ -241,10 +242,10 @@ FramePtr shaken(const Frame& bed, int k, Random& random) {
 struct FilmUse {
     int frames = 0;
     double seconds = 0;  // of processor time
-    double drawing = 0;  // share of that
+    double drawing = 0;  // share of drawing in that time
 };
 
-// Time and bytes of a film of so many frames, or of fewer where they take long.
+// Time and bytes of a film of `most` frames, or of fewer when they take long.
 FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const Frame& bed, int most,
                     const HeldSignals& signals) {
     const ProbeFolder folder;
@@ -274,7 +275,7 @@ FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const F
 
 namespace {
 
-// From the bottom of a box upwards, as far as they go.
+// Stacks grains in a box from the bottom upwards, as many as fit.
 Frame stacked_in(const FilmedScene& scene, const std::vector<std::size_t>& species, double pitch,
                  const Region& box) {
     Frame frame;
@@ -302,7 +303,7 @@ Frame stacked_bed(const FilmedScene& scene) {
     const std::vector<std::size_t> species = spread_species(scene);
     const double pitch =
         std::cbrt(solid_volume(scene) / static_cast<double>(species.size()) / solid_fraction);
-    const double most = pitch * static_cast<double>(species.size());  // m, of a row of all grains
+    const double most = pitch * static_cast<double>(species.size());  // m, length of a row of all grains
     if (const auto& region = scene.start.region) return stacked_in(scene, species, pitch, *region);
     const bool vessel = c.shape == Container::Shape::mesh;
     const double widest = std::min(most, c.shape == Container::Shape::cylinder ? c.half_width : c.depth / 2);
@@ -322,12 +323,13 @@ Frame stacked_bed(const FilmedScene& scene) {
 
 std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads) {
     if (scene.grains() > most_grains) return std::nullopt;
-    const HeldSignals signals;  // the folder of the film is to go first
+    const HeldSignals signals;  // signals wait until the film's folder is removed
     try {
         const Frame bed = stacked_bed(scene);
-        // The program's first film loads libraries and fonts. It is not counted: a small picture takes less.
+        // The program's first film loads libraries and fonts, so it is not counted. A small picture keeps it
+        // short.
         use_of_film(scene, threads, bed, 1, signals);
-        // What a film takes before its frames is in both, and so in neither's difference.
+        // The time that a film takes before its frames is in both films, so it is not in their difference.
         const FilmUse setup = use_of_film(scene, threads, bed, 1, signals);
         const FilmUse film = use_of_film(scene, threads, bed, most_drawn, signals);
         if (film.frames < least_drawn) return std::nullopt;

@@ -1,4 +1,4 @@
-// What a run will take on this machine, in time and on disk, before it begins. What a frame of the film costs
+// Estimates, before a run begins, what it will take on this machine, in time and on disk. The cost of a frame
 // is found by a short trial film, once for each look of a film; the cache keeps it.
 #pragma once
 
@@ -16,23 +16,23 @@
 
 namespace grainreel {
 
-// What this machine does, measured or kept from an earlier time.
+// The speed of this machine, measured now or kept from an earlier time.
 struct MachineFigures {
     double lattice_one = 0;      // grain-steps a second of lattice_speed on one thread
-    double lattice_team = 0;     // on the engine's threads
-    double frame_seconds = 0;    // of processor time, to draw and encode a frame of one moment
+    double lattice_team = 0;     // the same on the engine's threads
+    double frame_seconds = 0;    // s of processor time to draw and encode a frame of one moment
     double frame_drawing = 0.5;  // share of it that is drawing
-    int processors = 1;          // that the program may use
-    double gain_of_two = 2;      // what two threads do over what one does, from 1 to 2
+    int processors = 1;          // processors that the program may use
+    double gain_of_two = 2;      // speed of two threads over that of one, from 1 to 2
 };
 
 struct CostEstimate {
-    double grain_steps = 0;                          // with packing
-    double packing_share = 0;                        // of them
+    double grain_steps = 0;                          // with those of packing
+    double packing_share = 0;                        // share of packing in them
     double engine_one = 0;                           // grain-steps a second of one thread, in this scene
     double packing_seconds = 0, engine_seconds = 0;  // on the planned threads
     std::int64_t frames = 0;
-    double frame_seconds = 0;  // of processor time, mean; exposures with it
+    double frame_seconds = 0;  // s of processor time, mean; with exposures
     double film_seconds = 0;
     double total_seconds = 0;
 };
@@ -41,8 +41,8 @@ struct CostEstimate {
 CostEstimate estimate_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
                            const ThreadPlan& threads, const MachineFigures& machine);
 
-// From the cache, or measured now and put there: half a second or so, and as much for a film not seen before.
-// film: false leaves out what its frames cost.
+// Takes the figures from the cache, or measures them now and keeps them there. Measuring takes about half a
+// second, and as much again for a film with a new look. film: false leaves out the cost of frames.
 MachineFigures machine_figures(const FilmedScene& scene, const Plan& plan, const ThreadPlan& threads,
                                bool film = true);
 
@@ -51,21 +51,22 @@ MachineFigures machine_figures(const FilmedScene& scene, const Plan& plan, const
 struct DiskEstimate {
     std::int64_t trajectory_frames = 0, measures_rows = 0;
     double trajectory = 0, measures = 0, film = 0;  // bytes
-    double film_moments = 0, checkpoints = 0;       // as above
-    double end_state = 0;                           // of checkpoint and final.csv
+    double film_moments = 0, checkpoints = 0;       // bytes
+    double end_state = 0;                           // bytes of checkpoint and final.csv
 
     double all() const { return trajectory + measures + film + film_moments + checkpoints + end_state; }
 };
 
-// pictures: of the film; 0 without one.
+// pictures: number of the film's pictures; 0 without a film.
 DiskEstimate estimate_disk(const FilmedScene& scene, const Plan& plan, std::int64_t pictures);
 
-// s of processor time that a film takes besides its frames: the context, the first frame, the poster.
+// s of processor time that a film takes in addition to its frames: for the context, the first frame, the
+// poster.
 constexpr double film_setup_seconds = 0.2;
 
-// Draws and encodes some frames of the scene's grains, stacked as the bed will lie, in a folder that is gone
-// afterwards. None when that is not possible here (no OpenGL, no codec, no room),
-// and of beds of more than 200,000 grains.
+// Draws and encodes some frames of the scene's grains, stacked as the bed will lie, in a folder that is
+// removed afterwards. None when that is not possible here (no OpenGL, no codec, no room), and for beds of
+// more than 200,000 grains.
 std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads);
 
 // The scene's grains in a stack from the floor up, as loose as a shaken bed. Exposed for tests.

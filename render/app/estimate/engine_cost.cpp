@@ -26,32 +26,37 @@ namespace grainreel {
 
 namespace {
 
-// All measured by processor time (docs/notes/performance.md). Contacts a grain of a bed at rest.
+// All numbers were measured by processor time (docs/notes/performance.md). These are the contacts of a grain
+// in a bed at rest.
 constexpr double kAtRest = 4.5, kAtRestWithoutFriction = 5.8;
-// In a shaken bed some contacts are left at any strength. The others become fewer at this rate with the
-// strength.
+// In a shaken bed some contacts (kThrown) remain at any strength. The others decrease exponentially with the
+// strength, at the rate kFallsOff.
 constexpr double kThrown = 0.25, kFallsOff = 2.6;
 
-// Over a step of a grain of the lattice: a step of a grain without contacts, and what a contact of it adds.
+// Costs relative to a step of a grain of the lattice: a step of a grain without contacts, and what each
+// contact adds.
 constexpr double kGrain = 0.23, kGrainWithoutSpin = 0.115, kGrainOfGas = 0.15, kContact = 0.165;
-// A part of it is for new lists, which last for some time and so for the more steps the shorter these are.
-constexpr double kLists = 0.1, kStepsOfLists = 5000;  // while a grain falls through its diameter
-constexpr double kStep = 4.2;                         // a step besides its grains
-constexpr double kLargeBedCost = 1.5;  // does not fit into the caches; from kSmallBed on they lose
+// A part of the cost is for new lists. They last for some time, so they last for more steps when steps are
+// short.
+constexpr double kLists = 0.1, kStepsOfLists = 5000;  // steps while a grain falls through its diameter
+constexpr double kStep = 4.2;                         // cost of a step without its grains
+constexpr double kLargeBedCost =
+    1.5;  // a bed that does not fit into the caches; from kSmallBed on they help less
 constexpr double kSmallBed = 2000;
-constexpr double kRow = 3.7;          // a row of measures, for each grain
+constexpr double kRow = 3.7;          // cost of a row of measures for each grain
 constexpr double kInstrument = 2.5;   // what an instrument adds to a row
-constexpr double kFieldMoment = 8.4;  // a moment of fields, for each grain
-// What the energy balance adds to a step: of a grain, and of each of its contacts.
+constexpr double kFieldMoment = 8.4;  // cost of a moment of fields for each grain
+// What the energy balance adds to a step: for a grain, and for each of its contacts.
 constexpr double kBalance = 0.3, kBalanceContact = 0.4;
 
-// Radii grow in about so many steps. Then the bed falls and comes to rest; until it counts as calm a grain
-// falls through its diameter several times.
+// Radii grow in about kGrowingSteps steps. Then the bed falls and comes to rest (kFalling). It counts as calm
+// after kCalm times the time in which a grain falls through its diameter.
 constexpr double kGrowingSteps = 8e3, kFalling = 0.28 /* s, under Earth's gravity */, kCalm = 10;
-// Without friction a bed slides into closer order for longer: 0.63 s in all, 0.31 with friction.
+// Without friction a bed takes longer to come to rest, since it slides into closer order: 0.63 s in all, 0.31
+// s with friction.
 constexpr double kFallingWithoutFriction = 0.48;
 
-// A contact by another law than that of the lattice.
+// Cost of a contact relative to the law of the lattice.
 double contact_cost(const PairPlan& pair) {
     double cost = 1;
     if (pair.model.normal == NormalForce::spring_dashpot) cost = 0.62;
@@ -61,7 +66,7 @@ double contact_cost(const PairPlan& pair) {
     return pair.model.precision == Precision::mixed ? 0.66 * cost : cost;
 }
 
-// The law that most contacts follow: that of the commonest species.
+// The law that most contacts follow: the law of the commonest species.
 const PairPlan& commonest(const FilmedScene& scene, const Plan& plan) {
     std::size_t most = 0;
     for (std::size_t s = 0; s < scene.species.size(); ++s)
@@ -77,13 +82,13 @@ bool rubs(const PairPlan& pair) {
     return pair.model.tangential != TangentialLaw::none;
 }
 
-// What a grain saves of its lists where steps are short: up to all of kLists.
+// What a grain saves on its lists when steps are short: up to all of kLists.
 double saved_of_lists(const FilmedScene& scene, const Plan& plan) {
     const double steps = std::sqrt(mean_diameter(scene) / scene.gravity.norm()) / plan.clock.step;
     return kLists * (1 - std::min(1.0, kStepsOfLists / steps));
 }
 
-// Over that of the lattice.
+// Cost of a grain's step relative to the lattice.
 double grain_cost(const FilmedScene& scene, const Plan& plan, double contacts) {
     const PairPlan& pair = commonest(scene, plan);
     const double free = is_gas(scene) ? (rubs(pair) ? 1.0 : 0.5) * kGrainOfGas
@@ -101,7 +106,7 @@ double contacts_at_rest(const FilmedScene& scene, const Plan& plan) {
     return rubs(commonest(scene, plan)) ? kAtRest : kAtRestWithoutFriction;
 }
 
-// level: the largest acceleration along gravity, over gravity.
+// Contacts of a grain in a shaken bed. level: the largest acceleration along gravity, divided by gravity.
 double contacts_when_shaken(double at_rest, double level) {
     return level <= 1 ? at_rest : kThrown + (at_rest - kThrown) * std::exp(-kFallsOff * (level - 1));
 }
@@ -118,11 +123,12 @@ double contacts_in_stage(const FilmedScene& scene, double at_rest, const DriveSt
         contacts_when_shaken(at_rest, level_along_gravity(scene, stage.frequency, stage.amplitude));
     if (stage.kind == DriveStage::Kind::vibrate) return shaken;
     const double share =
-        std::min(1.0, 2 / (stage.frequency * stage.interval));  // as long in flight as tapped
+        std::min(1.0, 2 / (stage.frequency * stage.interval));  // the bed flies as long as a tap lasts
     return at_rest + share * (shaken - at_rest);
 }
 
-// The mean while the amplitude grows: the bed lies until the floor falls away faster than it does.
+// The mean number of contacts while the amplitude grows: the bed rests until the floor accelerates downwards
+// faster than gravity.
 double contacts_while_growing(double at_rest, double level) {
     constexpr int parts = 32;
     double sum = 0;
@@ -131,7 +137,7 @@ double contacts_while_growing(double at_rest, double level) {
     return sum / parts;
 }
 
-// How many of the grains that the scene lists are there, in the mean over the run.
+// How many of the scene's grains are present, as a mean over the run.
 double present(const FilmedScene& scene, const Plan& plan) {
     auto grains = static_cast<double>(scene.grains());
     const double end = scene.run.duration;
@@ -140,7 +146,7 @@ double present(const FilmedScene& scene, const Plan& plan) {
         grains -= static_cast<double>(feed.due(end)) * std::clamp(0.5 * (feed.from + until) / end, 0.0, 1.0);
     }
     if (!plan.opens || scene.container.tray) return std::max(1.0, grains);
-    constexpr double leave = 0.4;  // of those that are there when it opens, in the mean
+    constexpr double leave = 0.4;  // mean share of grains that leave, of those present when it opens
     const double open = 1 - static_cast<double>(*plan.opens) / static_cast<double>(plan.steps);
     return std::max(1.0, grains * (1 - leave * open));
 }
@@ -156,7 +162,7 @@ double packing_cost(const FilmedScene& scene, const Plan& plan, double& steps) {
             kCalm * std::sqrt(mean_diameter(scene) / gravity) +
             (rubs(commonest(scene, plan)) ? kFalling : kFallingWithoutFriction) * std::sqrt(9.81 / gravity);
     if (plan.start.relaxes) {
-        // A bed that relaxes is at rest soon after it was stopped.
+        // A bed that is relaxed is at rest soon after it has been stopped.
         steps = static_cast<double>(braking_steps(plan)) + settling / plan.clock.step;
         return steps * (grains * dense + kStep);
     }
@@ -188,7 +194,7 @@ double measuring_cost(const FilmedScene& scene, const Plan& plan, double grains,
 double mean_contacts(const FilmedScene& scene, const Plan& plan) {
     const double at_rest = contacts_at_rest(scene, plan), end = scene.run.duration;
     if (is_gas(scene)) return 0;
-    // What runs out is loose, and what has run out lies or is gone.
+    // Grains that run out are loose; grains that have run out lie still or are removed.
     const double flowing = plan.opens ? 0.5 : 1;
     if (!scene.drive.present) return flowing * at_rest;
     const Drive& drive = scene.drive;
@@ -196,7 +202,7 @@ double mean_contacts(const FilmedScene& scene, const Plan& plan) {
     now.frequency = drive.frequency;
     now.amplitude = drive.amplitude;
     double sum = 0, since = 0;
-    // Grains that are listed fall while it grows, with few contacts.
+    // Grains that the scene lists one by one fall while the amplitude grows, with few contacts.
     if (drive.ramp > 0 && scene.start.method != Start::Method::grains) {
         const double level = level_along_gravity(scene, drive.frequency, drive.amplitude);
         since = std::min(end, drive.ramp / drive.frequency);
@@ -226,7 +232,8 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_films = 200;  // looks kept; then all are measured again
+constexpr std::size_t most_films =
+    200;  // number of looks that are kept; when there are more, all are measured again
 constexpr std::uintmax_t largest_file = 1 << 20;
 
 std::string processor_name() {
@@ -237,7 +244,7 @@ std::string processor_name() {
 }
 
 bool sane(double value, double least, double most) {
-    return value >= least && value <= most;  // false for NaN
+    return value >= least && value <= most;  // also false for NaN
 }
 
 bool sane_engine(double grain_steps) {
@@ -258,7 +265,7 @@ SpeedCache::SpeedCache()
     path_ = folder / fmt::format("speed-{:016x}.json", std::hash<std::string>()(machine_));
     try {
         read();
-    } catch (const std::exception&) {  // whatever it is, it is not what save() writes
+    } catch (const std::exception&) {  // the file is not one that save() has written
         engine_.clear();
         films_.clear();
     }
@@ -305,7 +312,7 @@ void SpeedCache::save() const {
     try {
         fs::create_directories(path_.parent_path());
         replace_file(path_, all.dump(1) + "\n");
-    } catch (const std::exception&) {  // a cache that cannot be kept is measured again
+    } catch (const std::exception&) {  // when the cache cannot be kept, the speeds are measured again
     }
 }
 

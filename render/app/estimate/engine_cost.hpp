@@ -1,9 +1,9 @@
-// What the engine does for a run, counted in steps of a grain of the lattice that the machine is measured by
-// (lattice_speed.hpp): six contacts each, all at rest.
+// Estimates the work of the engine for a run. It is counted in steps of a grain of the lattice that the
+// machine is measured by (lattice_speed.hpp); each of its grains has six contacts and is at rest.
 //
-// A step of a grain costs by how many contacts it has. A bed at rest has 4.5 contacts a grain, and so has one
-// that is shaken more gently than gravity. A bed that is thrown up has few: 2.6 at 1.2 g, 0.6 at 2 g, 0.2 at
-// 3 g, all means over a period.
+// The cost of a grain's step depends on its number of contacts. A bed at rest has 4.5 contacts for each
+// grain, and so has a bed whose acceleration stays below gravity. A bed that is thrown up has fewer: 2.6 at
+// 1.2 g, 0.6 at 2 g, 0.2 at 3 g, all means over a period.
 #pragma once
 
 #include <filesystem>
@@ -23,26 +23,26 @@ struct EngineCost {
     double packing_steps = 0, run_steps = 0;
 };
 
-// Rows of measures, instruments and fields are in the run.
+// Estimates the cost. The run includes rows of measures, instruments and fields.
 EngineCost engine_cost(const FilmedScene& scene, const Plan& plan);
 
-// Contacts a grain, the mean over the run.
+// Mean number of contacts of a grain over the run.
 double mean_contacts(const FilmedScene& scene, const Plan& plan);
 
 // How fast this machine computes and draws, measured once and kept in the cache folder.
 
 // How fast films of one look are made.
 struct FilmSpeed {
-    double seconds = 0;    // of processor time, to draw and encode a frame of one moment
+    double seconds = 0;    // s of processor time to draw and encode a frame of one moment
     double drawing = 0.5;  // share of it that is drawing
 };
 
-// A file for each processor, version and vector width in $XDG_CACHE_HOME/grainreel or ~/.cache/grainreel. A
-// file that is missing, damaged or of anything else counts as empty; where none can be written, nothing is
-// kept.
+// The cache has a file for each processor, version and vector width in $XDG_CACHE_HOME/grainreel or
+// ~/.cache/grainreel. A file that is missing, damaged or of another kind counts as empty. When no file can be
+// written, nothing is kept.
 class SpeedCache {
   public:
-    SpeedCache();  // reads it
+    SpeedCache();  // reads the file
 
     std::optional<double> engine(int threads) const;  // grain-steps a second of lattice_speed
     std::optional<FilmSpeed> film(const std::string& look) const;
@@ -50,7 +50,7 @@ class SpeedCache {
     void keep_film(const std::string& look, const FilmSpeed& speed);
     void save() const;
 
-    const std::filesystem::path& path() const { return path_; }  // empty: there is no home
+    const std::filesystem::path& path() const { return path_; }  // empty when there is no home folder
 
   private:
     void read();

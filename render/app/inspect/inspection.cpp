@@ -75,7 +75,7 @@ class Inspection {
         return answer;
     }
 
-    // A question about forces gets arrows.
+    // The marks of an answer. A question about forces gets arrows.
     AnswerMarks marks_of(const Snapshot& snapshot, const Answer& answer) const {
         if (!asks_.grain && !asks_.wall) {
             const std::string count =
@@ -101,21 +101,21 @@ class Inspection {
         asked_ = foreign || fs::is_regular_file(asks_.run, ignored)
                      ? open_filmed_state(asks_.run, asks_.sets, asks_.reading)
                      : open_filmed_run(asks_.run, sets_for_contacts(asks_.run));
-        // A trajectory of ours alone is no file of another program here.
+        // Our own trajectory without its folder does not count as a file of another program here.
         foreign_ = dynamic_cast<const ForeignArchive*>(&asked_->asked->frames()) != nullptr;
         asks_.no_replay = asks_.no_replay || foreign_;
         CaptionHolds holds(asked_->scene().film);
         asks_.moment.held = [holds](double time) mutable { return holds.begin_at(time); };
     }
 
-    // Pictures of another program's files are those of render, so they are of the import.
+    // Opens an import of another program's files, as `render` does, so that pictures are the same.
     void open_import(Reporter& reporter) {
         const RunToRead read = run_to_read(asks_.run, asks_.reading, reporter);
         asked_ = open_filmed_run(read.folder, sets_for_contacts(read.folder));
         foreign_ = asks_.no_replay = asks_.moment.frame_of_file = true;
     }
 
-    // What is damaged or not of this run is left out of answers, and the user is to know.
+    // Tells the user which files are left out of answers because they are damaged or of another run.
     void tell_news(const AskedRun& asked_run, Reporter& reporter) {
         const std::vector<std::string> faults = asked_run.faults();
         for (const std::string& line : asked_run.news()) {
@@ -126,7 +126,7 @@ class Inspection {
             for (const std::string& line : lines) reporter.warning(line);
     }
 
-    // With what has contacts read, when the run kept them.
+    // The settings, with one that makes contacts be read when the run kept them.
     Assignments sets_for_contacts(const fs::path& folder) const {
         std::error_code ignored;
         Assignments sets = asks_.sets;
@@ -135,10 +135,10 @@ class Inspection {
         return sets;
     }
 
-    // Whether the question is about what only the engine knows.
+    // Whether the question is about forces, which only the engine knows.
     bool asks_for_forces() const { return asks_.wall || asks_.largest_overlap; }
 
-    // s of the film; a camera that moves is somewhere else at each.
+    // Time in s of film, on which the place of a moving camera depends.
     double film_time() const {
         if (asks_.film_time) return *asks_.film_time;
         return asks_.moment.frame ? static_cast<double>(*asks_.moment.frame) / asked_->scene().film.rate : 0;
@@ -149,7 +149,7 @@ class Inspection {
                !asks_.pairs && !asks_.compare;
     }
 
-    // Whether a condition or a histogram takes that.
+    // Whether a condition or a histogram needs `what`.
     bool takes(Needs what) const {
         const std::vector<Needs> all =
             needs_of(asks_.where.value_or("") + " " + asks_.histogram.value_or(""));
@@ -166,7 +166,7 @@ class Inspection {
                (asks_nothing() && finder.is_checkpoint(asked));
     }
 
-    // A kept moment. None where it is damaged and can be brought back.
+    // Reads a kept moment. None when it is damaged but can be brought back.
     std::optional<Snapshot> kept_moment(const MomentFinder& finder, const AskedMoment& asked,
                                         Reporter& reporter) const {
         try {
@@ -210,7 +210,8 @@ class Inspection {
         return {std::move(snapshot), std::move(about)};
     }
 
-    // Nothing of another program's run can be brought back.
+    // Throws when the question needs something that a run of another program does not have: nothing of it can
+    // be brought back.
     void check_known(const AskedMoment& asked, const AskedRun& asked_run) const {
         if (asks_for_forces())
             throw UserError(
@@ -231,7 +232,7 @@ class Inspection {
         return replay_progress([&reporter](const Progress& progress) { reporter.progress(progress); });
     }
 
-    // Over periods up to the moment.
+    // The answer as a mean over periods up to the moment.
     Answer mean_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) const {
         const AskedMoment asked = finder.find(asks_.moment);
         const bool replay = !asks_.no_replay && finder.can_bring_back(asked);
@@ -247,7 +248,7 @@ class Inspection {
         double bin = 0;
         finder.over_periods(asked, *asks_.average, replay, watcher_of(reporter), [&](Snapshot snapshot) {
             ++moments;
-            // Grains come and go; bins of all moments are the same.
+            // Grains may come and go, but the bins must be the same at all moments.
             if (bin == 0 && snapshot.frame.size() > 0) bin = snapshot.bin();
             snapshot.bin_width = bin;
             if (asks_.grain && !snapshot.place_of(*asks_.grain))
@@ -311,7 +312,7 @@ class Inspection {
         return overview_of(snapshot);
     }
 
-    // A mistake in a question gets the option's name.
+    // Adds the option's name to a mistake in a question.
     template <class Ask>
     static auto named(const char* option, const Ask& ask) -> decltype(ask()) {
         try {
@@ -322,9 +323,9 @@ class Inspection {
     }
 
     InspectRequest asks_;
-    std::unique_ptr<const AskedRunWithFilm> asked_;  // once it is open
-    bool foreign_ = false;                           // it is of another program
-    std::vector<std::string> missing_;               // what an answer lacks
+    std::unique_ptr<const AskedRunWithFilm> asked_;  // the run, once it is open
+    bool foreign_ = false;                           // whether the files are of another program
+    std::vector<std::string> missing_;               // words for what an answer lacks
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The verb `inspect` behind its options: opens what is asked, brings the moment back where it has to, and
-// finds the answer. Each kind of question is a function of engine/questions; here only the right one is
-// chosen.
+// The verb `inspect` behind its options: opens the run, brings the moment back when that is necessary, and
+// finds the answer. Each kind of question is a function in engine/questions; this file only chooses the right
+// one.
 #pragma once
 
 #include <cstdint>
@@ -18,28 +18,29 @@
 
 namespace grainreel {
 
-// What was typed. At most one question is set; without one the answer is an overview of the moment.
+// The options as they were typed. At most one question is set; without one the answer is an overview of the
+// moment.
 struct InspectRequest {
     std::filesystem::path run;
     ReadingOptions reading;
-    Assignments sets;  // other values for keys of [film]
+    Assignments sets;  // values given to keys of [film]
 
     MomentRequest moment;
-    double phase = 0;                      // turns into the period, beside moment.cycle
+    double phase = 0;                      // phase in turns within the period, used with moment.cycle
     std::optional<double> average, every;  // periods; s
     bool over_time = false, no_replay = false;
 
     std::optional<std::int64_t> grain;  // id
     std::optional<std::string> wall, where, profile, slice, histogram;
-    std::optional<std::string> steady;  // column of measures.csv
-    std::optional<double> compare;      // s, of the earlier moment
-    std::vector<double> pixel;          // x, y; empty: not asked
+    std::optional<std::string> steady;  // name of a column of measures.csv
+    std::optional<double> compare;      // s, time of the earlier moment
+    std::vector<double> pixel;          // x, y of a pixel; empty: not asked
     bool through = false, largest_overlap = false, pairs = false;
-    std::string mean;  // a quantity, beside a series
+    std::string mean;  // a quantity whose mean over a series is wanted
     int bins = 20;
     std::size_t limit = 10;
 
-    std::filesystem::path picture;    // to be drawn; empty: none
+    std::filesystem::path picture;    // file of the picture; empty: none
     std::optional<double> film_time;  // s
     gl::Provider gl = gl::Provider::automatic;
 
@@ -49,8 +50,8 @@ struct InspectRequest {
     bool draws() const { return !picture.empty() || !pixel.empty(); }
 };
 
-// Draws the picture too, where one is asked for. Tells the reporter what is damaged and how far the work is.
-// Throws UserError for a question that cannot be answered.
+// Finds the answer, and draws the picture when one is asked for. Tells the reporter what is damaged and how
+// far the work is. Throws UserError for a question that cannot be answered.
 Answer inspected(const InspectRequest& request, Reporter& reporter);
 
 }  // namespace grainreel

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Characters of a text in UTF-8: its bytes but those that go on with the character before them.
+// Number of characters of a UTF-8 text: its bytes without those that continue a character.
 std::size_t characters(const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -30,15 +30,15 @@ std::string si_unit(const AnswerColumn& column) {
     return column.unit.empty() ? si_unit(column.dimension) : column.unit;
 }
 
-// Dimension of a cell, also in a table whose rows are quantities of their own.
+// Dimension of a cell; in some tables the rows have dimensions of their own.
 Dimension dimension_of(const AnswerTable& table, std::size_t row, std::size_t column) {
     const Dimension own = table.columns[column].dimension;
     return own == Dimension::number && row < table.row_dimensions.size() ? table.row_dimensions[row] : own;
 }
 
-// One unit for each dimension, in all tables of an answer. It fits what lies half way, on a logarithmic
-// scale, between the largest number and the mean of the columns, and no number has more than four digits
-// before the point in it.
+// The units of an answer: one for each dimension, the same in all tables. A unit fits the number half way, on
+// a logarithmic scale, between the largest number and the mean over the columns' largest numbers; and no
+// number has more than four digits before the point.
 class Units {
   public:
     explicit Units(const Answer& answer) {
@@ -56,7 +56,7 @@ class Units {
     std::string of(const AnswerColumn& column) const {
         return column.unit.empty() ? of(column.dimension) : column.unit;
     }
-    // Empty of pure numbers.
+    // The unit of a dimension; empty for pure numbers.
     std::string of(Dimension dimension) const {
         if (dimension == Dimension::number) return "";
         const auto found = unit_.find(dimension);
@@ -65,11 +65,12 @@ class Units {
 
   private:
     struct Seen {
-        double most = 0, logarithms = 0, count = 0;  // of the largest number of each column or row
+        double most = 0, logarithms = 0, count = 0;  // over the largest number of each column or row
     };
 
     static void see(const AnswerTable& table, std::map<Dimension, Seen>& all) {
-        std::map<std::pair<Dimension, std::size_t>, double> largest;  // of a column, or of a row of its own
+        std::map<std::pair<Dimension, std::size_t>, double>
+            largest;  // largest number of a column, or of a row with its own dimension
         for (std::size_t row = 0; row < table.rows.size(); ++row)
             for (std::size_t k = 0; k < table.columns.size(); ++k) {
                 const double* value = std::get_if<double>(&table.rows[row][k]);
@@ -81,7 +82,7 @@ class Units {
         for (const auto& [where, most] : largest)
             all[where.first].most = std::max(all[where.first].most, most);
         for (const auto& [where, most] : largest) {
-            constexpr double rounding = 1e-6;  // what is left of a sum that is 0
+            constexpr double rounding = 1e-6;  // smaller numbers are rounding errors of a sum that is 0
             Seen& seen = all[where.first];
             if (most <= rounding * seen.most) continue;
             seen.logarithms += std::log(most);
@@ -109,9 +110,9 @@ bool is_words(const AnswerTable& table, std::size_t column) {
 }
 
 struct Block {
-    std::vector<std::string> lines;  // the head first
+    std::vector<std::string> lines;  // the heading comes first
     std::size_t width = 0;           // characters
-    bool left = false;               // words stand left, numbers right
+    bool left = false;  // whether the block is aligned left, as words are; numbers are aligned right
 };
 
 Block block_of(const AnswerTable& table, std::size_t column, const Units& units) {
@@ -121,7 +122,7 @@ Block block_of(const AnswerTable& table, std::size_t column, const Units& units)
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
         const Dimension dimension = dimension_of(table, row, column);
         std::string cell = for_people(table.rows[row][column], unit_size(units.of(dimension), dimension));
-        // The first column says what the row is.
+        // The first column says what the row is, so it gets the row's unit.
         if (column == 0 && row < table.row_dimensions.size())
             cell = named(cell, units.of(table.row_dimensions[row]));
         block.lines.push_back(std::move(cell));
@@ -149,7 +150,7 @@ std::string wide_table(const AnswerTable& table, const Units& units) {
     return text;
 }
 
-// A single row of many columns: a line each.
+// Prints a single row of many columns with one line for each column.
 std::string tall_table(const AnswerTable& table, const Units& units) {
     std::size_t width = 0;
     for (const AnswerColumn& column : table.columns) width = std::max(width, column.name.size());
@@ -209,7 +210,7 @@ std::string moment_line(const Answer& answer) {
 }
 
 std::string text_of(const Answer& answer) {
-    constexpr std::size_t widest = 7;  // columns of a single row that stand side by side
+    constexpr std::size_t widest = 7;  // largest number of columns that a single row shows side by side
     const Units units(answer);
     std::string text = moment_line(answer);
     if (!text.empty()) text += "\n";

@@ -1,4 +1,5 @@
-// Answers as text: aligned tables in fitting units for people, JSON and CSV in SI for programs.
+// Writes answers as text: as aligned tables in fitting units for people, as JSON and CSV in SI units for
+// programs.
 #pragma once
 
 #include <string>
@@ -8,15 +9,15 @@
 namespace grainreel {
 
 std::string text_of(const Answer& answer);
-// "At 4.02 s (step 21503): brought back"; empty of an answer without a moment.
+// The line about the moment, "At 4.02 s (step 21503): brought back"; empty for an answer without a moment.
 std::string moment_line(const Answer& answer);
 
-// {"tables": {NAME: {"title", "columns": [{"name", "unit", "about"}], "rows": [[...]]}}, "notes": [...]}
-// An empty cell, and a number that is none, is null.
+// {"tables": {NAME: {"title", "columns": [{"name", "unit", "about"}], "rows": [[...]]}}, "notes": [...]} An
+// empty cell and NaN become null.
 std::string json_of(const Answer& answer);
 
-// Each table with a header of names and units, an empty line between two. An empty cell is empty. Moment and
-// notes have no place in it.
+// Writes each table with a header of names and units, and an empty line between tables. An empty cell stays
+// empty. The moment and the notes are left out.
 std::string csv_of(const Answer& answer);
 
 }  // namespace grainreel

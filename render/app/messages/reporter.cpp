@@ -20,7 +20,8 @@ namespace {
 constexpr auto terminal_interval = std::chrono::milliseconds(100);
 constexpr auto json_interval = std::chrono::milliseconds(500);
 constexpr auto pipe_interval = std::chrono::seconds(5);
-constexpr double pipe_share = 0.1;                       // of a stage, when that is sooner ...
+constexpr double pipe_share =
+    0.1;  // share of a stage after which progress is shown, when that is sooner ......
 constexpr auto pipe_shortest = std::chrono::seconds(1);  // ... but not much sooner
 
 bool is_terminal() {
@@ -39,7 +40,7 @@ int terminal_width() {
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-constexpr const char* wipe = "\r\033[K";  // of the terminal's line
+constexpr const char* wipe = "\r\033[K";  // clears the terminal's line
 
 void put(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stderr);

@@ -27,14 +27,15 @@ class Reporter final : public RunListener {
     void info(const std::string& text) override;
     void warning(const std::string& text) override;
     void error(const std::string& text) override;
-    // Shows it when it is time to.
+    // Shows the progress when it is time to.
     void progress(const Progress& progress) override;
 
     int stop_signal() const override;
     void keep_before_exit() override;
     bool in_a_hurry() const override;
 
-    // What a signal handler is to write when it ends the program at once; empty when only errors are shown.
+    // The words that a signal handler writes when it ends the program at once; empty when only errors are
+    // shown.
     std::string last_words() const;
     // Takes the progress line off the terminal.
     void clear();
@@ -58,18 +59,18 @@ std::string to_string(Progress::Stage stage);
 // columns from its end, whole parts at a time.
 std::string progress_line(const Progress& progress, int width);
 
-// One object, one line, without the line's end.
+// The progress as a JSON object in one line, without the line's end.
 std::string progress_json(const Progress& progress);
 
-// Watches what tells its share done: charts and benches. Shows it with the time left, and says whether to go
-// on.
+// Shows the progress of work that reports the share done (charts and benches), with the time left, and says
+// whether to go on.
 
 class ShareWatcher {
   public:
     ShareWatcher(Reporter& reporter, Progress::Stage stage)
         : reporter_(reporter), stage_(stage), begin_(std::chrono::steady_clock::now()) {}
 
-    // done: 0 to 1. False after a signal to stop.
+    // done: 0 to 1. Returns false after a signal to stop.
     bool operator()(const std::string& what, double done) const {
         Progress progress;
         progress.stage = stage_;

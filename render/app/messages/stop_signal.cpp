@@ -10,14 +10,15 @@ namespace {
 
 std::atomic<int> first_signal = 0;
 std::atomic<bool> something_to_keep = false, second_signal = false;
-std::string words_at_once;  // set before any handler is
+std::string words_at_once;  // set before any handler is installed
 static_assert(std::atomic<bool>::is_always_lock_free);
-static_assert(std::atomic<int>::is_always_lock_free);  // what a handler may touch
+static_assert(std::atomic<int>::is_always_lock_free);  // a handler may use nothing but lock-free atomics
 
 extern "C" void on_stop(int signal) {
     int none = 0;
     const bool first = first_signal.compare_exchange_strong(none, signal);
-    // One closed terminal sends several SIGHUP, the kernel's and the shell's: they hurry nobody.
+    // A closed terminal causes several SIGHUP, from the kernel and from the shell, so further ones do not
+    // count as a second signal.
     if (first || signal == SIGHUP) return;
     const bool second = !second_signal.exchange(true);
     if (second && something_to_keep) return;
@@ -26,7 +27,7 @@ extern "C" void on_stop(int signal) {
     ::_exit(128 + signal);
 }
 
-// nohup and its like have the signal ignored before the program starts, and that holds.
+// Whether the signal was already ignored when the program started, as under nohup. It then stays ignored.
 bool ignored(int signal) {
     struct sigaction present {};
     return sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
@@ -50,7 +51,8 @@ void install_stop_handlers(const std::string& last_words) {
     words_at_once = last_words;
     struct sigaction action {};
     action.sa_handler = on_stop;
-    action.sa_flags = SA_RESTART;  // files are being written: no call of theirs is to fail for it
+    action.sa_flags =
+        SA_RESTART;  // files are being written, and no system call of theirs should fail because of a signal
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);

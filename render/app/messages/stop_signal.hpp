@@ -1,6 +1,6 @@
 // Ctrl-C, SIGTERM and SIGHUP (the terminal is gone): the first asks the run to end in good order. A second
-// Ctrl-C or SIGTERM ends the program at once, but for a run that has something to keep: its state is kept
-// first, and the film left as it is. A third ends it at once in any case.
+// Ctrl-C or SIGTERM ends the program at once, unless a run has something to keep: then its state is kept
+// first and the film is left as it is. A third one ends it at once in any case.
 #pragma once
 
 #include <csignal>
@@ -8,18 +8,20 @@
 
 namespace grainreel {
 
-// SIGPIPE and SIGXFSZ are ignored from then on: a closed pipe or a full quota shows as a failed write.
+// Ignores SIGPIPE and SIGXFSZ from then on, so that a closed pipe or a full quota appears as a failed write.
 void ignore_write_signals();
 
-// For verbs that look at stop_signal(); any other is ended by the first signal. A SIGHUP that is ignored
-// already, as under nohup, stays ignored. last_words: for stderr when the program is ended at once.
+// Installs the handlers for verbs that look at stop_signal(); any other verb is ended by the first signal. A
+// SIGHUP that is ignored already, as under nohup, stays ignored. last_words: text for stderr when the program
+// is ended at once.
 void install_stop_handlers(const std::string& last_words);
 
-// SIGINT, SIGTERM or SIGHUP, whichever came first; 0 while none did.
+// The signal that came first: SIGINT, SIGTERM or SIGHUP; 0 when none has come.
 int stop_signal();
 
-// While one is there, Ctrl-C, SIGTERM and SIGHUP wait, in threads made meanwhile too; they come when it goes.
-// For work that ends soon and leaves nothing behind only when it ends by itself.
+// While an object of this class exists, Ctrl-C, SIGTERM and SIGHUP wait, also in threads that are made
+// meanwhile. They take effect when it is destroyed. It is meant for short work that leaves nothing behind
+// only when it ends by itself.
 class HeldSignals {
   public:
     HeldSignals();
@@ -32,10 +34,10 @@ class HeldSignals {
     sigset_t before_{};
 };
 
-// From here there is something that a second signal may not cost.
+// Says that from now on there is something to keep, which a second signal must not destroy.
 void keep_before_exit();
 
-// A second Ctrl-C or SIGTERM has come while there was.
+// Whether a second Ctrl-C or SIGTERM has come while there was something to keep.
 bool in_a_hurry();
 
 }  // namespace grainreel

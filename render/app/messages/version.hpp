@@ -1,4 +1,4 @@
-// What this program was made from, for --version and run.json.
+// The versions of this program and its libraries, for --version and run.json.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace grainreel {
 // Name and version of every library in use, shared ones as loaded.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
-// "installed in /usr/bin" or "built in /home/me/grainreel/build/release".
+// Where the program is: "installed in /usr/bin" or "built in /home/me/grainreel/build/release".
 std::string where_program_is();
 
-// Several lines: the program, where it is, its commit, compiler and libraries.
+// Several lines about the program: where it is, its commit, compiler and libraries.
 std::string version_text();
 
-// Version, build and libraries.
+// Version, build and libraries, for run.json.
 ProgramInfo program_info();
 
 }  // namespace grainreel
