@@ -27,7 +27,7 @@ struct Comparison {
     // Time of the one picture that is drawn instead of a film, in s of film.
     std::optional<double> still;
     double dots_an_inch = 0;         // resolution of that picture for print; 0: it has no size on paper
-    std::int64_t film_pictures = 0;  // that the film has, or would have
+    std::int64_t film_pictures = 0;  // number of pictures that the film has, or would have
     ThreadPlan threads;
     std::vector<std::string> warnings;
 

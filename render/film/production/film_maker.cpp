@@ -199,7 +199,7 @@ struct FilmMaker::Impl {
     std::atomic<bool> drawer_known = false;  // the drawer is made, or something failed
     std::string gl, note;                    // words of the drawer; to be read once drawer_known is set
     // The members from here on are written by one thread and read after join().
-    std::string last_note;  // of the drawer
+    std::string last_note;  // last note of the drawer
     double draw_seconds = 0, encode_seconds = 0, waited_seconds = 0;
     std::thread drawing, encoding;
 };

@@ -23,7 +23,7 @@ class FlashWatch {
 
   private:
     static constexpr int kAcross = 24, kDown = 18;                                   // places in the picture
-    static constexpr int kWide = kAcross / 3, kHigh = kDown / 3;                     // of a window
+    static constexpr int kWide = kAcross / 3, kHigh = kDown / 3;                     // places in a window
     static constexpr int kColumns = kAcross - kWide + 1, kRows = kDown - kHigh + 1;  // number of windows
 
     struct Place {

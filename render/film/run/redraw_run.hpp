@@ -45,7 +45,7 @@ class RedrawRun final : public FilmRun {
     FilmedScene scene_;        // the run's scene, with a film of these pictures
     std::vector<Shot> shots_;  // the film's shots, each at the step that is shown
     std::optional<FilmInParts> parts_;
-    bool kept_alone_ = false;                                     // frames of the trajectory
+    bool kept_alone_ = false;                                     // only frames of the trajectory are drawn
     std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // numbers of shots
     std::vector<std::string>
         captions_;  // for segments whose pictures are not where they should be; else empty

@@ -51,10 +51,10 @@ struct RenderRequest {
     std::optional<double> from, to, at;
     std::optional<std::int64_t> frame;  // in place of `at`: number of the film's frame, from 0
     bool frame_of_file = false;         // `frame` counts the frames of another program's files
-    PrintSize print;                    // of one picture
+    PrintSize print;                    // size of one picture
     std::optional<int>
         every;           // draws one of so many kept frames of the trajectory; none: the film's pictures
-    bool replay = true;  // what was not kept is brought back
+    bool replay = true;  // moments that were not kept are brought back
     std::optional<PartsWanted> parts;
 };
 

@@ -29,7 +29,7 @@ class PartSupply {
   public:
     struct Measured {
         std::shared_ptr<const MeasureTable> table;  // null for none
-        std::size_t rows = 0;                       // until the frame
+        std::size_t rows = 0;                       // number of rows up to the frame
     };
 
     virtual ~PartSupply() = default;

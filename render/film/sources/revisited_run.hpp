@@ -54,7 +54,7 @@ class FilmOfRun {
     std::int64_t last_ = 0;
     std::set<std::int64_t> filmed_;        // steps of the run's own film
     std::vector<double> steps_, periods_;  // steps and bed periods of the rows of measures.csv
-    std::vector<double> differences_;      // m
+    std::vector<double> differences_;      // m, period_difference_m of these rows
 };
 
 // A run that lies on disk, as a source of any of its moments: those that it kept (RecordedRun), and the

@@ -70,7 +70,7 @@ class SceneRun final : public FrameSource {
     std::shared_ptr<const WearReader> wear_before_;      // wear so far of a resumed run
     std::shared_ptr<const std::vector<MeshWear>> worn_;  // wear since the last record of fields.nc ended
     std::optional<EarlierPictures> earlier_;
-    FramePtr frame_;                     // taken last
+    FramePtr frame_;                     // the frame that was taken last
     std::vector<int> segments_waiting_;  // segments of its pictures that are still to come
 };
 
