@@ -26,7 +26,7 @@ std::vector<std::int32_t> grains_in(const Answer& answer) {
 
 namespace {
 
-// NaN where there is no number.
+// The number in a cell; NaN where there is none.
 double number_in(const AnswerCell& cell) {
     if (const double* value = std::get_if<double>(&cell)) return *value;
     if (const std::int64_t* count = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*count);
@@ -42,7 +42,8 @@ std::size_t place_of(const AnswerTable& table, const std::string& column) {
 
 }  // namespace
 
-// Edges of bins come from products that differ in the last bits from moment to moment.
+// Compares keys up to rounding: edges of bins come from products that differ in the last bits from moment
+// to moment.
 bool MeanAnswer::NearlyLess::operator()(const Key& one, const Key& other) const {
     constexpr double hair = 1e-9;
     for (std::size_t k = 0; k < one.size(); ++k) {

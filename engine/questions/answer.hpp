@@ -1,4 +1,5 @@
-// What a question is answered with: tables, the same for people, for programs and for spreadsheets.
+// The answer to a question: tables, the same for people, for programs and for spreadsheets; and their means
+// over moments.
 #pragma once
 
 #include <cstddef>
@@ -14,30 +15,31 @@
 namespace grainreel {
 
 struct AnswerColumn {
-    std::string name;  // of letters, digits and _
+    std::string name;  // letters, digits and _
     Dimension dimension = Dimension::number;
     std::string about{};
-    // For means over moments (mean_answer.hpp): kKey in columns that say which row it is; kThere where
-    // moments without a value have no say; else the column that weighs this one. Empty: a sum, of which a
-    // moment without the row has 0.
+    // How means over moments treat the column. kKey: the column says which row it is. kThere: moments
+    // without a value do not count. The name of another column: that column weighs this one. Empty: it is a
+    // sum, and a moment without the row counts as 0.
     std::string weight{};
     std::string unit{};  // of a pure number that has one: "m3"
     static constexpr const char *kKey = "key", *kThere = "there";
 };
 
-// Empty, a number in SI, a count, or words.
+// A cell is empty, or holds a number in SI, a count, or words.
 using AnswerCell = std::variant<std::monostate, double, std::int64_t, std::string>;
 
 struct AnswerTable {
     std::string name;   // of letters, digits and _
     std::string title;  // a line for people
     std::vector<AnswerColumn> columns;
-    std::vector<std::vector<AnswerCell>> rows;  // a cell a column
+    std::vector<std::vector<AnswerCell>> rows;  // one cell for each column
     bool has_mean = false;                      // whether rows of several moments can be joined
-    // Where each row is a quantity of its own: theirs, of the columns of numbers.
+    // Dimension of the numbers in each row, where each row is a quantity of its own.
     std::vector<Dimension> row_dimensions{};
-    std::string mean_title{};  // in place of the title, where that says more of the moment than of the table
-    // A list of those with most of this column. Of several moments it has those with most at any of them.
+    std::string mean_title{};  // replaces the title in a mean, where the title speaks of one moment
+    // Column by which the table lists the largest values; a mean over moments lists the largest of all
+    // moments.
     std::string most_of{};
 };
 
@@ -56,38 +58,38 @@ struct Answer {
     std::optional<std::vector<std::int32_t>> grains{};
 };
 
-// Ids that an answer names: of its tables' columns "id", and of contacts "first" and "second".
+// The ids that an answer names: in columns "id" of its tables, and "first" and "second" of contacts.
 std::vector<std::int32_t> grains_in(const Answer& answer);
 
 // The mean of the answers to one question, over several moments.
 
-// Rows with the same keys (AnswerColumn::kKey) are one row of the mean. Counts and sums are divided by the
-// number of moments, and a row that a moment lacks counts as 0 there. A column with a weight becomes the mean
-// over all that weighs, as in sum(grains * mean_speed) / sum(grains). A list of those with most
-// (AnswerTable::most_of) has those of all moments, with the time of each. Other tables that have no mean
+// Rows with the same keys (AnswerColumn::kKey) become one row of the mean. Counts and sums are divided by
+// the number of moments; a row that a moment lacks counts as 0 there. A column with a weight becomes the
+// mean over all that weighs, as in sum(grains * mean_speed) / sum(grains). A list of largest values
+// (AnswerTable::most_of) has those of all moments, with the time of each. Other tables without a mean
 // (AnswerTable::has_mean) are left out.
 class MeanAnswer {
   public:
-    // most: rows of a list.
+    // most: number of rows of a list.
     explicit MeanAnswer(std::size_t most) : most_(most) {}
 
-    void add(const Answer& answer, double time);  // s, of the moment
-    // The mean of the answers so far, of which there must be at least one.
+    void add(const Answer& answer, double time);  // time of the moment, s
+    // The mean of the answers so far; there must be at least one.
     Answer mean() const;
 
   private:
-    // Numbers in their order, words in the order in which they came.
+    // Keys are ordered: numbers by size, words in the order in which they came.
     using Key = std::vector<double>;
     struct NearlyLess {
         bool operator()(const Key& one, const Key& other) const;
     };
     struct Sums {
         std::vector<AnswerCell> keys;             // as the first row had them
-        std::vector<double> sum, weight, values;  // a column each; values: how many there were
+        std::vector<double> sum, weight, values;  // one for each column; `values` counts the values
     };
     struct Table {
-        AnswerTable form;                // of a mean without rows
-        std::vector<std::string> words;  // of keys
+        AnswerTable form;                // the table's form, for a mean without rows
+        std::vector<std::string> words;  // all words of keys so far
         std::map<Key, Sums, NearlyLess> rows;
     };
     Table& table_like(const AnswerTable& table);

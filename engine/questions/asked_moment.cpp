@@ -20,8 +20,8 @@ namespace grainreel {
 
 namespace {
 
-// m/s2, of each grain of `now`, from its places now and a step later: x' = x + dt v + dt^2 a / 2 with
-// velocity Verlet, x' = x + dt (v + dt a) with leapfrog. Empty with other integrators.
+// Acceleration (m/s2) of each grain of `now`, from its places now and a step later: x' = x + dt v + dt^2 a
+// / 2 with velocity Verlet, x' = x + dt (v + dt a) with leapfrog. Empty with other integrators.
 std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Frame& later, double step) {
     const Integrator integrator = scene.run.integrator;
     if (integrator != Integrator::velocity_verlet && integrator != Integrator::leapfrog) return {};
@@ -43,7 +43,8 @@ std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Fram
 
 }  // namespace
 
-// A run that was broken off has come further than its last kept moment.
+// The last time that can be asked for. A run that was broken off has checkpoints after its last kept
+// moment.
 double MomentFinder::last_time() const {
     const std::vector<KeptCheckpoint> kept = run_.checkpoints();
     const double last = run_.to();
@@ -79,7 +80,8 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
     return last();
 }
 
-// A file of frames alone has no film: its frames are counted as they lie in it.
+// Finds a kept moment by its frame number. An imported file of frames has no film, so its own frames are
+// counted.
 AskedMoment MomentFinder::kept_frame(std::int64_t frame, const std::string& name) const {
     const std::vector<Frame>& moments = run_.moments();
     const auto count = static_cast<std::int64_t>(moments.size());
@@ -90,7 +92,7 @@ AskedMoment MomentFinder::kept_frame(std::int64_t frame, const std::string& name
     return {moments[index].step, moments[index].time, index, index, frame + 1 == count};
 }
 
-// The end of a run is in its last checkpoint, and need not be among the kept moments.
+// The end of a run is in its last checkpoint; it need not be among the kept moments.
 AskedMoment MomentFinder::last() const {
     const std::vector<Frame>& moments = run_.moments();
     const std::vector<KeptCheckpoint> kept = run_.checkpoints();
@@ -100,8 +102,8 @@ AskedMoment MomentFinder::last() const {
     return {moments[back].step, moments[back].time, back, back, true};
 }
 
-// The step that a picture of the run's film shows. The run kept its moments, one a picture, and where a
-// caption holds a picture, as often as the film shows it.
+// The step that a picture of the run's film shows. The run kept one moment for each picture; where a
+// caption holds a picture, it counts as often as the film shows it.
 std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
     const std::filesystem::path file = run_.frames().path() / kFilmMoments;
     std::error_code ignored;
@@ -116,8 +118,7 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
     const std::vector<std::string> damage = pictures->damage();
     std::int64_t shown = 0;
     for (std::size_t k = 0; k < pictures->moments().size(); ++k) {
-        if (pictures->place(k) != k)
-            break;  // which picture is which is known up to the first that is damaged
+        if (pictures->place(k) != k) break;  // from the first damaged picture on the numbers are unknown
         const Frame& moment = pictures->moments()[k];
         shown += 1 + (request.held ? request.held(moment.time) : 0);
         if (frame < shown && frame >= 0) return moment.step;
@@ -152,7 +153,7 @@ bool MomentFinder::can_bring_back(const AskedMoment& moment) const {
 
 namespace {
 
-// All but the accelerations.
+// The snapshot of a restored run, without accelerations.
 Snapshot snapshot_of(const Simulation& run, const AskedRun& asked) {
     Snapshot snapshot{asked.scene(), run.frame(), true, asked.frames().first()};
     for (const SavedContact& one : run.contacts())

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A single moment tells the step only roughly; the scene's is exact.
+// The clock of the frames. A single moment tells the step only roughly, so the scene's exact step is used.
 Clock clock_of_frames(const Scene& scene, const FrameArchive& frames) {
     Clock clock = clock_of(scene, frames.moments());
     if (scene.run.step) clock.step = *scene.run.step;
@@ -77,7 +77,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double same_place = 1e-4;  // of a grain's radius
+constexpr double same_place = 1e-4;  // over a grain's radius
 
 std::vector<Touch> touches_of(const Simulation& run) {
     std::vector<Touch> touches;
@@ -100,7 +100,8 @@ ReachableMoments::ReachableMoments(const AskedRun& run, int threads) : run_(run)
     if (!filmed_.empty()) check_film_moments();
 }
 
-// What of it cannot be read is had from elsewhere, or is missing like what was never kept.
+// Reads the index of film_moments.nc. Moments that cannot be read are taken from elsewhere, or count as not
+// kept.
 void ReachableMoments::read_film_moments() {
     const fs::path file = run_.frames().path() / kFilmMoments;
     std::error_code ignored;
@@ -132,7 +133,7 @@ void ReachableMoments::check_film_moments() const {
         try {
             if (same_grains(film_moments_->grains(place), run_.frames().grains(*both))) return;
         } catch (const DamagedFrame&) {
-            continue;  // whoever draws it says so
+            continue;  // the reader of this frame reports the damage
         }
         throw UserError(
             fmt::format("{}: has other grains at step {} than the trajectory.nc beside it; they are of two "

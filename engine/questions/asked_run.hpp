@@ -1,5 +1,6 @@
-// What lies on disk and can be asked questions: frames, their scene and, for a run of ours, checkpoints. A
-// checkpoint brings back moments that were not kept, and forces. Nothing here changes a file.
+// What lies on disk and can be asked questions: frames, their scene and, for a run of grainreel,
+// checkpoints. A checkpoint brings back moments that were not kept, and forces. Nothing here changes a
+// file.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +22,9 @@ namespace grainreel {
 
 class AskedRun {
   public:
-    // With the archive's own scene; where it has none, with one made of its world.
+    // Takes the archive's own scene; where it has none, makes one from the world that the frames describe.
     explicit AskedRun(std::shared_ptr<const FrameArchive> frames);
-    // The run's folder.
+    // Opens the run's folder.
     explicit AskedRun(std::shared_ptr<const RunArchive> run);
     virtual ~AskedRun() = default;
     AskedRun(const AskedRun&) = delete;
@@ -36,15 +37,15 @@ class AskedRun {
     double from() const { return moments().front().time; }  // s
     double to() const { return moments().back().time; }
 
-    // By rising step.
+    // Checkpoints by rising step.
     std::vector<KeptCheckpoint> checkpoints() const { return own().kept; }
-    // Names the checkpoints that are passed over, and why: they are of another run, or damaged.
+    // Names the checkpoints that are not used, and says why: they belong to another run, or are damaged.
     std::vector<std::string> checkpoint_news() const { return own().news; }
-    // Damage of the files beside the checkpoints, which makes answers poorer than the run was.
+    // Damage of the files beside the checkpoints, because of which less can be answered.
     std::vector<std::string> faults() const;
     std::vector<std::string> news() const { return frames_->news(); }
 
-    // A moment with all that is known of it.
+    // A moment with all that is known about it.
     virtual Frame frame(std::size_t index) const;
     virtual std::optional<MeasuredRow> measured_near(std::size_t index) const {
         return frames_->measured_near(index);
@@ -57,11 +58,11 @@ class AskedRun {
     const RunArchive* run_ = nullptr;
     Scene scene_;
     Clock clock_;
-    mutable std::optional<OwnCheckpoints> own_;  // once they were asked for
+    mutable std::optional<OwnCheckpoints> own_;  // set when they are first asked for
 };
 
-// A checkpoint that was restored, so that all that it measured is known. Throws UserError where it cannot be
-// used.
+// A restored checkpoint, so that all that the run measured is known. Throws UserError where the file cannot
+// be used.
 class RestoredCheckpoint final : public AskedRun {
   public:
     explicit RestoredCheckpoint(const std::filesystem::path& file);
@@ -80,35 +81,35 @@ class RestoredCheckpoint final : public AskedRun {
     Restored restored_;
 };
 
-// The grains of any moment of a run that lies on disk: from trajectory.nc or film_moments.nc where the moment
-// was kept, else brought back from a checkpoint.
+// The grains of any moment of a run on disk: from trajectory.nc or film_moments.nc where the moment was
+// kept, else brought back from a checkpoint.
 
 class ReachableMoments {
   public:
-    // threads: of the engine; 0: nothing is brought back. Throws UserError when film_moments.nc is of another
-    // run. The run outlives it.
+    // `threads` is the number of the engine's threads; with 0 nothing is brought back. Throws UserError
+    // when film_moments.nc belongs to another run. The run must outlive this object.
     ReachableMoments(const AskedRun& run, int threads);
 
     enum class Place { trajectory, film_moments, checkpoints, nowhere };
-    // touches: with the contacts of the moment.
+    // Where a moment can be had. touches: the contacts of the moment are wanted too.
     Place place_of(std::int64_t step, bool touches) const;
 
     struct Found {
         Frame frame;
-        bool brought_back = false;  // then with its contacts
+        bool brought_back = false;  // then contacts are there too
     };
-    // From the first of these places where it is whole. Throws UserError where there is none, RunError when a
-    // replay fails or the watcher stops it.
+    // Takes the moment from the first of these places that is undamaged. Throws UserError where there is
+    // none, and RunError when a replay fails or the watcher stops it.
     Found at(std::int64_t step, bool touches, const ReplayWatcher& watcher);
 
-    // Goes to a kept moment on the way to this step, if there is one, and compares the grains. Throws
-    // UserError when they are others: the checkpoints are of another run. Once is enough.
+    // Replays to a kept moment on the way to this step, if there is one, and compares the grains. Throws
+    // UserError when they differ: then the checkpoints belong to another run. Only the first call compares.
     void prove(std::int64_t step, const ReplayWatcher& watcher);
     // Whether a checkpoint leads to the run's first moment, and so to all of them.
     bool brings_all_back() const;
-    // The kept moment that is nearest.
+    // The step of the nearest kept moment.
     std::int64_t nearest_kept(std::int64_t step, bool touches) const;
-    // Which was found not to be as it should be.
+    // What was found damaged or wrong so far.
     const std::vector<std::string>& news() const { return news_; }
 
   private:
@@ -119,9 +120,9 @@ class ReachableMoments {
 
     const AskedRun& run_;
     std::unique_ptr<FrameArchive> film_moments_;
-    std::map<std::int64_t, std::size_t> filmed_;  // places of its moments, by step
+    std::map<std::int64_t, std::size_t> filmed_;  // place in film_moments.nc, by step
     std::optional<Replayer> replayer_;
-    bool proven_ = false;  // that the replay goes the run's way
+    bool proven_ = false;  // whether a replay was seen to go the run's way
     std::vector<std::string> news_;
 };
 

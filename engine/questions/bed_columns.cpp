@@ -16,7 +16,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// m, from the grain's surface to the nearest of some faces.
+// Distance (m) from the grain's surface to the nearest of the faces that are meant.
 template <class IsMeant>
 std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, const IsMeant& is_meant) {
     std::vector<Face> faces = faces_of(s.scene);
@@ -37,7 +37,7 @@ std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, co
     return gaps;
 }
 
-// m, from the grain's surface; infinite where no mesh is within a hundred radii.
+// Distance (m) from the grain's surface to the nearest mesh; infinite where none is within a hundred radii.
 double gap_to_meshes(const Snapshot& s, std::size_t i) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t m = 0; m < s.scene.meshes.size(); ++m) {
@@ -75,7 +75,7 @@ LargeArray<Place> places_of_all(const Snapshot& s) {
     return places;
 }
 
-// m. Heights of the surface are those of the observer `bed_surface`.
+// Depth (m) below the surface, whose heights are those of the observer `bed_surface`.
 std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
     SurfaceFrame frame = surface_frame(s.scene);
     if (!(frame.right > frame.left) || s.frame.size() == 0) return std::vector<double>(grains.size(), none);
@@ -100,8 +100,8 @@ std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
 // Sums over a grain's neighbours.
 struct Around {
     double all = 0, unlike = 0;
-    double mass = 0;         // kg, its own too
-    Vec3 momentum{0, 0, 0};  // as above
+    double mass = 0;         // kg, with the grain's own mass
+    Vec3 momentum{0, 0, 0};  // with the grain's own momentum
 };
 
 class AllAround {
@@ -110,7 +110,7 @@ class AllAround {
         for (const std::size_t i : grains) add_body(i, i);
         const double gap = gap_of_neighbours(s.scene), period = period_of_depth(s.scene.container);
         const LargeArray<Place> places = places_of_all(s);
-        constexpr std::size_t few = 8;  // for which it is quicker to look at all
+        constexpr std::size_t few = 8;  // with fewer grains it is quicker to look at all
         if (grains.size() > few) {
             NeighbourPairs(places, gap, period).each([&](std::int32_t a, std::int32_t b) {
                 add(static_cast<std::size_t>(a), static_cast<std::size_t>(b));

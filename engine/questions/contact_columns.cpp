@@ -1,4 +1,4 @@
-// What touches a grain and what that does to it.
+// Columns about contacts: what touches a grain and what that does to it.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// see(grain, touch) for both grains of each touch.
+// Sums up what `see(grain, touch)` gives, for both grains of each touch.
 template <class See>
 std::vector<double> over_touches(const Snapshot& s, const GrainList& grains, const See& value_of) {
     std::vector<double> sums(s.frame.size(), 0), values;
@@ -40,7 +40,7 @@ std::vector<double> contact_force(const Snapshot& s, const GrainList& grains) {
     return over_touches(s, grains, [](const Touch& touch) { return touch.force; });
 }
 
-// One side of a contact of a moment that was brought back.
+// One side of a contact, at a moment that was brought back.
 struct Side {
     const ContactForce& contact;
     bool is_first;
@@ -49,7 +49,7 @@ struct Side {
     Vec3 outwards() const { return is_first ? contact.normal : Vec3(-contact.normal); }
 };
 
-// add(sum, side) for each contact of a grain.
+// Sums over the contacts of each grain; add(sum, grain, side) adds one.
 template <class Sum, class Add>
 std::vector<Sum> over_contacts(const Snapshot& s, const Sum& zero, const Add& add) {
     std::vector<Sum> sums(s.frame.size(), zero);
@@ -115,8 +115,8 @@ std::vector<double> elastic_energy(const Snapshot& s, const GrainList& grains) {
     return listed(sums, grains, [](double sum, std::size_t) { return sum; });
 }
 
-// A third of the trace of the stress in the grain, sum(r f) / V over its contacts at r from its centre;
-// compression is above 0.
+// Mean pressure in the grain, a third of the trace of its stress: sum(r f) / V over its contacts at r from
+// its centre. Compression is positive.
 std::vector<double> pressure(const Snapshot& s, const GrainList& grains) {
     const auto sums = over_contacts(s, 0.0, [&](double& sum, std::size_t i, const Side& side) {
         const double reach = s.frame.radius[i] - 0.5 * side.contact.overlap;
@@ -166,7 +166,8 @@ std::vector<GrainColumn> contact_columns() {
 
 namespace {
 
-// Numbers of these columns: that of any wall, then those of species and walls; of a grain -2 - id.
+// Numbers of the columns touches(...): one for any wall, then a range for species, a range for walls, and
+// -2 - id for a grain.
 constexpr int kAnyWall = 100'000, kFirstSpecies = kAnyWall + 1, kFirstWall = 2 * kAnyWall, kFirstId = -2;
 
 std::string spaced(std::string name) {
@@ -174,7 +175,7 @@ std::string spaced(std::string name) {
     return name;
 }
 
-// Whether the grain that a touch is with, or the wall, is the one that is meant.
+// Whether `other`, the partner in a touch (grain or wall), is what the column's number means.
 bool is_meant(const Snapshot& s, int number, std::int32_t other) {
     if (number <= kFirstId) return other == kFirstId - number;
     if (number == kAnyWall) return other < 0;

@@ -23,7 +23,7 @@ std::string text_of_force(double force) {
     return fmt::format("{:.3g}\u00a0{}", force / unit_size(unit, Dimension::force), unit);
 }
 
-// m, where the grain's surface meets its partner's.
+// The point (m) where the grain's surface meets its partner's.
 Vec3 point_on(const Snapshot& s, std::size_t grain, const ContactForce& contact, bool is_first) {
     const double reach = s.frame.radius[grain] - 0.5 * contact.overlap;
     return s.frame.position[grain] + (is_first ? reach : -reach) * contact.normal;
@@ -83,13 +83,13 @@ AnswerForces forces_on_wall(const Snapshot& s, const std::string& name) {
     return answer;
 }
 
-// Questions to the contacts of a moment that was brought back.
+// Questions about the contacts of a moment that was brought back.
 
 namespace {
 
 using Forces = std::vector<const ContactForce*>;
 
-// About which the moment on a wall counts: m, now.
+// The point (m, now) about which the moment on a wall counts.
 Vec3 point_of_moment(const Snapshot& s, std::int32_t wall) {
     const std::optional<std::size_t> mesh = mesh_of_wall(s.scene, wall);
     if (!mesh) return container_offset(s.scene, s.frame);
@@ -130,8 +130,8 @@ AnswerTable sum_table(const Snapshot& s, std::int32_t wall, const Forces& on_wal
             true};
 }
 
-// Where the body of a wall is, if that body moves. Containers that only shake are left out: there is a column
-// for the work of all walls.
+// The pose of a wall's body, if that body can turn or move by itself. Containers that only shake are left
+// out: there is a column for the work of all walls.
 std::optional<BodyPose> turning_pose(const Snapshot& s, std::int32_t wall) {
     if (const std::optional<std::size_t> mesh = mesh_of_wall(s.scene, wall)) {
         if (!s.scene.meshes[*mesh].moves()) return std::nullopt;
@@ -144,7 +144,7 @@ std::optional<BodyPose> turning_pose(const Snapshot& s, std::int32_t wall) {
     return s.frame.body(static_cast<std::size_t>(faces[face].body.number));
 }
 
-// m, a point of the axis about which a body turns now: it moves along that axis alone.
+// A point (m) of the axis about which a body turns now, along which it may also move.
 Vec3 centre_of_turn(const BodyPose& pose) {
     const double square = pose.spin.squaredNorm();
     return square > 0 ? Vec3(pose.place + pose.spin.cross(pose.velocity) / square) : pose.place;
@@ -168,7 +168,7 @@ AnswerTable power_table(const BodyPose& pose, const Forces& on_wall) {
             true};
 }
 
-// In bins as high as a mean grain is wide.
+// Forces on a wall by height, in bins as high as the mean diameter of the grains.
 AnswerTable height_table(const Snapshot& s, std::int32_t wall, const Forces& on_wall) {
     AnswerTable table{"by_height",
                       "Its normal force by height above the floor",
@@ -297,7 +297,7 @@ Answer wall_answer(const Snapshot& s, const std::string& name, std::size_t most)
 
 namespace {
 
-// How many touch, how far they overlap, and what is allowed.
+// The table of how many pairs touch, how far they overlap, and what is allowed.
 AnswerTable touching_pairs_table(const Snapshot& s) {
     const std::vector<ContactForce>& all = s.forces->contacts;
     double most = 0, sum = 0;

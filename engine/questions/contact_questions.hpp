@@ -1,4 +1,5 @@
-// The forces that an answer is about, where they act, and words about them for a picture.
+// The forces that an answer is about, where they act, and words about them for a picture; and sums of
+// contact forces.
 #pragma once
 
 #include <cstdint>
@@ -12,33 +13,33 @@ namespace grainreel {
 
 struct AnswerForces {
     std::vector<PointForce> forces;
-    std::vector<std::int32_t> grains;  // ids of those that they act on or come from
-    std::string words;                 // a few lines beside the grains
+    std::vector<std::int32_t> grains;  // ids of grains that they act on or come from
+    std::string words;                 // a few lines to show beside the grains
 };
 
-// Normal and tangential force of each contact of a grain, on this grain. Nothing touches a grain in flight:
-// then the words say so. Of a moment that was not brought back the forces are not known, and the words say
-// that.
+// Normal and tangential force of each contact of a grain, on this grain. The words say so where nothing
+// touches it, and where the moment was not brought back and the forces are not known.
 AnswerForces forces_on_grain(const Snapshot& snapshot, std::int64_t id);
 
-// Forces of each contact of a wall, on the wall, at a moment that was brought back. Throws UserError for a
-// name that is no wall.
+// Forces of each contact of a wall, on the wall, at a moment that was brought back. Throws UserError where
+// no wall has this name.
 AnswerForces forces_on_wall(const Snapshot& snapshot, const std::string& name);
 
-// What pushes the grains of a snapshot that was brought back, so that its forces are known.
+// Forces on the grains of a snapshot that was brought back, so that its forces are known.
 
-// Sums over a grain's contacts; `id` need not be there. N, and N m about its centre.
+// Sums over a grain's contacts: force in N, and torque in N m about its centre. 0 for an id that is not
+// there.
 Vec3 contact_force_on(const Snapshot& snapshot, std::int32_t id);
 Vec3 contact_torque_on(const Snapshot& snapshot, std::int32_t id);
 
-// "left slant" or "left_slant", as contacts count the faces: -1 - face. Throws UserError, which lists the
-// walls.
+// The number of the wall called "left slant" or "left_slant", as contacts count walls: -1 - face. Throws
+// UserError with a list of the walls.
 std::int32_t wall_number(const Snapshot& snapshot, std::string name);
-// Largest overlap over the smaller radius that the plan aims at. (run.overlap is over the diameter.)
+// The largest overlap over the smaller radius that the plan aims at. (run.overlap is over the diameter.)
 double overlap_limit(const Scene& scene);
 // "run.overlap allows 0.02 of the smaller radius".
 std::string overlap_limit_words(const Snapshot& snapshot);
-// Its contacts that push or pull.
+// The contacts of a wall that push or pull.
 std::vector<const ContactForce*> pushes_on_wall(const Snapshot& snapshot, std::int32_t wall);
 
 }  // namespace grainreel

@@ -1,11 +1,12 @@
 // Expressions on grains: "species == big and height > 2 cm and speed < 1 mm/s".
 //
-// Numbers may have a unit, and dimensions are checked: a height is not compared with a time. This is why the
-// parser is our own: the expression libraries at hand (muParser, exprtk) know plain numbers only.
+// Numbers may have a unit, and dimensions are checked: a height is not compared with a time. This is why
+// grainreel has its own parser: the expression libraries at hand (muParser, exprtk) know plain numbers
+// only.
 //
-// From the loosest to the tightest: or; and; not; < <= > >= == != (a < b < c is a < b and b < c); + -; * /;
-// ^ with a plain whole number; functions abs, sqrt, min, max; touches(WHO), a condition; numbers, names,
-// parentheses.
+// The operators, those that bind least first: or; and; not; < <= > >= == != (a < b < c is a < b and b < c);
+// + -; * /; ^ with a plain whole number; functions abs, sqrt, min, max; touches(WHO), a condition; numbers,
+// names, parentheses.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +19,11 @@
 
 namespace grainreel {
 
-// What a value is. Species can be compared for being equal, and nothing else.
+// The type of a value. Species can only be compared for equality.
 struct ValueType {
     enum class Kind { number, truth, species };
     Kind kind = Kind::number;
-    Powers powers{};  // of a number's dimension
+    Powers powers{};  // dimension of a number
 };
 
 // The words that an expression may use.
@@ -31,26 +32,26 @@ class Vocabulary {
     virtual ~Vocabulary() = default;
     struct Word {
         ValueType type;
-        std::optional<double> constant;  // or empty: its value differs from grain to grain
-        int column = -1;                 // of those that differ
+        std::optional<double> constant;  // empty: its value differs from grain to grain
+        int column = -1;                 // number of the column with its values
     };
     virtual std::optional<Word> find(std::string_view name) const = 0;
     virtual std::vector<std::string> names() const = 0;  // for messages
-    // The condition touches(who); none where there are no contacts to ask for. Throws UserError where `who`
-    // is nothing that can be touched.
+    // The condition touches(who); none where contacts are not known. Throws UserError where `who` is
+    // nothing that can be touched.
     virtual std::optional<Word> touching(std::string_view /*who*/) const { return std::nullopt; }
 };
 
 class Expression {
   public:
-    // Throws UserError, which names the character (from 1) and what may stand there.
+    // Throws UserError, which gives the number of the character (from 1) and what may stand there.
     Expression(std::string_view text, const Vocabulary& words);
 
     const ValueType& type() const { return nodes_.back().type; }
-    // Columns of the vocabulary that it uses, each once.
+    // The columns of the vocabulary that it uses, each once.
     const std::vector<int>& columns() const { return columns_; }
-    // SI; 1 or 0 of a truth. values: one a column of columns(), for one grain. NaN where a value is NaN; a
-    // comparison with NaN is 0.
+    // The value for one grain in SI; 1 or 0 for a condition. `values` has one number for each of columns().
+    // The result is NaN where a value is NaN; a comparison with NaN is 0.
     double of(const std::vector<double>& values) const;
 
   private:
@@ -79,16 +80,16 @@ class Expression {
     struct Node {
         Op op;
         ValueType type;
-        double value = 0;                   // of a constant; the exponent of a power
+        double value = 0;                   // value of a constant, or exponent of a power
         std::size_t first = 0, second = 0;  // nodes, or a place in columns_
     };
     double of(std::size_t node, const std::vector<double>& values) const;
 
-    std::vector<Node> nodes_;  // what a node needs stands before it
+    std::vector<Node> nodes_;  // the nodes that a node needs stand before it
     std::vector<int> columns_;
 };
 
-// From the text of an expression to its nodes. See expression.hpp for the language.
+// Parses the text of an expression into its nodes. The top of this file describes the language.
 
 class ExpressionParser {
   public:
@@ -101,7 +102,7 @@ class ExpressionParser {
     using Op = Expression::Op;
     using Kind = ValueType::Kind;
 
-    // Each returns the node of what it has read.
+    // Each of these returns the node of what it has read.
     std::size_t either();
     std::size_t both();
     std::size_t opposite();
@@ -118,7 +119,7 @@ class ExpressionParser {
     std::size_t named(const std::string& name, std::size_t start);
     std::size_t add_word(const Vocabulary::Word& word);
     std::size_t quoted();
-    std::size_t inside();  // what stands in parentheses, the first of them read
+    std::size_t inside();  // what stands in parentheses; the first of them has been read
 
     std::optional<Op> comparing(bool& swapped);
     std::size_t compare(Op op, bool swapped, std::size_t left, std::size_t right, std::size_t start);
@@ -132,9 +133,9 @@ class ExpressionParser {
     void want_alike(std::size_t left, std::size_t right, std::size_t start) const;
 
     void skip_spaces();
-    bool take(std::string_view symbol);     // a sign, if it comes next
-    bool take_word(std::string_view word);  // a word, if it comes next
-    std::string name_here();                // letters, digits and _; empty when there are none
+    bool take(std::string_view symbol);     // reads a sign, if it comes next
+    bool take_word(std::string_view word);  // reads a word, if it comes next
+    std::string name_here();                // reads letters, digits and _; empty when there are none
     [[noreturn]] void fail(std::size_t start, const std::string& what) const;
 
     std::string_view text_;
@@ -148,8 +149,8 @@ class ExpressionParser {
 
 Powers powers_of(Dimension dimension);
 bool same_powers(const Powers& a, const Powers& b);
-bool is_plain(const Powers& powers);  // of a number without a unit
-// "a length"; "a number in m2.s-1" for what has no name here.
+bool is_plain(const Powers& powers);  // whether a number has no unit
+// "a length"; "a number in m2.s-1" for a dimension without a name here.
 std::string noun_of_powers(const Powers& powers);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// Reads an expression and makes its tree. Mistakes are told with their place.
+// Reads an expression and makes its tree. Messages about mistakes give the place.
 #include "engine/questions/expression.hpp"
 
 #include <algorithm>
@@ -106,7 +106,7 @@ std::size_t ExpressionParser::comparison() {
     return all;
 }
 
-// a > b is b < a.
+// Reads a comparison. a > b becomes b < a, and then `swapped` is set.
 std::optional<ExpressionParser::Op> ExpressionParser::comparing(bool& swapped) {
     swapped = false;
     if (take("<=")) return Op::less_equal;
@@ -214,7 +214,8 @@ std::size_t ExpressionParser::number() {
     return add(Op::constant, number_of(powers), 0, 0, value);
 }
 
-// A unit has no spaces inside: "2 cm", "1 mm/s", "9.81 m/s2". 1 where none comes.
+// Reads a unit and returns its size; 1 where none comes. It has no spaces inside: "2 cm", "1 mm/s", "9.81
+// m/s2".
 double ExpressionParser::unit_here(Powers& powers) {
     const std::size_t before = at_;
     skip_spaces();
@@ -269,7 +270,7 @@ std::size_t ExpressionParser::function(const std::string& name, std::size_t star
     return add(Op::root, number_of(powers), first);
 }
 
-// touches(wall), touches("left slant"), touches(big), touches(12): up to the parenthesis or the quote.
+// Reads touches(wall), touches("left slant"), touches(big) or touches(12).
 std::size_t ExpressionParser::touches(std::size_t start) {
     take("(");
     skip_spaces();
@@ -310,7 +311,7 @@ std::size_t ExpressionParser::add_word(const Vocabulary::Word& word) {
     return add(Op::column, word.type, place);
 }
 
-// A name that is not plain letters: a species called "big beads".
+// Reads a name that is not plain letters: a species called "big beads".
 std::size_t ExpressionParser::quoted() {
     const std::size_t start = at_;
     const char quote = text_[at_++];

@@ -24,7 +24,7 @@ std::vector<GrainColumn> make_columns() {
     return all;
 }
 
-// Its number; none when there is no such column.
+// The number of the column with this name; none when there is none.
 std::optional<std::size_t> column_named(std::string_view name) {
     const auto& columns = grain_columns();
     for (std::size_t k = 0; k < columns.size(); ++k)
@@ -141,7 +141,7 @@ GrainList grains_where(const Snapshot& snapshot, std::string_view text) {
     return grains_where(snapshot, Expression(text, GrainVocabulary(snapshot)));
 }
 
-// Where a grain is, how it moves, what it is, and its way.
+// Columns about where a grain is, how it moves, what it is, and how far it came.
 
 namespace {
 
@@ -199,7 +199,7 @@ double mass(const Snapshot& s, std::size_t i) {
     return s.mass(i);
 }
 
-// J, of a solid sphere.
+// Rotational energy (J) of a solid sphere.
 double rotational_energy(const Snapshot& s, std::size_t i) {
     const double r = s.frame.radius[i];
     return 0.5 * s.mass(i) * 0.4 * r * r * s.frame.spin[i].squaredNorm();
@@ -225,7 +225,7 @@ double start_height(const Snapshot& s, std::size_t i) {
     return start ? (s.start.position[*start] - floor_offset(s.scene, s.start)).z() : none;
 }
 
-// Against the container, which moves itself.
+// How far the grain has risen in the container, which moves itself.
 double rise(const Snapshot& s, std::size_t i) {
     return s.height(i) - start_height(s, i);
 }

@@ -12,42 +12,43 @@
 
 namespace grainreel {
 
-// Places in a frame of the grains that are asked for.
+// Places, in the frame, of the grains that are asked for.
 using GrainList = std::vector<std::size_t>;
 
 struct GrainColumn {
     std::string name;
     Dimension dimension;
     std::string about;
-    // SI, one for each grain of the list; NaN when it is not known.
+    // Gives one value (SI) for each grain of the list; NaN when it is not known.
     std::vector<double> (*of)(const Snapshot& snapshot, const GrainList& grains);
     Needs needs = Needs::nothing;
     bool is_species = false;
     bool costly = false;        // looks for neighbours, or for the surface of the bed
     std::string coloured_as{};  // word of film.colour.by that shows the same; empty for none
-    std::string also{};         // another name of it, that of the colouring
+    std::string also{};         // its other name, as the colouring has it
 };
 
-// All of them.
+// All columns.
 const std::vector<GrainColumn>& grain_columns();
-// A group each.
+// The columns of each group.
 std::vector<GrainColumn> motion_columns();
 std::vector<GrainColumn> bed_columns();
 std::vector<GrainColumn> contact_columns();
 
-// m: grains whose surfaces are closer are neighbours, as the observer `unlike_neighbours` has it.
+// Gap (m) between surfaces below which grains are neighbours, as in the observer `unlike_neighbours`.
 double gap_of_neighbours(const Scene& scene);
 
-// The number of the column with this name. Throws UserError where there is none, or the snapshot lacks it.
+// The number of the column with this name. Throws UserError where there is none, or where the snapshot
+// cannot give it.
 int column_called(const Snapshot& snapshot, const std::string& name);
-// Values of the column with this number, for these grains or for all grains of the frame.
+// Values of the column with this number: for these grains, or for all grains of the frame.
 std::vector<double> values_of(const Snapshot& snapshot, int column, const GrainList& grains);
 std::vector<double> values_of(const Snapshot& snapshot, int column);
 
-// What a text that may be an expression takes, by the names in it; none twice.
+// What a text needs that may be an expression, by the names in it; each once.
 std::vector<Needs> needs_of(std::string_view text);
 
-// The columns, and the names of the scene's species.
+// The words of expressions: the columns, and the names of the scene's species.
 class GrainVocabulary final : public Vocabulary {
   public:
     explicit GrainVocabulary(const Snapshot& snapshot) : snapshot_(snapshot) {}
@@ -60,11 +61,11 @@ class GrainVocabulary final : public Vocabulary {
     const Snapshot& snapshot_;
 };
 
-// The grains for which a condition holds. Throws UserError for what is no condition.
+// The grains for which a condition holds. Throws UserError where the expression is no condition.
 GrainList grains_where(const Snapshot& snapshot, const Expression& condition);
 GrainList grains_where(const Snapshot& snapshot, std::string_view text);
 
-// A column whose value follows from one grain alone.
+// Makes a column from a function of one grain.
 template <double (*value)(const Snapshot&, std::size_t)>
 std::vector<double> of_each(const Snapshot& snapshot, const GrainList& grains) {
     std::vector<double> values;
@@ -72,7 +73,10 @@ std::vector<double> of_each(const Snapshot& snapshot, const GrainList& grains) {
     return values;
 }
 
-// The condition touches(...): whether a grain has a contact that carries force with what is named.
+// The condition touches(...): whether a grain has a contact that carries force with what `who` names:
+// "wall" for any wall, a species, a wall or mesh as contacts name it ("left slant"), or a grain's id.
+// Returns the number of a column beyond grain_columns(), whose values are 1 and 0. Throws UserError where
+// the scene has nothing of this name, and where the snapshot's contacts are not known.
 
 // `who`: "wall" for any wall, a species, a wall or mesh as contacts name it ("left slant"), or a grain's id.
 // Gives the number of a column beside grain_columns(), whose values are 1 and 0. Throws UserError for what is
@@ -80,7 +84,7 @@ std::vector<double> of_each(const Snapshot& snapshot, const GrainList& grains) {
 int touches_column(const Snapshot& snapshot, std::string_view who);
 
 bool is_touches_column(int number);
-// One for each grain of the list.
+// One value for each grain of the list.
 std::vector<double> values_of_touches(const Snapshot& snapshot, int number, const GrainList& grains);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// Answers questions to one grain: its columns, its contacts and its balance of forces.
+// Answers questions about one grain: its columns, its contacts and its balance of forces.
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
@@ -56,7 +56,7 @@ AnswerTable contacts_table(const Snapshot& s, std::size_t grain) {
     return table;
 }
 
-// With what only a moment that was brought back tells.
+// The table of contacts with what only a moment that was brought back tells.
 AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
     const std::int32_t id = s.frame.id[grain];
     AnswerTable table{"contacts",

@@ -83,7 +83,7 @@ AnswerTable species_table(const Snapshot& s) {
     return table;
 }
 
-// The highest grain that has another one within a tenth of its radius: the highest of all may be in flight.
+// The highest grain that has another one within a tenth of its radius. The highest of all may be in flight.
 std::optional<std::size_t> tip_of_bed(const Snapshot& s) {
     std::vector<std::size_t> order(s.frame.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -127,7 +127,7 @@ AnswerTable extremes_table(const Snapshot& s) {
     return table;
 }
 
-// What contacts.nc has of a wall: not in which direction friction pushes.
+// The row of a wall from contacts.nc, which does not tell in which direction friction pushes.
 std::vector<AnswerCell> kept_wall_row(const Snapshot& s, std::int32_t wall) {
     std::int64_t count = 0;
     double normal = 0;
@@ -136,7 +136,8 @@ std::vector<AnswerCell> kept_wall_row(const Snapshot& s, std::int32_t wall) {
     return {name_of_body(s, wall), count, {}, {}, {}, normal};
 }
 
-// Forces of a moment that was brought back; else what the run kept; else the names alone.
+// The table of walls: with forces at a moment that was brought back, else with what the run kept, else
+// names alone.
 AnswerTable walls_table(const Snapshot& s) {
     AnswerTable table{"walls",
                       "Walls, and the force of the grains on them",
@@ -196,7 +197,7 @@ AnswerTable bodies_table(const Snapshot& s) {
     return table;
 }
 
-// The first clause of what the documentation says of a column, without what leads to other places in it.
+// The first clause of a column's text in the documentation, without links to other places.
 std::string in_short(std::string about) {
     about.erase(std::min(about.size(), about.find(';')));
     if (const std::size_t link = about.find(" (see ["); link != std::string::npos) about.erase(link);
@@ -204,7 +205,7 @@ std::string in_short(std::string about) {
     return about;
 }
 
-// What the run's observers made of it: energies, segregation, how the bed stands. What has no value is left
+// What the run's observers measured: energies, segregation, how the bed stands. What has no value is left
 // out.
 AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
     AnswerTable table{"measured",
@@ -216,7 +217,7 @@ AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
                       {},
                       true};
     table.mean_title = "Measured";
-    // Where the centres are is in the table of the species, when the row comes is its title.
+    // The table of the species has the centres already, and this table's title has the time of the row.
     const auto said_already = [](const std::string& name) {
         return name == "step" || name == "time_s" || name == "cycles" || name.starts_with("phase") ||
                name.find("centre_") != std::string::npos;
@@ -237,8 +238,8 @@ AnswerTable measured_table(const Snapshot& s, const MeasuredRow& row) {
     return table;
 }
 
-// Its centre is out of the room that the vessel encloses, farther than its radius from the surface. Above the
-// rim a grain may be anywhere.
+// Whether the grain's centre is outside the room that the vessel encloses, by more than its radius from the
+// surface. Above the rim a grain may be anywhere.
 bool outside_mesh(const Snapshot& s, std::size_t i) {
     const std::optional<std::size_t> vessel = vessel_of(s.scene);
     if (!vessel) return false;
@@ -257,7 +258,7 @@ bool outside_turned(const Snapshot& s, std::size_t i) {
     return false;
 }
 
-// m above the floor, of the container's rim; infinite without one.
+// Whether a grain is outside the container.
 bool outside(const Snapshot& s, std::size_t i) {
     const Container& c = s.scene.container;
     if (c.shape == Container::Shape::none) return false;
@@ -299,7 +300,7 @@ Answer overview_of(const Snapshot& s) {
 namespace {
 
 struct Way {
-    std::size_t grain = 0;  // of the later frame
+    std::size_t grain = 0;  // place in the later frame
     Vec3 moved{0, 0, 0};    // m, in the container's frame
 };
 

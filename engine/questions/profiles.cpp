@@ -54,7 +54,7 @@ Bins bins_along(const Snapshot& s, const std::vector<double>& at, double low) {
     return all;
 }
 
-// Empty of nothing.
+// The ratio as a cell, empty where `of` is 0.
 AnswerCell ratio(double sum, double of) {
     if (of <= 0) return {};
     return sum / of;
@@ -72,10 +72,10 @@ std::vector<AnswerCell> row_of(const Bins& all, std::size_t k) {
     return row;
 }
 
-// Up to the top of the highest grain, which may be in the bin above its centre's.
+// Adds bins up to the top of the highest grain, which may lie in a higher bin than its centre.
 void add_bins_of_tops(const Snapshot& s, const std::vector<double>& at, Bins& all) {
     constexpr double hair = 1e-9;  // of a bin
-    double highest = 0;            // bins
+    double highest = 0;            // in bins
     for (std::size_t i = 0; i < at.size(); ++i) {
         const double top = (at[i] + s.frame.radius[i] - all.low) / all.width - hair;
         if (top < static_cast<double>(most_bins)) highest = std::max(highest, std::ceil(top));
@@ -84,21 +84,21 @@ void add_bins_of_tops(const Snapshot& s, const std::vector<double>& at, Bins& al
     all.bins.resize(std::max(all.bins.size(), static_cast<std::size_t>(highest)), empty);
 }
 
-// Volume (m3) of the part below `height` of a sphere about height 0 with this radius:
-// pi r^3 (2 + 3 t - t^3) / 3 with t = height / r (a spherical segment; Bronshtein and Semendyayev, 3.3.4.6).
+// Volume (m3) of the part below `height` of a sphere of this radius about height 0: pi r^3 (2 + 3 t - t^3)
+// / 3 with t = height / r (a spherical segment; Bronshtein and Semendyayev, 3.3.4.6).
 double sphere_below(double radius, double height) {
     const double t = std::clamp(height / radius, -1.0, 1.0);
     return std::numbers::pi / 3 * radius * radius * radius * (2 + 3 * t - t * t * t);
 }
 
 // Divides the bed from `low` up (m, in the container's frame) into `count` slices of equal height. Returns
-// the volume of the grains in each slice over the room inside the container. NaN where there is no room:
-// below the floor, above the rim, in empty space. Grains that are glued to walls do not count.
+// for each slice the volume of its grains over the room inside the container; NaN where there is no room
+// (below the floor, above the rim, in empty space). Grains that are glued to walls do not count.
 std::vector<double> solid_fractions(const Snapshot& s, double low, double height, std::size_t count) {
     std::vector<double> fractions(count, std::numeric_limits<double>::quiet_NaN());
     const Container& container = s.scene.container;
     if (container.shape == Container::Shape::none) return fractions;
-    // The part of a slice that is in the container.
+    // The edge of a slice, limited to the container.
     const auto edge = [&](std::size_t k) {
         return std::clamp(low + static_cast<double>(k) * height, container.base(), container.height);
     };
@@ -121,7 +121,8 @@ std::vector<double> solid_fractions(const Snapshot& s, double low, double height
     return fractions;
 }
 
-// Where the floor alone moves, heights above it are not heights in the container.
+// Adds the column of solid fractions. Where the floor alone moves, heights above it are not heights in the
+// container.
 void add_solid_fraction(const Snapshot& s, const Bins& all, bool above_floor, AnswerTable& table) {
     table.columns.push_back({"solid_fraction", Dimension::number,
                              "volume of the parts of grains that are there, over the room in the container"});
@@ -144,7 +145,7 @@ Answer profile_answer(const Snapshot& s, const std::string& along) {
     if (s.frame.size() == 0) throw UserError("there are no grains at this moment");
     const std::vector<double> at = values_of(s, column_called(s, along));
     const bool across = along == "x" || along == "y";
-    // Edges are multiples of the width, so that those of several moments agree.
+    // Edges are multiples of the width, so those of several moments agree.
     const double width = s.bin();
     Bins all = bins_along(s, at, across ? std::floor(statistics_of(at).least / width) * width : 0);
     AnswerTable table{"profile",
@@ -173,7 +174,7 @@ Answer profile_answer(const Snapshot& s, const std::string& along) {
 namespace {
 
 constexpr double farthest = 4;         // mean diameters
-constexpr std::size_t bin_count = 80;  // up to there
+constexpr std::size_t bin_count = 80;  // number of bins up to `farthest`
 
 struct Box {
     Vec3 low, high;
@@ -189,7 +190,7 @@ Box box_of(const Snapshot& s, double period) {
     return box;
 }
 
-// m, to the nearest face of the box; a periodic depth has none.
+// Distance (m) to the nearest face of the box; a periodic depth has none.
 double room_about(const Vec3& at, const Box& box, double period) {
     double room =
         std::min({at.y() - box.low.y(), box.high.y() - at.y(), at.z() - box.low.z(), box.high.z() - at.z()});
@@ -197,8 +198,8 @@ double room_about(const Vec3& at, const Box& box, double period) {
     return room;
 }
 
-// Centres in cells, the grains of a cell one after the other. A cell is a part of the reach wide: with small
-// cells fewer of the centres that are looked at are too far away.
+// Centres sorted into cells, the grains of a cell one after the other. A cell's width is a fraction of the
+// reach: with smaller cells fewer of the centres that are looked at are too far away.
 class Neighbourhood {
   public:
     Neighbourhood(const Snapshot& s, const Box& box, double reach, double period)
@@ -216,10 +217,10 @@ class Neighbourhood {
     }
 
     std::size_t size() const { return at_.size(); }
-    // In the order of the cells.
+    // The place of centre k; centres are numbered in the order of the cells.
     const Vec3& place(std::size_t k) const { return at_[k]; }
 
-    // look(k, distance) for each centre that is nearer to centre i than the reach, and comes after it.
+    // Calls look(k, distance) for each centre that is nearer to centre i than the reach and comes after it.
     template <class Look>
     void after(std::size_t i, const Look& look) const {
         const std::array<int, 3> here = cell_of(at_[i]);
@@ -278,7 +279,7 @@ class Neighbourhood {
     const double reach_, period_;            // m
     std::array<int, 3> count_{}, spread_{};  // cells along an axis, and on either side within the reach
     Vec3 width_;                             // m
-    std::vector<std::size_t> start_;         // of each cell in at_, and one past the last
+    std::vector<std::size_t> start_;         // index in at_ where each cell begins, and one past the last
     std::vector<Vec3> at_;                   // m
 };
 
@@ -295,7 +296,8 @@ Answer pair_distribution_answer(const Snapshot& s) {
     const double density = static_cast<double>(s.frame.size()) / volume;
     const Neighbourhood near(s, box, most, period);
     std::vector<double> pairs(bin_count + 1, 0), centres(bin_count, 0);
-    std::vector<std::size_t> whole(near.size());  // bins of each centre that lie in the box all round
+    std::vector<std::size_t> whole(
+        near.size());  // for each centre, the number of bins whose spheres lie in the box
     for (std::size_t i = 0; i < near.size(); ++i) {
         const double room = room_about(near.place(i), box, period);
         whole[i] = static_cast<std::size_t>(std::clamp(room / width, 0.0, double(bin_count)));

@@ -25,8 +25,10 @@ struct Stretch {
     bool empty() const { return !(from <= to); }
 };
 
-// Where |at(t) - centre| <= radius. The distance of the ray's line from the centre comes first, so that
-// grains far from the origin lose no digits.
+// Keeps the part where
+// at(t) - centre
+// <= radius. The distance of the ray's line from the centre is computed first, so that grains far from the
+// origin lose no digits.
 void keep_sphere(const Ray& ray, const Vec3& centre, double radius, Stretch& stretch) {
     const Vec3 from = ray.origin - centre;
     const double a = ray.direction.squaredNorm(), half = from.dot(ray.direction);
@@ -37,7 +39,7 @@ void keep_sphere(const Ray& ray, const Vec3& centre, double radius, Stretch& str
     stretch.keep(middle - reach, middle + reach);
 }
 
-// Where value + slope t >= 0.
+// Keeps the part where value + slope t >= 0.
 void keep_where_positive(double value, double slope, Stretch& stretch) {
     if (slope > 0) return stretch.keep(-value / slope, endless);
     if (slope < 0) return stretch.keep(-endless, -value / slope);
@@ -77,7 +79,7 @@ std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std:
 
 namespace {
 
-// As one who turns with the container sees it; lengths along it stay.
+// Finds the wall in the frame of the turning container; lengths along the ray stay the same.
 std::optional<WallOnRay> wall_behind_turned(const Ray& ray, const Scene& scene, const Frame& frame) {
     const BodyPose& pose = frame.container();
     Scene at_rest = scene;

@@ -1,4 +1,4 @@
-// What lies on a ray: grains, and the wall behind them.
+// What lies on a ray through a moment: grains, and the wall behind them.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct Ray {
     Vec3 at(double t) const { return origin + t * direction; }
 };
 
-// The points p with normal . p >= distance are kept.
+// The half of space that is kept: points p with normal . p >= distance.
 struct KeptHalf {
     Vec3 normal;
     double distance;  // m
@@ -29,40 +29,41 @@ struct KeptHalf {
 
 struct GrainOnRay {
     std::size_t grain;  // place in the frame
-    double from, to;    // of the ray, in lengths of its direction: where it is inside the grain
+    double from, to;    // where the ray is inside the grain, in lengths of its direction
 };
 
-// Grains that the ray meets ahead of its origin, the nearest first. Of each only the part that lies in all
-// halves counts, as a cut bed is drawn.
+// The grains that the ray meets ahead of its origin, the nearest first. Only the part of a grain that lies
+// in all halves counts, as a cut bed is drawn.
 std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std::vector<KeptHalf>& kept);
 
 struct WallOnRay {
     std::string name;
-    double at;  // of the ray
+    double at;  // along the ray, in lengths of its direction
 };
 // The face of the container through which the ray leaves it; empty when it does not pass through the
 // container, or leaves it above the walls of an open top.
 std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const Frame& frame);
 
 struct MeshOnRay {
-    std::size_t mesh;       // of the scene
-    std::int32_t triangle;  // of the mesh
-    double at;              // of the ray
+    std::size_t mesh;       // index in the scene
+    std::int32_t triangle;  // index in the mesh
+    double at;              // along the ray, in lengths of its direction
 };
-// Where the ray meets meshes, as they stand in the frame, the nearest first. Of each only what lies in all
-// halves counts.
+// Where the ray meets meshes, as they stand in the frame, the nearest first. Only parts that lie in all
+// halves count.
 std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame& frame,
                                  const std::vector<KeptHalf>& kept);
 
-// What lies along a ray through a moment: which grains, and which wall behind them.
+// Answers which grains lie along a ray through a moment, and which wall is behind them.
 
-// How the moment is looked at.
+// How the moment is drawn: what is cut away, and what can be seen through.
 struct AlongRay {
-    std::vector<KeptHalf> kept;              // of a cut
+    std::vector<KeptHalf> kept;              // halves that a cut keeps
     std::vector<std::int32_t> seen_through;  // species that hide nothing
 };
 
-// shown: the grains of the snapshot where they are seen. The nearest first; through: what lies behind, too.
+// `shown` has the grains of the snapshot at the places where they are drawn. The nearest comes first.
+// through: also what lies behind the first.
 Answer along_ray_answer(const Snapshot& snapshot, const Frame& shown, const Ray& ray, const AlongRay& along,
                         bool through);
 

@@ -52,7 +52,7 @@ std::optional<std::size_t> Snapshot::place_of(std::int64_t id) const {
 
 namespace {
 
-// A point of the axis moves with the drive alone.
+// The offset of the container by the drive: a point of the axis moves with the drive alone.
 Vec3 offset_of(const Scene& scene, const BodyPose& pose) {
     const std::optional<BodyTurn>& turn = scene.container.turn;
     return turn ? Vec3(pose.moved(turn->through) - turn->through) : pose.place;

@@ -1,4 +1,4 @@
-// One moment of a run, as questions are put to it.
+// One moment of a run, as questions see it.
 #pragma once
 
 #include <cstddef>
@@ -13,60 +13,61 @@
 
 namespace grainreel {
 
-// What only the engine knows of a moment.
+// What only the engine knows about a moment.
 struct SnapshotForces {
-    std::vector<ContactForce> contacts;  // all that touch
-    // m/s2, of each grain of the frame, as its motion to the next step has it. Empty with an integrator whose
-    // steps do not tell it.
+    std::vector<ContactForce> contacts;  // all contacts that touch
+    // Acceleration (m/s2) of each grain of the frame, from its motion to the next step. Empty with an
+    // integrator whose steps do not tell it.
     std::vector<Vec3> acceleration;
 };
 
-// What a question may take that a snapshot may lack: contacts; what only a moment that was brought back has;
-// ways over the last period of the drive (Frame::displacement); velocities and spins, which some files of
-// other programs do not have.
+// What a question may need and a snapshot may lack. forces: what only a moment that was brought back has.
+// period: how far grains moved in the last period of the drive (Frame::displacement). Some files of other
+// programs have no velocities or spins.
 enum class Needs { nothing, contacts, forces, period, velocities, spins };
 
 struct Snapshot {
     const Scene& scene;
-    Frame frame;                             // its grains; touches where they are known
-    bool contacts = false;                   // whether they are
+    Frame frame;                             // its grains, and touches where they are known
+    bool contacts = false;                   // whether touches are known
     Frame start;                             // the run's first moment
-    std::optional<SnapshotForces> forces{};  // of a moment that was brought back
-    std::optional<MeasuredRow> measured{};   // at the moment, or at the row nearest to it
-    double bin_width = 0;  // m, of bins along lengths; 0: the mean diameter of the grains that are there
-    bool velocities = true, spins = true;  // whether they are known; velocities that are not are NaN
+    std::optional<SnapshotForces> forces{};  // only where the moment was brought back
+    std::optional<MeasuredRow> measured{};   // at the moment, or in the row nearest to it
+    double bin_width = 0;                    // m, of bins along lengths; 0: the mean diameter of the grains
+    bool velocities = true, spins = true;    // whether they are known; unknown velocities are NaN
 
     bool has(Needs what) const;
     double density(std::size_t i) const;  // kg/m3, of grain i of the frame
     double mass(std::size_t i) const;     // kg
-    double mean_diameter() const;         // m, of the grains that are there
+    double mean_diameter() const;         // m, of the grains in the frame
     double bin() const { return bin_width > 0 ? bin_width : mean_diameter(); }  // m
-    double height(std::size_t i) const;  // m, of its centre above the floor where that is now
+    double height(std::size_t i) const;  // m, of the grain's centre above the floor as it is now
     // Place in the frame of the grain with this id; empty when there is none.
     std::optional<std::size_t> place_of(std::int64_t id) const;
 };
 
-// m, where the drive has the container and its floor in a frame, from their places at rest. A turn of the
+// How far (m) the drive has moved the container, and its floor, from their places at rest. A turn of the
 // container does not count.
 Vec3 container_offset(const Scene& scene, const Frame& frame);
 Vec3 floor_offset(const Scene& scene, const Frame& frame);
 
-// All walls by their numbers (-1 - wall): the faces ("left slant"), then the meshes.
+// Names of all walls by their numbers (-1 - wall): the faces ("left slant"), then the meshes.
 std::vector<std::string> wall_names(const Scene& scene);
 
-// Which of the scene's meshes a wall's number stands for; empty of a face.
+// The index of the scene's mesh that a wall's number means; empty for a face.
 std::optional<std::size_t> mesh_of_wall(const Scene& scene, std::int32_t wall);
 
-// "small", or "floor" for a wall's number, as contacts.nc has them.
+// The species of a grain ("small") or, for a wall's number, its name ("floor"), as in contacts.nc.
 std::string name_of_body(const Snapshot& snapshot, std::int32_t id);
 
 // How far each grain came in a period of the drive.
 
-// From `before` to where the grains are now, by the periods between; NaN for a grain that was not there
-// before. depth: m, along x, after which a periodic container repeats; 0 for none.
+// Sets the way from `before` to the grains' places now, divided by the number of periods between; NaN for a
+// grain that was not there before. `depth` (m, along x) is the length after which a periodic container
+// repeats; 0 for none.
 void set_displacement(Frame& now, const Frame& before, int periods, double depth);
 
-// The same grains in two frames: ids rise along both, and some may have come or gone between them.
+// The same grains in two frames. Ids rise in both, and some grains may have come or gone between them.
 
 inline constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
 

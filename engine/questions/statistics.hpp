@@ -1,4 +1,4 @@
-// Plain statistics of numbers, some of which may be NaN: those are left out.
+// Plain statistics of numbers, and histograms. Values that are NaN are left out.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Statistics {
     std::size_t where_least = 0, where_most = 0;  // places in the list
 };
 
-// deviation: the standard deviation of the sample, with count - 1; NaN of fewer than two.
+// deviation is the standard deviation of the sample, with count - 1; NaN for fewer than two values.
 inline Statistics statistics_of(const std::vector<double>& values) {
     Statistics all;
     double sum = 0;
@@ -46,13 +46,13 @@ inline Statistics statistics_of(const std::vector<double>& values) {
 
 class Histogram {
   public:
-    // A column of grain_columns.hpp.
+    // column is the name of a column of grain_columns.hpp.
     explicit Histogram(std::string column) : name_(std::move(column)) {}
 
-    // All throw UserError for what cannot be asked.
+    // All functions throw UserError for what cannot be asked.
     void add(const Snapshot& snapshot);
-    // In so many equal bins from the smallest value of all moments to the largest. Counts are means over the
-    // moments.
+    // Counts in so many equal bins, from the smallest value of all moments to the largest. Counts are means
+    // over the moments.
     Answer answer(std::size_t bins) const;
 
     static constexpr std::size_t kMostValues = 50'000'000;  // kept until the bins are known
@@ -61,7 +61,7 @@ class Histogram {
     const std::string name_;
     Dimension dimension_ = Dimension::number;
     std::vector<std::string> species_;         // names
-    std::vector<std::vector<double>> values_;  // SI, of each species
+    std::vector<std::vector<double>> values_;  // SI, one list for each species
     std::size_t moments_ = 0, count_ = 0;
 };
 

@@ -19,10 +19,10 @@ namespace grainreel {
 namespace {
 
 struct Batch {
-    double from = 0, time = 0, value = 0;  // s: its first row, the mean of its rows; mean
+    double from = 0, time = 0, value = 0;  // s: time of the first row, mean time; mean value
 };
 
-// The part [begin, end) as one.
+// Joins the batches [begin, end) into one.
 Batch joined(const std::vector<Batch>& parts, std::size_t begin, std::size_t end) {
     Batch all;
     all.from = parts[begin].from;
@@ -38,7 +38,8 @@ std::vector<Batch> finite_rows(const std::vector<double>& times, const std::vect
     return rows;
 }
 
-// The rows of each whole period, or so many rows; what is left over at the end belongs to none.
+// Batches of rows: those of each whole period, or so many rows. Rows left over at the end belong to no
+// batch.
 std::vector<Batch> batches_of(const std::vector<Batch>& rows, double period) {
     constexpr double rounding = 1e-6;  // of a period: times are rounded
     std::vector<Batch> batches;
@@ -47,7 +48,7 @@ std::vector<Batch> batches_of(const std::vector<Batch>& rows, double period) {
         if (period > 0) {
             const double number = std::floor(rows[begin].time / period + rounding);
             for (end = begin; end < rows.size() && rows[end].time < (number + 1 - rounding) * period;) ++end;
-            if (end == rows.size()) break;  // it may go on
+            if (end == rows.size()) break;  // the period may go on
         }
         if (end > rows.size()) break;
         batches.push_back(joined(rows, begin, end));
@@ -56,7 +57,8 @@ std::vector<Batch> batches_of(const std::vector<Batch>& rows, double period) {
     return batches;
 }
 
-// Up to kMostBatches of equal length; what is left over goes at the front, nearest to the transient.
+// At most kMostBatches batches of equal length. Rows left over are dropped at the front, nearest to the
+// transient.
 std::vector<Batch> long_batches(const std::vector<Batch>& rest) {
     const std::size_t count = std::min(kMostBatches, rest.size());
     std::vector<Batch> all;
@@ -108,8 +110,8 @@ std::size_t mser_truncation(const std::vector<double>& means) {
     const std::size_t n = means.size();
     double sum = 0, squares = 0, least = std::numeric_limits<double>::infinity();
     std::size_t best = 0;
-    const double offset = n > 0 ? means.back() : 0;  // so that squares do not cancel
-    constexpr std::size_t least_rest = 5;            // of one or two the error is 0 by chance
+    const double offset = n > 0 ? means.back() : 0;  // subtracted, so that squares do not cancel
+    constexpr std::size_t least_rest = 5;            // with one or two values the error is 0 by chance
     for (std::size_t d = n; d-- > 0;) {
         const double value = means[d] - offset;
         sum += value, squares += value * value;

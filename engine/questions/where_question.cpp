@@ -39,7 +39,7 @@ AnswerTable counts_table(const Snapshot& s, const std::vector<std::size_t>& foun
     return table;
 }
 
-// What is costly only where it is asked for.
+// Statistics of all columns; costly ones only where they are asked for.
 AnswerTable statistics_table(const Snapshot& s, const std::vector<std::size_t>& found,
                              const std::vector<int>& asked) {
     AnswerTable table{"statistics",
@@ -85,7 +85,7 @@ struct Plane {
     double place = 0;  // m
 };
 
-// "y=0", "z = 2 cm".
+// Reads a plane: "y=0", "z = 2 cm".
 Plane plane_of(const std::string& text) {
     const std::size_t equal = text.find('=');
     const std::size_t letter = text.find_first_not_of(' ');
