@@ -140,9 +140,9 @@ void StepLoop::copy_foreign(int member) {
     team_.barrier(member);
 }
 
-// Exchanges grains with the other threads, once a step, and what the threads tell each other. This is the
-// only place in a step where threads wait for each other, unless lists are made. Returns what all have told:
-// the same on every thread.
+// Exchanges grains and messages with the other threads, in each evaluation. This is the only place in a step
+// where threads wait for each other, unless lists are made. Returns the messages of all threads together,
+// which are the same on every thread.
 StepLoop::Told StepLoop::exchange(int member, const FreeFlight& flight, bool may_leave) {
     Member& mine = members_[member];
     ThreadContacts& contacts = lists_.contacts(member);
@@ -215,7 +215,7 @@ std::array<double, kCosts> StepLoop::cost_shares() const {
     return shares;
 }
 
-// What the step loop shows of its contacts, and what it saves.
+// Shows contacts to observers.
 void StepLoop::visit_contacts(std::int64_t at_step,
                               const std::function<void(const ContactView&)>& visit) const {
     WallState walls;
@@ -227,7 +227,8 @@ void StepLoop::visit_contacts(std::int64_t at_step,
     for (std::size_t g = 0; g < rules_.groups.size(); ++g) {
         late.clear();
         for (int m = 0; m < team_.size(); ++m) view_contacts(in, g, lists_.contacts(m), visit, keep);
-        // Threads own stretches of the grains, so those in order are in order on any number of them.
+        // Threads own stretches of the grains, so the contacts that come in order do so on any number of
+        // threads.
         std::sort(late.begin(), late.end(), [](const ContactView& a, const ContactView& b) {
             if (a.first != b.first) return a.first < b.first;
             if (a.second != b.second) return a.second > b.second;
@@ -264,7 +265,7 @@ void StepLoop::take_histories(const HistoryOf& history_of) {
     sum_loads_anew(std::vector<bool>(grains_.size(), true), kBefore);
 }
 
-// What ends a run within the step loop. Threads note it, and go on to the end of the next step.
+// Faults that end a run within the step loop. Threads note them, and go on to the end of the next step.
 
 namespace {
 
@@ -287,7 +288,7 @@ std::string text_of(const MeshFault& fault, const Clock& clock, const std::strin
 
 }  // namespace
 
-// Histories hold the number of a triangle as one of their own numbers.
+// Checks that triangles can be numbered: a history holds the number of a triangle as a float or a double.
 void StepLoop::check_meshes() const {
     constexpr std::int32_t kMostInFloats = 1 << 24;
     GRAINREEL_CHECK(rules_.group_of_mesh.size() >=
@@ -305,7 +306,8 @@ void StepLoop::check_meshes() const {
     }
 }
 
-// The earliest fault, whatever the threads; of one step that of the grain with the lowest id.
+// Throws for the earliest fault of all threads. Among the faults of one step, the grain with the lowest id
+// counts.
 void StepLoop::end_with_fault() const {
     const MeshFault* first = nullptr;
     for (int m = 0; m < team_.size(); ++m) {

@@ -1,5 +1,5 @@
-// The step loop: kicks and drifts of the grains, lists, contacts, on a team of threads. It says in which
-// order a step does its work. The parts have files of their own:
+// The step loop: kicks and drifts of the grains, lists, contacts, on a team of threads. It sets the order in
+// which a step does its work. The parts have files of their own:
 //   motion/scheme.hpp             when forces are evaluated, and the kicks and drifts between two evaluations
 //   lists/list_life.hpp           how long lists last
 //   lists/bed_lists.hpp           the lists
@@ -39,9 +39,10 @@ class StepLoop {
     // faces have changed.
     void restart();
 
-    // After a restart(): contacts that touch take up histories, and the forces are those of these. history_of
-    // gets a group of contacts, the indices of the two bodies (as in ContactTable) and the numbers of the
-    // history to fill in; it says whether it has one. It must answer the same on every thread.
+    // Call this after a restart(). Contacts that touch take up histories, and the forces are set to those
+    // that follow from the histories. history_of gets a group of contacts, the indices of the two bodies (as
+    // in ContactTable) and the numbers of the history to fill in. It returns whether there is a history for
+    // them. It must answer the same on every thread.
     using HistoryOf =
         std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
     void take_histories(const HistoryOf& history_of);
@@ -51,25 +52,26 @@ class StepLoop {
     // Grains in an exit at the end of a step leave then, and the others go on without them.
     void run(std::int64_t from, std::int64_t count, double step, double drag);
 
-    // Between two runs, `step` being the one that has been reached. Grains that are not there are left out.
+    // Takes grains out between two runs. `step` is the step that has been reached. Ids that no grain has are
+    // ignored.
     void remove(const std::vector<std::int32_t>& ids, std::int64_t step);
-    // Between two runs, after a restart(). New grains must touch nothing. They get rising ids, none of which
-    // any grain has had; returns the first of them.
+    // Adds grains between two runs, after a restart(). New grains must touch nothing. They get rising ids
+    // that no grain has had. Returns the first of these ids.
     std::int32_t insert(const std::vector<NewGrain>& grains);
-    // Between two runs: `change` opens an outlet, so that faces of the surroundings end or have a gap. Faces
-    // keep their numbers, and no face grows.
+    // Lets `change` open an outlet between two runs, so that faces of the surroundings end or have a gap.
+    // Faces keep their numbers, and no face may grow.
     void open_faces(const std::function<void()>& change, std::int64_t step);
     const Traffic& traffic() const { return traffic_; }
-    // Who has left since the last call, by step, then by id.
+    // The grains that have left since the last call, by step, then by id.
     std::vector<Departure> take_departures();
-    // From now on: nobody has come or left.
+    // Sets the counts of grains that have come and left, and their energies, to zero.
     void begin_account() { traffic_ = {.next_id = traffic_.next_id}; }
 
-    // From now on: sums up what grains do to the walls. The first forces are those of the last evaluation;
-    // where it was not tallied, those that contacts have at `step`, the present one. It changes nothing of
-    // the run, and costs it some percent of what its walls cost.
+    // Sums the forces of grains on the walls from now on. The first forces are those of the last evaluation.
+    // If it was not tallied, they are the forces that contacts have at the present step, `step`. The tally
+    // does not change the run. It takes a few percent of the time that the walls take.
     void tally_walls(const WallScale& scale, std::int64_t step);
-    // The same, but goes on where `before` stopped. Its vectors must be as long as there are faces and
+    // Tallies walls too, but goes on from the sums `before`. Their vectors must fit the numbers of faces and
     // slices.
     void go_on_tallying(const WallSums& before, const WallScale& scale);
     WallSums wall_sums() const;
@@ -77,7 +79,8 @@ class StepLoop {
     // Shows all touching contacts, in the same order on any number of threads.
     void visit_contacts(std::int64_t at_step, const std::function<void(const ContactView&)>& visit) const;
 
-    // Writes lists and histories, bit by bit, for checkpoints and hashes. The owner of the grains saves them.
+    // Writes lists and histories, bit by bit, for checkpoints and hashes. The grains are not written here;
+    // their owner saves them.
     void save(std::ostream& out) const;
     // Reads what save() wrote. The grains must be in order already. The reading fails where the loop could
     // not have written what is read; no index is trusted.
@@ -99,23 +102,24 @@ class StepLoop {
     std::size_t listed_pairs() const { return lists_.listed_pairs(); }
 
   private:
-    // What a thread tells the others in each evaluation.
+    // The message of a thread to the others in each evaluation.
     struct alignas(64) Told {
-        Vec3 fastest{0, 0, 0};    // m/s, largest components of its grains against the bed's free flight
-        std::int64_t parted = 0;  // contacts of its grains that no longer touched in the last step
-        bool may_leave = false;   // one of its grains, at the end of this step
+        Vec3 fastest{0, 0,
+                     0};  // m/s, largest velocity components of its grains relative to the bed's free flight
+        std::int64_t parted = 0;  // number of contacts of its grains that no longer touched in the last step
+        bool may_leave = false;   // whether one of its grains may leave at the end of this step
     };
 
-    // What a thread writes. It shares no cache line with what another thread writes.
+    // The data that a thread writes. They share no cache line with the data of another thread.
     struct alignas(64) Member {
         WallState walls;
         WallTally tally;
         ChunkMemory memory;
         Vanguard ahead;  // its grains that begin the next step early
         CostClock clock;
-        Vec3 fastest{0, 0, 0};     // m/s, as it will be told
-        Told told[2];              // of this evaluation and the one before, which others may still read
-        int box = 0;               // which of the two it is, and of its halo's boxes
+        Vec3 fastest{0, 0, 0};  // m/s, largest components, for the next message
+        Told told[2];           // messages of this evaluation and the one before, which others may still read
+        int box = 0;            // which of the two messages, and of the two boxes of its halo, is in use
         std::int64_t reached = 0;  // the step that a run ended at
     };
 
@@ -148,11 +152,11 @@ class StepLoop {
     BedLists lists_;
     std::vector<Member> members_;
     bool fresh_ = true;                  // after restart(): the next run() sets the step of the lists
-    std::int64_t first_step_ = kGoesOn;  // of the first run after a restart; nothing moved before it
+    std::int64_t first_step_ = kGoesOn;  // first step after a restart; nothing moved before it
     static constexpr std::int64_t kGoesOn = std::numeric_limits<std::int64_t>::min();
 
     Traffic traffic_;
-    std::vector<Departure> departures_;  // that nobody has asked for yet
+    std::vector<Departure> departures_;  // departures that nobody has asked for yet
 };
 
 }  // namespace grainreel

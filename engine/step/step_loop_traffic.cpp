@@ -13,7 +13,7 @@ namespace grainreel {
 
 namespace {
 
-// Leaves those out whose new index is kGone; the others keep their order.
+// Leaves out the values whose new index is kGone. The others keep their order.
 template <class Values>
 void leave_out(Values& values, const std::vector<std::int32_t>& index) {
     if (values.empty()) return;
@@ -56,7 +56,7 @@ bool StepLoop::in_exit(std::int32_t i) const {
                        [&](const Exit& exit) { return exit.holds(grains_.place[i].position); });
 }
 
-// Whether the run must stop at the end of this step, for a grain of this member's may leave then.
+// Whether the run must stop at the end of this step because a grain of this member may leave then.
 //
 // Where the scheme still moves grains after the forces, the run stops if a grain comes near an exit. How near
 // depends on the grain alone, and not on the threads, because these schemes round differently where a run
@@ -66,8 +66,8 @@ bool StepLoop::may_leave(int member, double step) const {
     constexpr double kPushed = 0.01;  // of a radius
     if (around_.exits.empty()) return false;
     const bool moves = scheme_.moves_after_forces();
-    // A grain is mostly outside of the half-space that the grain before it is outside of, for both are
-    // neighbours.
+    // Successive grains lie near each other, so a grain is mostly outside of the half-space that the grain
+    // before it was outside of. That half-space is looked at first.
     for (const Exit& exit : around_.exits) {
         if (exit.sides.empty()) continue;
         Exit::HalfSpace far = exit.sides.front();
@@ -99,7 +99,7 @@ void StepLoop::remove(const std::vector<std::int32_t>& ids, std::int64_t step) {
     take_out(leavers, step);
 }
 
-// Grains by index, rising; at the end of the step before `step`.
+// Takes out grains, given by rising indices, at the end of the step before `step`.
 void StepLoop::take_out(const std::vector<std::int32_t>& leavers, std::int64_t step) {
     if (leavers.empty()) return;
     std::vector<bool> lose_a_contact = note_departures(leavers, step);
@@ -110,7 +110,7 @@ void StepLoop::take_out(const std::vector<std::int32_t>& leavers, std::int64_t s
     sum_loads_anew(lose_a_contact, step);
 }
 
-// Notes who leaves, in order of their ids. Returns which grains lose a contact by that.
+// Notes the grains that leave, in the order of their ids. Returns which grains lose a contact by that.
 std::vector<bool> StepLoop::note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step) {
     std::vector<double> stored(grains_.size(), 0.0);
     std::vector<bool> leaves(grains_.size(), false), lose(grains_.size(), false);
@@ -136,8 +136,8 @@ std::vector<bool> StepLoop::note_departures(const std::vector<std::int32_t>& lea
     return lose;
 }
 
-// Sums the loads of some grains from their contacts as they are now. Where no kick follows by the forces of
-// the step before, there are no loads.
+// Sums the loads of some grains from their contacts as they are now. If the next step does not begin with a
+// kick by these forces, the loads stay zero.
 void StepLoop::sum_loads_anew(const std::vector<bool>& of, std::int64_t step) {
     if (std::find(of.begin(), of.end(), true) == of.end()) return;
     for (std::size_t i = 0; i < of.size(); ++i)
@@ -156,7 +156,7 @@ void StepLoop::sum_loads_anew(const std::vector<bool>& of, std::int64_t step) {
     });
 }
 
-// What contacts with the parts of the faces that are gone had stored, goes with these.
+// Contacts with parts of faces that vanish lose their stored energy. It counts as energy that has left.
 void StepLoop::open_faces(const std::function<void()>& change, std::int64_t step) {
     std::vector<bool> at_a_wall(grains_.size(), false);
     const auto stored = [&] {
@@ -205,11 +205,11 @@ void StepLoop::add(const NewGrain& grain) {
     traffic_.energy_in += departure_of(grains_, grains_.size() - 1, around_.gravity, 0).energy;
 }
 
-// What the step loop sums up of the walls, where somebody asks for it.
+// Sums of the forces on the walls, where an observer asks for them.
 
 namespace {
 
-// m, of each wall's point at rest.
+// Heights (m) of the walls' points at rest.
 std::vector<double> heights_of_walls(const Surroundings& around) {
     std::vector<double> heights;
     for (const Face& face : around.faces) heights.push_back(face.point.z());
@@ -217,7 +217,7 @@ std::vector<double> heights_of_walls(const Surroundings& around) {
     return heights;
 }
 
-// m, from a wall's point to a place.
+// Vector (m) from a wall's point to a place.
 Vec3 arm_at(const Surroundings& around, std::size_t wall, const Pose& pose, const Vec3& place) {
     if (wall >= around.faces.size()) {
         const MeshWall& mesh = around.meshes[wall - around.faces.size()];
@@ -239,7 +239,7 @@ void StepLoop::tally_walls(const WallScale& scale, std::int64_t step) {
         m.tally.begin(heights_of_walls(around_), scale);
         m.walls.tally = &m.tally;
     }
-    // The forces at the start: the first half kick is theirs.
+    // The forces at the start give the first half kick, so they are counted.
     const Pose pose = around_.motion.at(step);
     members_[0].tally.begin_evaluation(last_share());
     visit_contacts(step, [&](const ContactView& c) {

@@ -19,22 +19,22 @@ struct MeshWall {
     std::string name;
     std::shared_ptr<const Surface> surface;
     Body body;
-    Vec3 point{0, 0, 0};  // m, about which its moment counts, at rest
+    Vec3 point{0, 0, 0};  // m, at rest, about which its moment counts
 };
 
 struct Surroundings {
     std::vector<Face> faces;
-    GluedGrains glued;  // to these faces
+    GluedGrains glued;  // glued to these faces
     std::vector<MeshWall> meshes;
     WallMotion motion;
     Vec3 gravity{0, 0, 0};    // m/s2
     double period = 0;        // m, of x; 0 for none
     double skin = 0;          // m, of the first neighbour lists; later ones follow the motion
-    std::vector<Exit> exits;  // through which grains leave; may change between two runs
+    std::vector<Exit> exits;  // regions in which grains leave; may change between two runs
 };
 
-// The name of a wall in messages. wall: as ContactView counts them, faces first and meshes behind them (wall
-// = -1 - second).
+// The name of a wall in messages. `wall` counts faces first and then meshes, as in ContactView (wall = -1 -
+// second).
 inline std::string wall_name(const Surroundings& around, std::int32_t wall) {
     const auto number = static_cast<std::size_t>(wall);
     const std::size_t faces = around.faces.size();

@@ -35,7 +35,7 @@ struct GeometryInput {
 // Returns one bit for each pair, which says whether the surfaces are closer than `gap` (m). A gap of 0 asks
 // whether they overlap. There are at most kChunk pairs, and the arrays can be read up to a multiple of
 // kBlock.
-// period: of x, in m; 0 for none.
+// `period` is the period of x in m, or 0.
 std::uint64_t near_pairs(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                          int count, double period, double gap);
 // Returns one bit for each grain and face, which says whether they overlap.

@@ -1,4 +1,4 @@
-// The walls over one step, as the vector code reads them.
+// The state of the walls over one step, in the form that the vector code reads.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct alignas(64) FaceRecord {
     double radius;  // m, of a cylinder; 0 for a plane
 };
 
-// Where a face ends; see Face. A face that does not end has no edge, no gap and two_sided = 0.
+// The ends of a face; see Face. A face that does not end has no edge, no gap and two_sided = 0.
 struct alignas(64) FaceEnd {
     Vec3 along;           // unit, across the lower edge; zero for none
     double level;         // m, along . a point of the edge
@@ -26,7 +26,8 @@ struct alignas(64) FaceEnd {
     double two_sided;     // 1 for a face that ends
 };
 
-// The velocity of every point of the face. Where a body turns, WallPose has those of its points.
+// The velocity of every point of the face. Where a body turns, its points differ, and WallPose gives their
+// velocities.
 struct alignas(64) FaceMotion {
     Vec3 velocity;  // m/s, mean over the step
     double unused_one;
@@ -34,7 +35,7 @@ struct alignas(64) FaceMotion {
     double unused_two;
 };
 
-// m, at rest: the point about which a face's moment counts. It stays where it is while the body turns.
+// The point about which a face's moment counts, in m, at rest. It stays where it is while the body turns.
 inline Vec3 moment_point(const Face& face) {
     return face.body.turn ? face.body.turn->through : face.point;
 }
@@ -46,16 +47,17 @@ struct WallPose {
     Vec3 moved{0, 0, 0};          // m/s, mean velocity of the body's origin
     Eigen::Matrix3d rate;         // 1/s, mean, by which `turned` grows
     Vec3 spin{0, 0, 0};           // rad/s, mean over the step
-    Vec3 point{0, 0, 0};          // m, now: about which the moment counts; of a face that turns on its axis
-    Vec3 point_before{0, 0, 0};   // m, of a face: its point a step ago
-    Vec3 normal_before{0, 0, 0};  // of a face: its normal a step ago
-    bool slides = false;          // it stands as at rest and does not turn: its points all move alike
+    Vec3 point{0, 0, 0};          // m, now, about which the moment counts; on the axis for a face that turns
+    Vec3 point_before{0, 0, 0};   // m, point of the face a step ago
+    Vec3 normal_before{0, 0, 0};  // normal of the face a step ago
+    bool slides = false;  // true if it is not turned and does not turn, so that all its points move alike
 
-    // From `before` to `now` within `step` seconds; rest_point: m, that `point` is at rest.
+    // Sets the pose of a wall that moves from `before` to `now` within `step` seconds. `rest_point` (m) is
+    // `point` at rest.
     void set(const Body& body, const Vec3& rest_point, const Pose& before, const Pose& now, double step);
-    // m/s, of a point that is given in the body's frame: its way in the step over the step.
+    // Velocity (m/s) of a point given in the body's frame: its displacement in the step, divided by the step.
     Vec3 mean_velocity(const Vec3& at_rest) const { return slides ? moved : Vec3(moved + rate * at_rest); }
-    // From the scene to the body's frame, m; and directions the other way.
+    // at_rest() takes a place (m) from the scene to the body's frame.
     Vec3 at_rest(const Vec3& place) const {
         const Vec3 from = place - now.place;
         return slides ? unturned(from) : Vec3(turned.transpose() * from);
@@ -65,20 +67,21 @@ struct WallPose {
     }
 
   private:
-    // As the product with the identity gives it, which has no zeros below zero.
+    // Gives the same bits as the product with the identity, which has no negative zeros.
     static Vec3 unturned(const Vec3& v) { return v + Vec3(0, 0, 0); }
 };
 
 struct WallState {
-    std::vector<FaceRecord> faces;  // where they are at the step's end
+    std::vector<FaceRecord> faces;  // at the step's end
     std::vector<FaceMotion> motion;
     std::vector<FaceEnd> ends;    // empty where no face ends
-    std::vector<WallPose> poses;  // of all faces and, behind them, meshes; empty where nothing needs them
-    bool any_round = false;       // a cylinder among the faces
-    bool turning = false;         // a face among them whose body turns
-    WallTally* tally = nullptr;   // sums up what grains do to the walls, where somebody wants to know
+    std::vector<WallPose> poses;  // of all faces, then of all meshes; empty where nothing needs them
+    bool any_round = false;       // whether a cylinder is among the faces
+    bool turning = false;         // whether the body of a face turns
+    WallTally* tally = nullptr;   // sums the forces on the walls; nullptr if nobody asks for them
 
-    // From `before` to `now` within `step` seconds; without a step the velocity is that of `now`.
+    // Sets walls that move from `before` to `now` within `step` seconds. If `step` is 0, the velocity is that
+    // of `now`.
     void set(const Surroundings& around, const Pose& before, const Pose& now, double step);
     void set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step);
     const WallPose& pose_of_mesh(std::int32_t mesh) const {

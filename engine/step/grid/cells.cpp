@@ -52,7 +52,7 @@ void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& 
 void Grid::keep(const std::vector<std::int32_t>& members) {
     const bool all_stay = members.size() == in_order_.size();
     in_order_ = members;
-    if (all_stay) return;  // boxes start where they did
+    if (all_stay) return;  // the starts of the boxes do not change
     std::int32_t before = 0;
     for (std::int32_t& start : start_) {
         while (before < std::ssize(members) && members[before] < start) ++before;
@@ -75,7 +75,7 @@ void Grid::mark_surroundings(const LargeArray<Place>& place, const std::vector<s
     }
 }
 
-// Octave by octave of radii, from the smallest up.
+// Makes one level for each octave of radii, from the smallest up.
 void Cells::find_levels(const LargeArray<Place>& place) {
     double smallest = std::numeric_limits<double>::infinity(), largest_of_all = 0;
     for (const Place& p : place) {
@@ -107,7 +107,7 @@ void Cells::find_levels(const LargeArray<Place>& place) {
     }
 }
 
-// By their new indices.
+// Finds the members of each level, by their new indices.
 void Cells::find_members() {
     if (levels_.size() == 1) {
         levels_[0].members.resize(in_order().size());
@@ -145,7 +145,7 @@ void Cells::order(const LargeArray<Place>& place, double skin, double period) {
     find_levels(place);
     frame_ = frame_of(place, period);
     Level& leading = levels_[leading_];
-    leading.members.resize(place.size());  // all of them, until lay()
+    leading.members.resize(place.size());  // all grains, until lay()
     std::iota(leading.members.begin(), leading.members.end(), 0);
     leading.grid.lay(place, leading.members, 2 * leading.largest + skin, frame_);
 }

@@ -13,8 +13,8 @@
 
 namespace grainreel {
 
-// What the grids over a bed have in common. axes: the order in which boxes follow each other, the fastest
-// axis first. period: m, of x, centred on 0; x is then the fastest axis. 0 for none.
+// What the grids over a bed have in common. `axes` is the order in which boxes follow each other, the fastest
+// axis first. `period` (m) is the period of x, centred on 0, with x as the fastest axis; 0 for none.
 struct GridFrame {
     Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, around all grains
     std::size_t grains = 0;
@@ -30,8 +30,8 @@ class Grid {
     // one frame and one width have the same boxes.
     void lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
              const GridFrame& frame);
-    // Call it when all members have been put in the grid's order. Only `members` stay, by their new indices,
-    // rising.
+    // Call it when all members have been put in the grid's order. Only `members` stay, given by their rising
+    // new indices.
     void keep(const std::vector<std::int32_t>& members);
     // Makes near() return at once for places far from all members. This pays where members are few.
     void mark_surroundings(const LargeArray<Place>& place, const std::vector<std::int32_t>& members);
@@ -40,8 +40,8 @@ class Grid {
     const std::vector<std::int32_t>& in_order() const { return in_order_; }
 
     // Calls each(first, last) for ranges of members. Together they hold the members of all boxes within
-    // `reach` (m) of a place along each axis, and no member twice. onwards: boxes that come before the box of
-    // the place, in the grid's order, may be left out.
+    // `reach` (m) of a place along each axis, and no member twice. With `onwards`, boxes that come before the
+    // box of the place in the grid's order may be left out.
     template <class Each>
     void near(const Vec3& centre, double reach, bool onwards, const Each& each) const {
         if (none_near(centre, reach)) return;
@@ -112,7 +112,7 @@ class Grid {
     }
 
     std::array<int, 3> axes_{0, 1, 2};
-    Vec3 origin_{0, 0, 0}, inverse_width_{0, 0, 0};  // along these
+    Vec3 origin_{0, 0, 0}, inverse_width_{0, 0, 0};  // along axes_
     std::array<int, 3> count_{1, 1, 1};              // as above
     int tile_bits_ = kTileBits;                      // a tile's side has 2^tile_bits_ rows
     bool periodic_ = false;
@@ -127,8 +127,8 @@ class Cells {
   public:
     // Finds a new order of the grains: in_order()[new] = old. It follows the boxes of the level that has most
     // grains, slowest along the bed's longest side. So grains that touch lie close in memory, and few
-    // contacts are between grains of two threads. skin: m; period: as in GridFrame. in_order() is valid until
-    // lay().
+    // contacts are between grains of two threads. `skin` is in m, and `period` is as in GridFrame. in_order()
+    // is valid until lay().
     void order(const LargeArray<Place>& place, double skin, double period);
     const std::vector<std::int32_t>& in_order() const { return levels_[leading_].grid.in_order(); }
 
@@ -150,8 +150,8 @@ class Cells {
     void find_levels(const LargeArray<Place>& place);
     void find_members();
 
-    std::vector<Level> levels_;                      // those that have members
-    std::size_t leading_ = 0;                        // the level that has most
+    std::vector<Level> levels_;                      // the levels that have members
+    std::size_t leading_ = 0;                        // the level with most members
     std::vector<std::uint8_t> octave_of_;            // of each grain before they were put in order
     std::array<std::uint8_t, kOctaves> level_of_{};  // of each octave
     GridFrame frame_;

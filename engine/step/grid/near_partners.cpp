@@ -1,5 +1,5 @@
-// Sieves the candidates of one grain by distance, a register at once. Hot: each rebuild of the lists passes
-// here.
+// Sieves the candidates of one grain by distance, a register at once. Hot: each rebuild of the lists calls it
+// for every grain.
 #include "engine/step/grid/neighbours.hpp"
 
 #include <bit>

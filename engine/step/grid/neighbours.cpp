@@ -37,8 +37,8 @@ void make_room(std::vector<std::int32_t>& partner, std::size_t wanted) {
     partner.resize(partner.capacity());
 }
 
-// Sorts partners that come from several grids, tiles, or both ends of a period. Whoever merges lists relies
-// on this order.
+// Sorts partners that come from several grids, tiles, or both ends of a period. The code that merges lists
+// relies on this order.
 void in_order(std::vector<std::int32_t>& partner, std::size_t from, std::size_t to) {
     const auto begin = partner.begin() + static_cast<std::ptrdiff_t>(from);
     const auto end = partner.begin() + static_cast<std::ptrdiff_t>(to);
@@ -113,7 +113,7 @@ void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose
 
 GluedSearch::GluedSearch(const GluedGrains& glued, const std::vector<Face>& faces, double period)
     : glued_(glued), period_(period) {
-    std::vector<std::vector<std::int32_t>> members;  // by part
+    std::vector<std::vector<std::int32_t>> members;  // of each part
     for (std::size_t g = 0; g < glued.size(); ++g) {
         const Body& body = faces[static_cast<std::size_t>(glued.face[g])].body;
         at_rest_.push_back({glued.centre(g, faces, {}), glued.place[g].radius});
@@ -154,7 +154,8 @@ void GluedSearch::list(const Grains& grains, const Pose& pose, double skin, std:
 
 namespace {
 
-// Grains in sequence are near each other. So a mesh that is far from all of many is asked for but once.
+// Finds the meshes near grains. Successive grains lie near each other, so one search can show that a mesh is
+// far from many grains at once.
 class MeshSearch {
   public:
     MeshSearch(const Grains& grains, double skin, std::vector<WallNeighbour>& part)
@@ -184,8 +185,8 @@ class MeshSearch {
     }
 
   private:
-    static constexpr std::int32_t kFew = 4;    // grains; to ask for each costs less
-    static constexpr double kMore = 1 + 1e-6;  // for rounding, far from the origin too
+    static constexpr std::int32_t kFew = 4;    // grains; so few are searched for one by one
+    static constexpr double kMore = 1 + 1e-6;  // room for rounding, even far from the origin
 
     const Grains& grains_;
     double skin_;

@@ -1,6 +1,6 @@
 // Neighbour lists with a skin. They hold every pair closer than r_i + r_j + skin once, under the grain with
-// the lower index, and the grains near walls. They are valid until grains and walls have moved too far for
-// the skin.
+// the lower index. They also hold the grains near walls. The lists are valid until grains and walls have
+// moved too far for the skin.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct NeighbourList {
 
 struct WallNeighbour {
     std::int32_t grain;
-    std::int32_t face;  // or the number of a glued grain, or of a mesh
+    std::int32_t face;  // number of the face, the glued grain or the mesh
 };
 
 struct NeighbourLists {
@@ -47,8 +47,8 @@ struct NeighbourLists {
 void put_in_order(const TeamMember& me, Cells& cells, Grains& grains, double skin, double period,
                   std::vector<std::int32_t>& index);
 
-// Both need the grains in that order, and list under the grains [begin, end) only. In the part that
-// list_pairs() makes, start[0] belongs to grain `begin`.
+// list_pairs() and list_walls() need the grains in this order. They list the neighbours of the grains [begin,
+// end) only. In the part that list_pairs() makes, start[0] belongs to grain `begin`.
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
                 std::int32_t end, NeighbourList& part);
 void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
@@ -59,19 +59,19 @@ constexpr std::int32_t kNearSlack = 16;
 
 // Moves the near candidates to the front, in their order, and returns how many they are. A candidate is near
 // if its index is above i and its distance is less than the sum of both radii and `skin` (m).
-// period: of x, in m; 0 for none.
+// `period` is the period of x in m, or 0.
 std::int32_t keep_near(const Grains& grains, std::int32_t i, double skin, double period,
                        std::int32_t* candidates, std::int32_t count);
 
-// Which glued grains are near a place. They are sorted into boxes once, at rest: each body that has some
-// takes its boxes along.
+// Which glued grains are near a place. They are sorted into boxes once, at rest, and the boxes move with the
+// body that carries the grains.
 class GluedSearch {
   public:
     // Glued grains and faces must outlive the search. period: m, of x; 0 for none.
     GluedSearch(const GluedGrains& glued, const std::vector<Face>& faces, double period);
 
     // Calls each(number, distance) for all glued grains whose surface is closer to `centre` than `gap` (m),
-    // at a pose of the drive; in no order.
+    // at a pose of the drive, in no particular order.
     template <class Each>
     void near(const Vec3& centre, double gap, const Pose& pose, const Each& each) const {
         for (const OfBody& part : parts_) {
@@ -84,7 +84,7 @@ class GluedSearch {
         }
     }
 
-    // As list_walls(): under the grains [begin, end), by rising grain, then glued grain.
+    // Lists the glued grains near the grains [begin, end), by rising grain, then glued grain.
     void list(const Grains& grains, const Pose& pose, double skin, std::int32_t begin, std::int32_t end,
               std::vector<WallNeighbour>& part) const;
 
@@ -93,7 +93,7 @@ class GluedSearch {
         Body body;
         Grid grid;
     };
-    // m, from a place to the surface, in the frame of the body.
+    // Distance (m) from a place to the surface of glued grain g, in the frame of the body.
     double distance_to(std::int32_t g, const Vec3& at_rest) const {
         Vec3 apart = at_rest - at_rest_[static_cast<std::size_t>(g)].position;
         apart.x() = wrapped(apart.x(), period_);
@@ -107,8 +107,8 @@ class GluedSearch {
     std::vector<OfBody> parts_;
 };
 
-// As list_walls(): under the grains [begin, end), by rising grain, then mesh. Every mesh whose surface is
-// closer to a grain's surface than `skin` (m).
+// Lists every mesh whose surface is closer than `skin` (m) to the surface of one of the grains [begin, end),
+// by rising grain, then mesh.
 void list_meshes(const Grains& grains, const std::vector<MeshWall>& meshes, const Pose& pose, double skin,
                  std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 

@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// The bundles as an array of doubles.
+// Views bundles as an array of doubles.
 template <class Bundles>
 HWY_INLINE const double* numbers(const Bundles& bundles) {
     return reinterpret_cast<const double*>(bundles.data());

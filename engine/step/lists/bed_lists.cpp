@@ -82,7 +82,8 @@ void BedLists::rebuild(int thread, const Pose& pose, double time, double lasted)
     shares_.end_lists(thread);
 }
 
-// Searches for the neighbours of the thread's part of the grains. Alone, it writes the lists themselves.
+// Searches for the neighbours of the thread's part of the grains. A single thread writes the joint lists
+// directly.
 void BedLists::search(int thread, const Pose& pose) {
     const bool alone = team_.size() == 1;
     Thread& mine = threads_[thread];
@@ -131,7 +132,7 @@ std::ptrdiff_t BedLists::found_before(int thread, std::vector<WallNeighbour> Thr
     return count;
 }
 
-// Hands the contacts over to those who own their grains from now on.
+// Hands the contacts over to the threads that own their grains from now on.
 void BedLists::change_owners(const TeamMember& me) {
     Thread& mine = threads_[me.member];
     renumber(rules_, me.member, {new_index_, shares_.before(), shares_.now()}, mine.contacts, mine.leaving);
@@ -200,11 +201,11 @@ void BedLists::renew_shares() {
     });
 }
 
-// How lists and histories are saved, and how they come back.
+// Saving and loading of lists and histories.
 
 namespace {
 
-// The order in which contacts are computed.
+// Puts contacts into the order in which they are computed.
 KeptContacts in_order(const KeptContacts& kept, int numbers) {
     std::vector<std::int32_t> order(kept.size());
     std::iota(order.begin(), order.end(), 0);
@@ -223,7 +224,7 @@ KeptContacts in_order(const KeptContacts& kept, int numbers) {
 
 }  // namespace
 
-// All contacts in one order, whoever works on them.
+// All contacts in one order, which does not depend on the threads.
 std::vector<KeptContacts> BedLists::all_kept() const {
     std::vector<KeptContacts> all(rules_.groups.size()), part;
     for (const Thread& thread : threads_) {
@@ -234,7 +235,7 @@ std::vector<KeptContacts> BedLists::all_kept() const {
     return all;
 }
 
-// Everything saved, in its order.
+// Calls each() for everything that is saved, in the order of the file.
 template <class Lists, class Kept, class ReachType, class Each>
 void BedLists::transfer(Lists& lists, Kept& kept, std::int32_t& steps, ReachType& reach, const Each& each) {
     for (auto& group : kept) each(group.first), each(group.second), each(group.tag), each(group.history);
@@ -259,7 +260,7 @@ void BedLists::load(Bytes& in, const Pose& now) {
     Reach reach;
     std::int32_t steps = 0;
     transfer(*this, kept, steps, reach, Reading{in});
-    if (in.failed() || !is_sound(kept, steps, reach)) return in.fail();  // the caller says so
+    if (in.failed() || !is_sound(kept, steps, reach)) return in.fail();  // the caller reports it
     if (team_.size() > 1) contacts_.assign(grains_.size(), 0);
     shares_.share_out(lists_.pairs, contacts_, grains());
     for (int thread = 0; thread < team_.size(); ++thread) {
@@ -277,8 +278,8 @@ void BedLists::load(Bytes& in, const Pose& now) {
     }
 }
 
-// A contact of two threads' grains stands in the tables of both. All patches that a grain touches of a mesh
-// take one history.
+// A contact of two threads' grains stands in the tables of both. All patches of a mesh that a grain touches
+// take the same history.
 void BedLists::take_histories(const HistoryOf& history_of) {
     for (Thread& thread : threads_) {
         for (std::size_t g = 0; g < thread.contacts.tables.size(); ++g) {

@@ -37,10 +37,10 @@ class BedLists {
     void begin_empty();
 
     // Puts the grains in order and makes new neighbour lists. Contacts keep their histories. All threads call
-    // it. time: steps; lasted: steps that the last lists have lasted.
+    // it. `time` is in steps, and `lasted` is the number of steps that the last lists have lasted.
     void rebuild(int thread, const Pose& pose, double time, double lasted);
-    // Makes lists again that no longer reach far enough. All threads call it in each evaluation. fastest and
-    // `parted`: as ListLife::contacts_expired() wants them; step: s.
+    // Makes those lists anew that no longer reach far enough. All threads call it in each evaluation.
+    // `fastest` and `parted` are as in ListLife::contacts_expired(), and `step` is in s.
     void renew(int thread, const Vec3& fastest, std::int64_t parted, const Evaluation& at, double step,
                const Vec3& frame);
 
@@ -53,16 +53,19 @@ class BedLists {
     ListLife& life() { return life_; }
     const ListLife& life() const { return life_; }
 
-    // Between two runs: grains leave (rising indices), before they leave the grains' arrays. Returns the new
-    // index of each grain, kGone for those that leave. renew_shares() must follow.
+    // Removes grains from the lists between two runs, before they leave the grains' arrays. `leavers` are
+    // rising indices. Returns the new index of each grain, kGone for those that leave. renew_shares() must
+    // follow.
     const std::vector<std::int32_t>& leave_out(const std::vector<std::int32_t>& leavers);
-    // Between two runs: a grain has come, behind all others. Its lists are made at the end of the next step.
+    // Notes between two runs that a grain has come, behind all others. Its lists are made at the end of the
+    // next step.
     void add_unlisted();
-    // Whose grains are whose after some left or came: they have new indices, and nobody's lists are in order.
+    // Shares the grains out anew after some have left or come. All grains then have their new indices, and
+    // the threads' lists are brought up to date.
     void renew_shares();
     bool are_made() const { return !shares_.empty(); }
 
-    // Between two runs: contacts that touch get the histories that history_of fills in.
+    // Gives contacts that touch the histories that history_of fills in. Call it between two runs.
     using HistoryOf =
         std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
     void take_histories(const HistoryOf& history_of);
@@ -81,13 +84,13 @@ class BedLists {
     // What a thread writes. It shares no cache line with what another thread writes.
     struct alignas(64) Thread {
         ThreadContacts contacts;
-        std::vector<KeptContacts> leaving;  // for other threads, by group
+        std::vector<KeptContacts> leaving;  // contacts for other threads, by group
         NeighbourList pairs;                // its part of the search, where there are several threads
         std::vector<WallNeighbour> walls_near, glued_near, meshes_near;
     };
 
     std::int32_t grains() const { return static_cast<std::int32_t>(grains_.size()); }
-    // What is near, for grains and walls as they are now.
+    // The input of a search, for grains and walls as they are now.
     Nearby nearby(const Pose& now, double skin) const;
     void search(int thread, const Pose& pose);
     void join_parts(const TeamMember& me);
@@ -111,8 +114,9 @@ class BedLists {
     ListLife life_;
     WorkShares shares_;
     std::vector<Thread> threads_;
-    std::vector<std::int32_t> new_index_;  // of each grain in the last reordering
-    std::vector<std::int32_t> contacts_;   // of each grain as first body, when the lists were made
+    std::vector<std::int32_t> new_index_;  // new index of each grain in the last reordering
+    std::vector<std::int32_t>
+        contacts_;  // number of contacts of each grain as first body, when the lists were made
     std::int64_t rebuilds_ = 0, refreshes_ = 0;
 };
 

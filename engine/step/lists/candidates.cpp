@@ -87,7 +87,7 @@ void list_near_pairs(const ContactRules& rules, const Nearby& nearby, ThreadCont
     pairs.flush();
 }
 
-// Where the wall neighbours of the grains from `begin` on start in the list.
+// Place in the list at which the wall neighbours of the grains from `begin` on start.
 std::int32_t first_wall_slot(const std::vector<WallNeighbour>& list, std::int32_t begin) {
     const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
     return static_cast<std::int32_t>(std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin());

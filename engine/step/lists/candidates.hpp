@@ -1,5 +1,5 @@
-// The refresh of the contact lists, every 48 steps or so: contacts that have parted go, the others are
-// sorted, and pairs that may touch soon become candidates.
+// The refresh of the contact lists, every 48 steps or so: contacts that have parted are dropped, the others
+// are sorted, and pairs that may touch soon become candidates.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace grainreel {
 
-// Where candidates come from: the neighbour lists of ThreadContacts::own(), and the faces at a pose.
+// The input from which candidates are listed: the neighbour lists of ThreadContacts::own(), and the walls at
+// a pose.
 struct Nearby {
     const Grains& grains;
     const NeighbourLists& lists;
@@ -22,7 +23,7 @@ struct Nearby {
 };
 
 void refresh(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts);
-// As refresh(), but contacts stay as they are.
+// Lists candidates as refresh() does, but leaves the contacts as they are.
 void list_candidates(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts);
 
 }  // namespace grainreel

@@ -23,8 +23,8 @@ struct Renumbering {
 void count_contacts(const ThreadContacts& contacts, const std::vector<std::int32_t>& index,
                     std::vector<std::int32_t>& count);
 
-// Gives the bodies of all contacts of a thread their new numbers. Contacts that another thread needs from now
-// on, and did not have, go to `leaving` by group. Their tag is the number of that thread.
+// Gives the bodies of all contacts of a thread their new numbers. Contacts that another thread did not have
+// but needs from now on go to `leaving`, by group. Their tag is the number of that thread.
 void renumber(const ContactRules& rules, int thread, const Renumbering& to, ThreadContacts& contacts,
               std::vector<KeptContacts>& leaving);
 // Takes the contacts that another thread has put into `leaving` for this one.

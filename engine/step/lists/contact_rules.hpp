@@ -12,14 +12,14 @@
 namespace grainreel {
 
 // A grain may touch a mesh at several patches of its surface. The second body of such a contact is the patch,
-// numbered mesh x kMostPatches + one of kMostPatches numbers, of which each patch of a grain has its own.
+// numbered mesh x kMostPatches + n, where n is below kMostPatches and differs between the patches of a grain.
 constexpr std::int32_t kMostPatches = 8;
 inline std::int32_t mesh_of(std::int32_t patch) {
     return patch / kMostPatches;
 }
 
-// What a contact with a mesh remembers behind the numbers of its laws: the triangle that it touched, the
-// normal and the normal force (N), all of the last step.
+// Numbers that a contact with a mesh remembers behind the numbers of its laws: the triangle that it touched,
+// the normal and the normal force (N), all in the last step.
 enum PatchNumber { kTriangle, kNormalX, kNormalY, kNormalZ, kForce, kPatchNumbers };
 
 // A group of contacts that follow one law. It may hold several kinds of contact. A kind of contact between
@@ -37,7 +37,8 @@ struct ContactGroup {
     std::vector<std::int32_t> row;  // where each kind stands in the parameters
 
     std::size_t number_size() const { return law->number_size; }
-    // Numbers a contact: those of the laws, and behind them what a patch of a mesh remembers.
+    // Numbers in the history of a contact: the numbers of the laws, then those that a patch of a mesh
+    // remembers.
     int law_size() const { return law->history_size + (rolling ? rolling->history_size : 0); }
     int history_size() const { return law_size() + (of_mesh ? kPatchNumbers : 0); }
     bool turns(int number) const;  // whether this number of the history changes sign when bodies swap places
@@ -45,7 +46,7 @@ struct ContactGroup {
 };
 
 struct ContactRules {
-    std::vector<ContactGroup> groups;  // of pairs first, then of walls, of glued grains, of meshes
+    std::vector<ContactGroup> groups;  // groups of pairs first, then of walls, of glued grains, of meshes
     std::vector<std::int32_t> group_of_pair, group_of_wall, group_of_glued, group_of_mesh;  // of each kind
     std::int32_t species;
     LeverArms arms;

@@ -89,7 +89,8 @@ void ContactTable::sort() {
     fill_up();
 }
 
-// Writes the touching contacts into `order`, sorted. The few that began lately are merged into the others.
+// Writes the touching contacts into `order`, sorted. The few contacts that began lately are merged into the
+// others.
 void ContactTable::order_contacts(LargeArray<std::int32_t>& order) {
     const auto less = [this](std::int32_t a, std::int32_t b) { return before(a, b); };
     order.clear();
@@ -106,8 +107,9 @@ void ContactTable::order_contacts(LargeArray<std::int32_t>& order) {
         order[to] = old >= 0 && less(young_[young], order[old]) ? order[old--] : young_[young--];
 }
 
-// Reorders one array after the other. Contacts that keep their neighbours are then read line after line. (In
-// place, along the cycles of the permutation, it took a tenth of the time of a million grains.)
+// Reorders one array after the other. Contacts that keep their neighbours are then read line after line.
+// (Moving them in place, along the cycles of the permutation, took a tenth of the time of a run with a
+// million grains.)
 void ContactTable::permute(const LargeArray<std::int32_t>& order) {
     reorder_.set(order);
     for (auto* bodies : {&first_, &second_}) {
@@ -132,7 +134,7 @@ void ContactTable::end_candidates() {
     admitted_.assign((candidates_ + 63) / 64, 0);
 }
 
-// Before the first contact that begins in a step.
+// Call this before a contact that begins in the present step. The first call of a step begins a batch.
 void ContactTable::begin_batch() {
     if (batches_.empty() || batches_.back().step != step_) batches_.push_back({size_, step_});
 }

@@ -21,7 +21,7 @@ namespace grainreel {
 
 // Contacts on their way from thread to thread, or to a checkpoint.
 struct KeptContacts {
-    std::vector<std::int32_t> first, second;  // of a wall contact: grain, face
+    std::vector<std::int32_t> first, second;  // the two bodies; for a wall contact grain and face
     std::vector<std::int32_t> tag;            // the thread to go to; in checkpoints: ContactTable::age()
     std::vector<double> history;              // contact by contact
 
@@ -32,7 +32,7 @@ struct KeptContacts {
 
 class ContactTable {
   public:
-    // Empties the table. Histories will have so many numbers, of so many bytes each.
+    // Empties the table. Histories will have `history_size` numbers of `number_size` bytes each.
     void shape(int history_size, std::size_t number_size);
 
     // The sorted contacts are [0, sorted()), the late ones [late(), size()). Copies fill the last block
@@ -65,7 +65,8 @@ class ContactTable {
     const std::int32_t* near_first() const { return near_first_.data(); }
     const std::int32_t* near_second() const { return near_second_.data(); }
 
-    // Contacts that begin in a step: call begin_step(), then admit() for each 64 candidates, then end_step().
+    // Adds the contacts that begin in a step: call begin_step(), then admit() for each 64 candidates, then
+    // end_step().
     void begin_step() { ++step_; }
     void admit(std::int32_t c, std::uint64_t touching) {
         if (const std::uint64_t news = touching & ~admitted_[c / 64]; news != 0) add_candidates(c, news);
@@ -87,8 +88,8 @@ class ContactTable {
     // keep() appends contact c to `kept`; take() adds contact k of `kept` to the table.
     void keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const;
     void take(const KeptContacts& kept, std::size_t k);
-    // Calls history_of(first, second, numbers) for each contact that touches; where it says true, the first
-    // `size` numbers are the contact's history from now on.
+    // Calls history_of(first, second, numbers) for each contact that touches; if it returns true, the first
+    // `size` numbers become the contact's history.
     template <class HistoryOf>
     void take_histories(int size, const HistoryOf& history_of) {
         double numbers[Histories::kMostNumbers];
@@ -99,12 +100,12 @@ class ContactTable {
             }
         });
     }
-    // For checkpoints: at which step since the last sort() contact c began. The bits are inverted (~) if the
-    // contact has parted.
+    // The step since the last sort() in which contact c began, for checkpoints. The bits are inverted (~) if
+    // the contact has parted.
     std::int32_t age(std::int32_t c) const;
     static std::int32_t began(std::int32_t age) { return age < 0 ? ~age : age; }
-    // restore() takes back contact k, whose tag is its age. Contacts must come in the order of age, first and
-    // second body. end_restore() follows.
+    // restore() adds contact k of `kept`, whose tag is its age. Contacts must come in the order of age, first
+    // and second body. Call end_restore() after the last one.
     void restore(const KeptContacts& kept, std::size_t k);
     void end_restore(std::int32_t step);
     std::int32_t step() const { return step_; }

@@ -64,7 +64,8 @@ class Reorder {
     struct alignas(64) Line {
         std::byte bytes[64];
     };
-    static constexpr std::int32_t kLine = sizeof(Line) / sizeof(double);  // numbers, the largest there are
+    static constexpr std::int32_t kLine =
+        sizeof(Line) / sizeof(double);  // numbers of the largest kind, doubles
 
     const std::int32_t* order_ = nullptr;
     std::int32_t count_ = 0, unchanged_ = 0;  // the first `unchanged_` stay; a multiple of kBlock
@@ -83,7 +84,7 @@ class Histories {
         size_ = number_size;
         lines_.clear();
     }
-    int numbers() const { return numbers_; }  // of a contact
+    int numbers() const { return numbers_; }  // numbers of a contact
     // Sets the number of contacts. New contacts hold zeros.
     void resize(std::int32_t contacts) { lines_.resize(lines_of(contacts)); }
     void reserve(std::int32_t contacts) { lines_.reserve(lines_of(contacts)); }
@@ -91,7 +92,7 @@ class Histories {
     double get(std::int32_t contact, int k) const {
         return size_ == sizeof(float) ? read<float>(contact, k) : read<double>(contact, k);
     }
-    // `count` numbers of a contact from the k-th on.
+    // Reads `count` numbers of a contact from the k-th on.
     void get(std::int32_t contact, int k, int count, double* numbers) const {
         const std::byte* at = bytes() + place(contact, k);
         for (int n = 0; n < count; ++n, at += kBlock * size_) {
@@ -110,7 +111,7 @@ class Histories {
     void clear(std::int32_t contact) {
         for (int k = 0; k < numbers_; ++k) set(contact, k, 0);
     }
-    // Puts the histories in a new order. `contacts` is their number before.
+    // Puts the histories in a new order. `contacts` is the number of contacts in the old order.
     void reorder(Reorder& order, std::int32_t contacts) {
         for (int k = 0; k < numbers_; ++k) {
             const auto block = [&](std::int32_t c) { return bytes() + place(c, k); };

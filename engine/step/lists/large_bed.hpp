@@ -1,4 +1,4 @@
-// What beds larger than the caches fetch before it is needed.
+// Fetches data before it is needed, for beds larger than the caches.
 //
 // Such beds wait for the second bodies of contacts. These lie far from the first ones, in no order that the
 // processor could foresee. So all grains are brought to the second-level cache in their order, some time
@@ -21,8 +21,8 @@ inline bool is_large_bed(const Grains& grains) {
     return grains.size() >= kLargeBed;
 }
 
-// Fetches the places of the second bodies of the candidates in the chunk after the one at c. (Inlined by
-// force, as Ahead::fetch_some.)
+// Fetches the places of the second bodies of the candidates in the chunk after the one at c. (It is inlined
+// by force, like Ahead::fetch_some().)
 [[gnu::always_inline]] inline void fetch_places(const Grains& grains, const ContactTable& table,
                                                 std::int32_t c) {
     const std::int32_t begin = std::min(table.candidates(), c + kChunk);
@@ -30,8 +30,8 @@ inline bool is_large_bed(const Grains& grains) {
     for (std::int32_t k = begin; k < end; ++k) __builtin_prefetch(&grains.place[table.near_second()[k]]);
 }
 
-// Fetches the second bodies of the contacts in the chunk after the one at c. rounded: as mixed precision
-// reads them.
+// Fetches the second bodies of the contacts in the chunk after the one at c. With `rounded`, their motion is
+// fetched in the form that mixed precision reads.
 [[gnu::always_inline]] inline void fetch_second(const Grains& grains, bool rounded, const ContactTable& table,
                                                 std::int32_t c) {
     for (std::int32_t k = c + kChunk; k < std::min(table.sorted(), c + 2 * kChunk); ++k) {

@@ -136,7 +136,8 @@ bool are_parallel(const Vec3& a, const Vec3& b) {
     return a.cross(b).squaredNorm() < 1e-24;
 }
 
-// m. A turn by an angle moves what is a length from the axis by 2 sin(angle / 2) of it.
+// Largest displacement (m) of a body's points relative to a frame displaced by `flown`. A turn moves a point
+// by 2 sin(angle / 2) times its distance from the axis.
 double way_of(const Body& body, const Vec3& centre, double radius, const Pose& before, const Pose& now,
               const Vec3& flown) {
     const BodyPose was = body.at(before), is = body.at(now);

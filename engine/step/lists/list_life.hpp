@@ -17,13 +17,13 @@ namespace grainreel {
 // How far and how fast the points of walls move. Lists last until they may have moved too far.
 class WallWays {
   public:
-    // The surroundings must outlive it, and their meshes stay the same.
+    // The surroundings must outlive this object, and their meshes must stay the same.
     explicit WallWays(const Surroundings& around);
 
-    // m, the largest displacement of any point of any wall between two poses, relative to a frame displaced
+    // The largest displacement (m) of any point of any wall between two poses, relative to a frame displaced
     // by `flown`.
     double farthest(const Pose& before, const Pose& now, const Vec3& flown) const;
-    // m/s, the largest velocity of any point of any wall relative to a frame with this velocity.
+    // The largest speed (m/s) of any point of any wall relative to a frame with the velocity `frame`.
     double fastest(const Pose& now, const Vec3& frame) const;
 
   private:
@@ -52,7 +52,7 @@ struct Reach {
 
 class ListLife {
   public:
-    static constexpr double kLastsWell = 1000;  // steps, of lists whose skin is right
+    static constexpr double kLastsWell = 1000;  // steps that lists with the right skin last
 
     ListLife(const Surroundings& around, int threads);
 
@@ -62,58 +62,60 @@ class ListLife {
 
     double skin() const { return skin_; }  // m, of the neighbour lists
     // While one thread sets the skin of the lists that are to be made, the others may still read skin().
-    // lasted: steps that the last lists have lasted.
+    // `lasted` is the number of steps that the last lists have lasted.
     void set_next_skin(double lasted);
     double next_skin() const { return next_skin_; }
     void use_next_skin() { skin_ = next_skin_; }
-    // Neighbour lists have been made at `time` (steps) from the grains as they are.
+    // Notes that neighbour lists have been made at `time` (steps) from the grains as they are.
     void note_listing(const Grains& grains, const Pose& pose, double time);
     // Steps that the neighbour lists have lasted. Lists that expired because grains came count as right.
     double lasted(double time) const;
 
-    // The displacement of the free flight since the neighbour lists were made. time: steps; step: s.
+    // The displacement (m) of the free flight since the neighbour lists were made. `time` is in steps, and
+    // `step` in s.
     Vec3 drift(double time, double step) const;
     // The mean velocity of the free flight since the last forces, m/s.
     Vec3 frame(const Evaluation& at, double step) const;
 
     Reach& reach(int thread) { return threads_[thread].reach; }
     const Reach& reach(int thread) const { return threads_[thread].reach; }
-    // Counts one more evaluation. fastest: m/s, largest components of all grains' velocities relative to the
-    // frame; `parted`: contacts that were computed in vain. Returns whether the contact lists must be
-    // refreshed: they no longer reach far enough, or contacts that have parted have cost about as much as a
-    // refresh. All threads get the same answer, because they count the same numbers.
+    // Counts one more evaluation. `fastest` (m/s) holds the largest components of all grains' velocities
+    // relative to the frame, and `parted` is the number of contacts that were computed in vain. Returns
+    // whether the contact lists must be refreshed. That is so when they no longer reach far enough, or when
+    // parted contacts have cost about as much as a refresh. All threads get the same answer, because they
+    // count the same numbers.
     bool contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
                           const Evaluation& at, const Vec3& drift);
     // Sets the skin so that the contact lists last for some 48 steps at the present speeds.
     void set_reach(int thread, const Pose& now, const Vec3& drift, const Vec3& frame, double step);
-    // Measures how far the grains [begin, end) have moved. Every thread does so for its own; then, behind a
-    // barrier, each may ask whether the neighbour lists must be made again.
+    // Measures how far the grains [begin, end) have moved. Every thread does so for its own grains. After a
+    // barrier, each thread may ask lists_expired() whether the neighbour lists must be made anew.
     void measure(int thread, const Grains& grains, std::int32_t begin, std::int32_t end, const Vec3& drift);
     bool lists_expired(int thread, const Pose& now, const Vec3& drift) const;
 
-    // Grains leave. index: the new index of each grain, below 0 for one that leaves.
+    // Leaves grains out. `index` holds the new index of each grain, below 0 for a grain that leaves.
     void leave_out(const std::vector<std::int32_t>& index);
-    // A grain comes that is in no list. So all lists expire at the end of the next step.
+    // Adds a grain that is in no list. All lists then expire at the end of the next step.
     void add_unlisted();
 
-    // Calls each() for everything that is saved, in its order, without the reach.
+    // Calls each() for everything that is saved except the reach, in the order of the file.
     template <class Life, class Each>
     static void transfer(Life& life, const Each& each) {
         each(life.listed_at_), each(life.listed_velocity_), each(life.listed_pose_), each(life.listed_step_);
         each(life.skin_);
     }
-    // Whether what has been read could have been saved.
+    // Whether the values that were read could have been saved.
     bool is_sound(std::int32_t grains, const Reach& reach) const;
 
   private:
     struct alignas(64) Thread {
         Reach reach;
-        double farthest = 0;  // m, of its grains from where they were listed
+        double farthest = 0;  // m, largest displacement of the thread's grains since they were listed
     };
     double farthest() const;
 
-    static constexpr float kNowhere = 1e6;                      // m: where unlisted grains count as listed
-    static constexpr double kLeastSkin = 0.5, kMostSkin = 2.8;  // over that of the surroundings
+    static constexpr float kNowhere = 1e6;  // m, coordinate at which unlisted grains count as listed
+    static constexpr double kLeastSkin = 0.5, kMostSkin = 2.8;  // in units of the skin of the surroundings
 
     const Surroundings& around_;
     const WallWays ways_;

@@ -13,8 +13,8 @@ void MeshLists::clear() {
     next_ = 0;
 }
 
-// What was found there before, if it reaches far enough; else it is found with some room for later. Most
-// grains stay near a place of the mesh for many refreshes.
+// Returns the triangles that were found around this grain before, if they reach far enough. Otherwise it
+// finds them anew, with some room for later. Most grains stay near a place of the mesh for many refreshes.
 const MeshLists::Around& MeshLists::around(std::int32_t grain, std::int32_t mesh, const Surface& surface,
                                            const Vec3& centre, double reach) {
     constexpr double kRoom = 0.1;  // of the reach
@@ -64,8 +64,8 @@ void MeshLists::add(std::int32_t grain, std::int32_t mesh, const Surface& surfac
     near.push_back(one);
 }
 
-// The foot keeps so far from the edges that beyond them nothing is as near, whatever the rounding and the
-// tilt of neighbours that count as flat.
+// `stays` is reduced by kOff times the reach. The nearest point then stays so far from the edges that nothing
+// beyond them is as near, despite rounding and the tilt of neighbours that count as flat.
 void MeshLists::find_flat(const Surface& surface, double reach, MeshNear& one) const {
     constexpr double kOff = 1e-5;
     const NearTriangle* const own = triangles.data() + one.first;

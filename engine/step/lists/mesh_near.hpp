@@ -1,5 +1,5 @@
-// The triangles that grains near meshes may touch before the next refresh. They take the place of candidates:
-// which of them a grain touches, and in how many patches, is found anew in each step
+// The triangles that grains near meshes may touch before the next refresh. They take the place of candidates.
+// Which of them a grain touches, and in how many patches, is found anew in each step
 // (find_patches() in forces/contact_forces.hpp).
 #pragma once
 
@@ -23,14 +23,13 @@ struct MeshNear {
     std::int32_t grain, mesh;
     Vec3 centre;                // m, of the grain at the refresh, in the body's frame
     std::int32_t first, count;  // its triangles; the nearest comes first
-    // So many of these, from the first on, lie in one plane: the first and some that share an edge with it.
-    // While the grain has moved by less than `stays` (m), it touches this plane at one place, on the first
-    // triangle's face, if at all.
+    // The first `flat` of these triangles lie in one plane: the nearest one and some that share an edge with
+    // it. As long as the grain has moved by less than `stays` (m), it touches this plane at one place or not
+    // at all. That place is on the face of the first triangle.
     std::int32_t flat;
     double stays;
-    std::int32_t slots = 0;  // the first numbers of patches; all others have no contact
-    std::array<std::int32_t, kMostPatches>
-        contact;  // where its patches stand in the table; kNone for nowhere
+    std::int32_t slots = 0;  // only patches with numbers below this may have a contact
+    std::array<std::int32_t, kMostPatches> contact;  // places of its patches in the table, or kNone
 
     void set_contact(std::int32_t number, std::int32_t at) {
         contact[static_cast<std::size_t>(number)] = at;
@@ -39,11 +38,11 @@ struct MeshNear {
 };
 struct NearTriangle {
     std::int32_t number;
-    double distance;  // m, of the grain's centre at the refresh; a little less, for rounding
+    double distance;  // m, from the grain's centre at the refresh; a little less, for rounding
 };
 
-// What ends a run: a grain's centre came to the surface of a mesh or through it, or it touches a mesh at more
-// patches than there are numbers.
+// A fault that ends a run. Either a grain's centre came to the surface of a mesh or through it, or the grain
+// touches a mesh at more patches than there are numbers.
 struct MeshFault {
     enum class Kind { crossed, many_patches } kind;
     std::int32_t grain, mesh, triangle;  // id of the grain
@@ -55,9 +54,9 @@ struct MeshFault {
 struct MeshLists {
     std::vector<MeshNear> near;  // by rising grain, then mesh
     std::vector<NearTriangle> triangles;
-    std::vector<MeshTouch> touch;  // of each contact of the table, in this step; it fills its last block
+    std::vector<MeshTouch> touch;  // of each contact of the table in this step, up to a whole block
 
-    // The size of `touch` for a table of so many contacts.
+    // The size of `touch` for a table of `contacts` contacts.
     static std::size_t places_for(std::int32_t contacts) {
         return static_cast<std::size_t>((contacts + kBlock - 1) / kBlock * kBlock);
     }
@@ -68,8 +67,8 @@ struct MeshLists {
     void find_contacts(const ContactTable& table);
 
   private:
-    // All triangles of a mesh within `reach` (m) of a place in the body's frame. They hold for any grain
-    // there.
+    // All triangles of a mesh within `reach` (m) of a place in the body's frame. They serve any grain at that
+    // place.
     struct Around {
         std::int32_t grain, mesh;
         Vec3 centre;
@@ -87,7 +86,7 @@ struct MeshLists {
     void find_flat(const Surface& surface, double reach, MeshNear& one) const;
 
     Known known_, before_;
-    std::size_t next_ = 0;  // of before_.places
+    std::size_t next_ = 0;  // next place in before_.places
 };
 
 }  // namespace grainreel

@@ -57,7 +57,7 @@ ContactOrder order_of(const KeptContacts& kept, std::size_t c) {
 
 namespace {
 
-// How many second bodies there are for a group.
+// The number of second bodies that a group can have.
 std::int32_t others_of(const ContactGroup& group, std::int32_t grains, const WallParts& walls) {
     if (group.of_pairs) return grains;
     if (group.of_mesh) return kMostPatches * walls.meshes();
@@ -73,7 +73,7 @@ std::int32_t group_of(const ContactRules& rules, const ContactGroup& group, cons
     return (group.of_glued ? rules.group_of_glued : rules.group_of_wall)[s];
 }
 
-// What a patch of a mesh with so many triangles may remember.
+// Whether a patch of a mesh with `triangles` triangles may remember these numbers.
 bool is_patch(const double* numbers, std::int32_t triangles) {
     const double triangle = numbers[kTriangle];
     const Vec3 normal(numbers[kNormalX], numbers[kNormalY], numbers[kNormalZ]);

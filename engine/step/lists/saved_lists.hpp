@@ -1,5 +1,5 @@
-// Whether lists from a file could have been made by the step loop. Their readers rely on it: an index out of
-// its range would read or write anywhere.
+// Whether lists from a file could have been made by the step loop. The code that reads lists relies on it: an
+// index out of its range would read or write anywhere.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace grainreel {
 
-// How many there are.
+// The numbers of wall parts.
 struct WallParts {
     std::int32_t faces, glued;
     std::vector<std::int32_t> triangles = {};  // of each mesh
@@ -22,22 +22,24 @@ struct WallParts {
 };
 WallParts parts_of(const Surroundings& around);
 
-constexpr std::int32_t kMostStepsOfLists = 1'000'000'000;  // without a refresh, even of a bed at rest
+constexpr std::int32_t kMostStepsOfLists =
+    1'000'000'000;  // bound for steps without a refresh, even of a bed at rest
 
-// Every index must be in its range and in its order, and no partner farther away than the list says.
+// Every index must be in its range and in its order, and no partner may be farther away than farthest_partner
+// says.
 bool are_sound(const NeighbourLists& lists, std::int32_t grains, const WallParts& walls);
 
-// Contacts of the g-th group. Their bodies must exist and follow the group's law. They must stand in the
-// order in which they are computed. Tags are ages, of at most `steps`.
+// Checks contacts of the g-th group. Their bodies must exist and follow the group's law, and the contacts
+// must stand in the order in which they are computed. Their tags are ages of at most `steps`.
 bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t g, const Grains& grains,
                const WallParts& walls, std::int32_t steps);
 
-// The contacts that BedLists::save() writes first, group by group, of these grains. The reading fails where
-// they could not have been written.
+// Reads the contacts that BedLists::save() writes first, group by group. The reading fails where they could
+// not have been written for these grains.
 std::vector<KeptContacts> read_contacts(Bytes& in, const ContactRules& rules, const Grains& grains,
                                         const WallParts& walls);
 
-// The place of a contact in that order.
+// The key by which the contacts of a group are ordered.
 struct ContactOrder {
     std::int32_t began, first, second;
     auto operator<=>(const ContactOrder&) const = default;

@@ -1,6 +1,6 @@
 // The contacts of one thread's own grains, and what the thread needs to compute them.
 //
-// Two threads compute a contact between their grains both, each for its own grain. This is cheaper than
+// A contact between grains of two threads is computed by both, each for its own grain. This is cheaper than
 // handing forces over. It also lets every grain sum its contacts in one order, whatever the threads.
 //
 // Three parts change the contacts: candidates.hpp at each refresh, add_new_contacts() in each step, and
@@ -34,7 +34,7 @@ namespace grainreel {
 // What this gains: without it a bed in flight takes 12 % more instructions, the vibrated wedge 19 %, and
 // dense beds 1 % (docs/notes/performance.md, "Three devices of the step").
 
-// The list of the candidates [from, to). It has room for half of them. If more are near, a list would save
+// The list for the candidates [from, to). It has room for half of them. If more are near, a list would save
 // little, and the step looks at all of them.
 class SoonList {
   public:
@@ -48,8 +48,8 @@ class SoonList {
     std::int32_t from() const { return from_; }
     std::int32_t to() const { return to_; }
 
-    // Whether the list is still complete. moved: m; no grain has moved farther since the candidates were
-    // listed. False before begin().
+    // Whether the list is still complete; false before begin(). No grain has moved farther than `moved` (m)
+    // since the candidates were listed.
     bool lasts(double moved) const { return moved <= lasts_until_; }
     // Begins a new list of the pairs that are closer than `gap` (m). Call add() for each pair by rising place
     // while there is room, then end().
@@ -73,7 +73,7 @@ class SoonList {
     bool are_all() const { return all_; }
 
     std::int32_t size() const { return count_; }
-    // Where to read the two bodies, and the place of the pair among the candidates.
+    // The indices at which to read the two bodies, and the place of the pair among the candidates.
     const std::int32_t* first() const { return room_.first; }
     const std::int32_t* second() const { return room_.second; }
     std::int32_t at(std::int32_t k) const { return room_.at[k]; }
@@ -132,7 +132,7 @@ struct ThreadContacts {
     struct Pair {
         std::int32_t first, second;
     };
-    // Where to read the bodies of the sorted contacts and of the candidates.
+    // The indices at which to read the bodies of the sorted contacts and of the candidates.
     struct Found {
         FoundPairs contacts, candidates;
     };
@@ -154,20 +154,23 @@ struct ThreadContacts {
     // listed neighbours, which are more than it needs after any refresh.
     void own(const ContactRules& rules, const NeighbourLists& lists, std::int32_t first_own,
              std::int32_t end_own);
-    // Call after a refresh: only those of the contacts and candidates are read from now on.
+    // Call this after a refresh. From then on the thread reads only those grains of other threads that its
+    // contacts and candidates need.
     void list_foreign(const ContactRules& rules, Grains& grains, const Shares& shares);
-    // Where to read the bodies of `count` contacts of a group from c on. Valid until the next call.
+    // The indices at which to read the bodies of `count` contacts of a group from c on. They are valid until
+    // the next call.
     Halo::Bodies bodies_of(const ContactRules& rules, std::size_t group, std::int32_t c, int count);
 
-    // Notes the own grains of all contacts, or of the contacts [from, to) of a group.
+    // Marks in `loaded` the own grains of all contacts, or of the contacts [from, to) of a group.
     void note_loaded(const ContactRules& rules);
     void note_loaded(const ContactRules& rules, std::size_t group, std::int32_t from, std::int32_t to);
 
-    // The number of contacts under own grains that no longer touch. They are computed until the next refresh.
+    // The number of contacts whose first body is an own grain and that no longer touch. They are computed
+    // until the next refresh.
     std::int64_t parted() const;
 
-    // For checkpoints: the contacts under own grains by group, and the number of steps since the last
-    // refresh.
+    // Gives the contacts whose first body is an own grain, by group, and the number of steps since the last
+    // refresh. Checkpoints need both.
     void keep(std::vector<KeptContacts>& kept) const;
     std::int32_t steps_since_refresh() const { return tables[0].step(); }
     // Takes back the kept contacts of own grains.

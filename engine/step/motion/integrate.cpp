@@ -13,7 +13,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 constexpr std::uint64_t kAllTogether = (1 << kTogether) - 1;
 
-// The numbers of the grains: position and radius; motion; force and torque. Grain i's place starts at
+// The grains' numbers as arrays: position and radius; motion; force and torque. Grain i's place starts at
 // place + 4 i, the others at 8 i.
 struct Numbers {
     double *place, *motion, *load;
@@ -76,14 +76,14 @@ struct MotionRecord {
         else
             return both(motion, with_last(bundle_of(0.0), radius));
     }
-    // Each half filled with its own fourth number.
+    // Fills each half of the record with its own fourth number.
     static HWY_INLINE Bundle<size> fourths(const double* from) {
         return of(bundle_of(from[3]), bundle_of(from[7]));
     }
 };
 
-// A pass over the grains that ends a step, begins one, or both; `closes`: with a drift between the two. That
-// drift and the next one are two sums, so that a run in pieces has the bits of the run in one.
+// A pass over the grains that ends a step, begins one, or does both. With `closes` there is a drift between
+// the two. That drift and the next one are two sums, so that a run in pieces has the bits of the run in one.
 template <bool ends, bool begins, bool closes, bool rubs, bool drags>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     using Whole = MotionRecord<rubs>;

@@ -9,9 +9,9 @@
 
 namespace grainreel {
 
-// Marks those of a thread's grains that have contacts. Only these can get a load before the lists are made
-// again. The load of any other grain is zero and stays zero, so it is neither read nor cleared. Another
-// thread can compute the flight of such a grain as well as its owner can.
+// Marks the grains of a thread that have contacts. Only these can get a load before the lists are made again.
+// The load of any other grain is zero and stays zero, so it is neither read nor cleared. Another thread can
+// compute the flight of such a grain as well as its owner can.
 //
 // There is one bit for each grain, so that the bits of a million grains fit into the cache.
 class Loaded {
@@ -32,7 +32,7 @@ class Loaded {
     bool has(std::int32_t grain) const { return from(grain) & 1; }
     // Whether so few grains are marked that it pays to treat the others apart: a quarter or less.
     bool few() const { return count_ <= (end_ - begin_) / 4; }
-    // The bits of 64 grains from `grain` on. It must be one of the thread's own grains.
+    // The bits of 64 grains from `grain` on, which must be one of the thread's own grains.
     std::uint64_t from(std::int32_t grain) const {
         const auto at = static_cast<std::uint32_t>(grain - begin_);
         return words_[at / 64] >> at % 64 | words_[at / 64 + 1] << 1 << (63 - at % 64);
@@ -64,7 +64,7 @@ constexpr int kTogether = 4;
 // components (m/s) of the velocities relative to the frame.
 Vec3 kick_and_drift(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
-// Ends a step: the last kick. The loads stay.
+// Ends a step by the last kick. The loads stay.
 void kick(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end);
 
 // Ends one step and begins the next in one pass. The bits are the same as with kick() and kick_and_drift().

@@ -13,7 +13,8 @@ Evaluation Evaluations::now() const {
     at.time = static_cast<double>(step_number_) + share;
     at.acts = step_ * scheme_.acts(stage_);
     at.now = motion_.at(step_number_, share);
-    const bool goes_on = stage_ == 0 && step_number_ != first_step_;  // the last forces: of another step
+    const bool goes_on =
+        stage_ == 0 && step_number_ != first_step_;  // whether the last forces belong to another step
     at.before = goes_on ? motion_.at(step_number_ - 1, all) : motion_.at(step_number_, before);
     at.since = step_ * (scheme_.stages[stage_].drift + (goes_on ? scheme_.closing_drift : 0));
     return at;

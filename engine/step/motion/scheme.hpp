@@ -27,7 +27,7 @@ struct Scheme {
     // Whether positions still change after the last forces of a step.
     bool moves_after_forces() const { return corrects || closing_drift > 0; }
 
-    // How long the forces of a stage act, as a share of the step, for the work that walls do.
+    // Share of a step for which the forces of a stage act. It counts for the work that walls do.
     double acts(std::size_t stage) const {
         return stages[stage].kick + (stage + 1 == stages.size() ? opening_kick : 0);
     }
@@ -68,16 +68,16 @@ inline Scheme scheme_of(Integrator integrator) {
 // The forces of one stage of a step.
 struct Evaluation {
     double time;       // steps
-    double since;      // s, since the last forces
-    double acts;       // s, that these will act
+    double since;      // s, time since the last forces
+    double acts;       // s, time for which these forces will act
     Pose before, now;  // of the walls, at the last forces and at these
 };
 
 // Goes through the evaluations of a run, from one stage of a step to the next.
 class Evaluations {
   public:
-    // Begins with the first stage of step `from`. step: s. `first_step` is the first step after a restart:
-    // nothing moved before it.
+    // Begins with the first stage of step `from`. `step` is in s. `first_step` is the first step after a
+    // restart; nothing moved before it.
     Evaluations(const Scheme& scheme, const WallMotion& motion, double step, std::int64_t from,
                 std::int64_t first_step)
         : scheme_(scheme), motion_(motion), step_(step), step_number_(from), first_step_(first_step) {}

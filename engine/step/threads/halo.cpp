@@ -12,7 +12,7 @@ namespace grainreel {
 
 namespace {
 
-// How many numbers of a grain are in a box: its position, and its motion in doubles or in floats.
+// The number of doubles that a grain takes in a box: its position, and its motion in doubles or in floats.
 constexpr int kPosition = 3;
 int numbers_of(const Grains& grains) {
     constexpr int kDoubles = 6, kFloats = sizeof(RoundedMotion) / sizeof(double);

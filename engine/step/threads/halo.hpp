@@ -31,15 +31,15 @@ class alignas(64) Halo {
     // `grains` is the number of all grains.
     void own(std::int32_t begin, std::int32_t end, std::int32_t reach, std::int32_t grains);
     bool owns(std::int32_t grain) const { return grain >= begin_ && grain < end_; }
-    // Says which of them the thread reads until the next begin_list(). Call begin_list(), then need() in any
-    // order; a grain may be named more than once.
+    // These functions say which grains of other threads the thread reads until the next begin_list(). Call
+    // begin_list(), then need() in any order; a grain may be named more than once.
     void begin_list();
     void need(std::int32_t grain) {
         if (owns(grain)) return;
         std::int32_t& slot = slot_[grain - lowest_];
         if (slot == kNone) foreign_.push_back(grain), slot = kNeeded;
     }
-    // The bodies of `count` pairs.
+    // Needs the bodies of `count` pairs.
     void need(const std::int32_t* first, const std::int32_t* second, std::int32_t count);
     std::int32_t size() const { return static_cast<std::int32_t>(foreign_.size()); }
     // Makes room for as many copies as are needed now. The first copy gets the index `at`. `owners` is the
@@ -75,18 +75,20 @@ class alignas(64) Halo {
         double number[8];
     };
     // One owner's part: the copies [begin, end) of foreign_, and the first line of the part in a box. The
-    // lines hold one bit for each copy, which says whether its grain is in the box. Then follow the numbers
-    // of these grains.
+    // part begins with one bit for each copy, which says whether its grain is in the box. The numbers of
+    // these grains follow.
     struct Part {
         std::int32_t begin, end, line;
     };
     bool all_own(const std::int32_t* first, const std::int32_t* second, int count) const;
     Bodies find_foreign(const std::int32_t* first, const std::int32_t* second, int count);
 
-    static constexpr std::int32_t kNone = -1, kNeeded = -2;  // slots that have no copy, or none yet
+    static constexpr std::int32_t kNone = -1,
+                                  kNeeded =
+                                      -2;  // slots without a copy, and slots whose copy is still to be placed
     std::int32_t begin_ = 0, end_ = 0, at_ = 0;
     std::int32_t lowest_ = 0;            // the first grain that may be read
-    std::vector<std::int32_t> foreign_;  // rising
+    std::vector<std::int32_t> foreign_;  // indices of the copied grains, rising
     std::vector<std::int32_t> slot_;     // where to read each grain from lowest_ on, own grains included
     std::vector<Part> part_;             // of each thread
     std::array<LargeArray<Line>, 2> box_;

@@ -7,7 +7,7 @@ namespace grainreel {
 
 namespace {
 
-// The work in a step of a contact and of a listed pair. The unit is the work of a grain without contacts.
+// The work that a contact and a listed pair take in a step, in units of the work of a grain without contacts.
 // Contacts and pairs are counted under their first body.
 constexpr double kWorkOfContact = 3, kWorkOfPair = 0.05;
 
@@ -69,11 +69,12 @@ void WorkShares::share_out(const NeighbourList& pairs, const std::vector<std::in
 
 // Sets the ranges of the next search for neighbours, so that all take the same time. It assumes that the next
 // search takes as long a grain as the last one did in the same range, and goes half of the way to the new
-// ranges. The time a grain differs along the order, because grains look at different numbers of others.
+// ranges. The search time per grain varies along the order of the grains, because grains look at different
+// numbers of others.
 void WorkShares::share_search() {
     double whole = 0, passed = 0;
     for (const Thread& t : threads_) whole += t.searched_for;
-    const Shares& last = last_search_share_ = search_share_;  // no memory is asked for
+    const Shares& last = last_search_share_ = search_share_;  // the assignment reuses its memory
     int from = 0;                                             // the range that holds the next bound
     for (int t = 1; t < team_.size(); ++t) {
         const double wanted = whole * t / team_.size();

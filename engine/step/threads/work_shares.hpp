@@ -1,5 +1,5 @@
-// Which grains each thread has, and where its time goes. A thread has a range of grains, which is the longer,
-// the faster the thread was lately. The bits of a run do not depend on the ranges.
+// Which grains each thread has, and where its time goes. A thread has a range of grains. A thread that was
+// faster lately gets a longer range. The bits of a run do not depend on the ranges.
 #pragma once
 
 #include <array>
@@ -26,8 +26,9 @@ class WorkShares {
     std::int32_t search_begin(int thread) const { return search_share_[thread]; }
     std::int32_t search_end(int thread) const { return search_share_[thread + 1]; }
 
-    // Each thread says how long it was busy: when new lists are begun; how many ticks its search took; when
-    // they are complete; and, of each refresh, for how long.
+    // Each thread reports the times that it was busy. It calls begin_lists() when new lists are begun,
+    // searched() with the ticks of its search, end_lists() when the lists are complete, and refreshed() with
+    // the ticks of each refresh.
     void begin_lists(int thread) { threads_[thread].busy_in_all = team_.busy(thread); }
     void searched(int thread, double ticks) { threads_[thread].searched_for = ticks; }
     void end_lists(int thread) {
@@ -36,14 +37,16 @@ class WorkShares {
     }
     void refreshed(int thread, double busy) { threads_[thread].busy_refreshing += busy; }
 
-    // One thread does the following for all. begin_search(): before the search; equal parts if the number of
-    // grains has changed. renew(): behind it. share_out(): without any knowledge of speeds.
-    // contacts: of each grain as first body; not read if there is one thread.
+    // One thread calls the following functions for all. begin_search() comes before the search and makes
+    // equal parts if the number of grains has changed. renew() comes after the search. share_out() uses no
+    // knowledge of speeds. `contacts` holds the number of contacts of each grain as first body; it is not
+    // read if there is one thread.
     void begin_search(std::int32_t grains);
     void renew(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts, std::int32_t grains);
     void share_out(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts,
                    std::int32_t grains);
-    // No grains, or grains that leave (rising indices), or grains behind the last one.
+    // clear() is for a bed without grains. leave_out() takes rising indices of grains that leave. append()
+    // adds grains behind the last one.
     void clear() { share_.assign(team_.size() + 1, 0); }
     void leave_out(const std::vector<std::int32_t>& leavers);
     void append(std::int32_t grains) { share_.back() = grains; }
@@ -54,11 +57,12 @@ class WorkShares {
     void share_search();
 
     struct alignas(64) Thread {
-        // Work of its grains in units of a grain, without contacts and of these, when they were shared out.
+        // Work of its grains, and of their contacts, when they were shared out, in units of a grain without
+        // contacts.
         double work = 0, contact_work = 0;
-        // Ticks that it was busy, before and in all.
+        // Ticks that it was busy: until the last lists, in all, and in refreshes since then.
         double busy_before = 0, busy_in_all = 0, busy_refreshing = 0;
-        double speed = 1;         // lately, relative to the mean of all
+        double speed = 1;         // speed lately, relative to the mean of all threads
         double searched_for = 0;  // ticks
     };
 
@@ -71,27 +75,28 @@ class WorkShares {
 // Measures where a thread's time goes. It is off unless someone asks for it. It then reads the processor's
 // counter several times for each chunk of contacts.
 
-// neighbours: lists and cells. contacts: geometry and laws of pairs. gather: their forces into the grains'
-// loads. walls: all of that for walls. integrate: kicks and drifts. other: waiting for threads, and the rest.
+// neighbours: lists and cells. contacts: geometry and laws of pairs. gather: adding their forces to the
+// grains' loads. walls: geometry, laws and loads of walls. integrate: kicks and drifts. other: waiting for
+// threads, and the rest.
 enum class Cost { neighbours, contacts, walls, gather, integrate, other };
 constexpr int kCosts = 6;
 
 class CostClock {
   public:
-    // Counts from nothing.
+    // Sets all counts to zero.
     void clear() { spent_.fill(0); }
     void turn(bool on) { on_ = on; }
     void start() {
         if (on_) last_ = ticks();
     }
-    // The time since start() or the last lap() went into `cost`.
+    // Adds the time since start() or the last lap() to `cost`.
     void lap(Cost cost) {
         if (!on_) return;
         const std::uint64_t now = ticks();
         spent_[static_cast<int>(cost)] += static_cast<double>(now - last_);
         last_ = now;
     }
-    const std::array<double, kCosts>& spent() const { return spent_; }  // ticks; their length is not known
+    const std::array<double, kCosts>& spent() const { return spent_; }  // ticks of unknown length
 
   private:
     bool on_ = false;
