@@ -1,5 +1,5 @@
-// From the rows of a chunk to registers and back: parameters, histories, touches and forces of as many
-// contacts at once as a register holds.
+// Loads parameters, histories and touches from the rows of a chunk into registers, and stores forces and
+// histories. Each access takes as many contacts as a register holds.
 #if defined(GRAINREEL_LAWS_CHUNK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_CHUNK_INL
 #undef GRAINREEL_LAWS_CHUNK_INL
@@ -14,8 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Visitors for the each() of histories and parameters; a `turning` triple changes sign with the order of the
-// bodies.
+// Visitor for the each() of histories and parameters. A `turning` triple changes sign when the bodies swap
+// places.
 template <class Visit>
 struct Visitor {
     template <class R>
@@ -133,7 +133,7 @@ HWY_INLINE void put_nothing(int c, ForceChunk& out) {
     }
 }
 
-// Where the first number of contact c stands in a history of `stride` numbers a contact.
+// Place of the first number of contact c in a history with `stride` numbers for each contact.
 HWY_INLINE std::size_t place_in_history(int c, std::size_t stride) {
     return (c / kBlock) * (stride * kBlock) + c % kBlock;
 }

@@ -1,6 +1,5 @@
-// A normal and a tangential law as one: the contact force between two grains, or a grain and a wall; and the
-// step that runs it over a chunk of contacts.
-// How to add a law: CONTRIBUTING.md, "A contact law".
+// Joins a normal and a tangential law to the contact force between two grains, or a grain and a wall, and
+// runs it over a chunk of contacts. CONTRIBUTING.md, "A contact law", says how to add a law.
 #if defined(GRAINREEL_LAWS_CONTACT_LAW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_CONTACT_LAW_INL
 #undef GRAINREEL_LAWS_CONTACT_LAW_INL
@@ -15,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// What the step before leaves to laws with a dashpot; all zero for a new contact.
+// Values of the last step that laws with a dashpot need; all zero for a new contact.
 template <class R, bool kept>
 struct StepBefore {
     template <class Each>
@@ -23,8 +22,8 @@ struct StepBefore {
 };
 template <class R>
 struct StepBefore<R, true> {
-    Triple<R> velocity;  // m/s, at its middle
-    R force;             // N, normal, at its end
+    Triple<R> velocity;  // m/s, at the middle of that step
+    R force;             // N, normal force at the end of that step
 
     template <class Each>
     HWY_INLINE void each(const Each& visit) {
@@ -40,8 +39,8 @@ struct ContactLaw {
     static constexpr bool uses_velocity = Normal::uses_velocity, has_dashpot = Normal::has_dashpot;
     static constexpr bool uses_mass = Normal::uses_mass, uses_radius = Normal::uses_radius;
 
-    // Where the normal law weighs the onset of a contact and the tangential one gains by it, slip counts from
-    // the touch, and the tangential force acts for as long as the normal one.
+    // True if the normal law weighs the onset of a contact and the tangential law gains by that. Slip then
+    // counts from the touch, and the tangential force acts for as long as the normal force.
     static constexpr bool weighs_onset = Normal::weighs_onset && Tangential::gains_by_onset;
 
     template <class R>
@@ -70,15 +69,16 @@ struct ContactLaw {
         }
     };
 
-    // On body j (the wall): normal force along k, tangential force across it. N.
+    // The force on body j (the wall), in N: the normal force along k, and the tangential force across k.
     template <class R>
     struct Force {
         R normal;
         Triple<R> tangential;
     };
 
-    // `velocity`: m/s, of i's surface against j's between the last force and this one; `step`: s, between
-    // them. `ahead`: dashpots take the velocity so many steps later, 0.5 for Verlet.
+    // `velocity` (m/s) is the velocity of i's surface relative to j's between the last force and this one,
+    // and `step` (s) is the time between them. Dashpots take the velocity `ahead` steps later, 0.5 for
+    // Verlet.
     template <class R>
     static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
                                      const Triple<R>& velocity, R step, R ahead) {
@@ -107,7 +107,7 @@ struct ContactLaw {
         return f;
     }
 
-    // The force as it stands, `velocity` being that of now, and what is to be said of energies.
+    // The force at the present instant, without a step, and the energies. `velocity` is the present velocity.
     template <class R>
     static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, Touch<R> touch,
                                    const Triple<R>& velocity, Energies<R>& e) {
@@ -129,17 +129,19 @@ struct ContactLaw {
     }
 
   private:
-    // Dashpots want the velocity at the time of the force, with Verlet half a step ahead of the known one: it
-    // goes on as it changed over the last step. For free grains this is the half kick of the old force,
-    // exactly. Nothing is known of a new contact, and it keeps its velocity.
+    // Dashpots need the velocity at the time of the force, which with Verlet is half a step ahead of the
+    // known velocity. The velocity is taken to go on changing as it did over the last step. For free grains
+    // this is exactly the half kick of the old force. A new contact has no earlier velocity and keeps its
+    // own.
     template <class R>
     static HWY_INLINE Triple<R> later(const Triple<R>& velocity, const Triple<R>& before, R ahead) {
         const auto known = before.squared() > R(0);
         return velocity.plus(select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}), ahead);
     }
 
-    // ... but the contact's own force has changed since, and slows the bodies by that over `time`. As the
-    // force depends on the velocity, so this on itself; the dashpot being linear, it can be solved for.
+    // The contact's own force has changed since, and the change slows the bodies over `time`. The new
+    // velocity and the new force depend on each other. The dashpot is linear, so the velocity can be solved
+    // for.
     template <class R, class P>
     static HWY_INLINE void slow_down(Touch<R>& touch, const P& p, R force_before, R time) {
         const R elastic = Normal::spring_force(p, touch) - force_before;
@@ -154,8 +156,9 @@ struct ContactLaw {
     }
 };
 
-// Runs a law over a chunk of contacts, as many at once as a register holds: from rows and histories to the
-// force of each contact and its new history. one_kind: all contacts have the parameters of the first.
+// Runs a law over a chunk of contacts, as many at once as a register holds. It reads rows and histories, and
+// writes the force and the new history of each contact. With `one_kind`, all contacts have the parameters of
+// the first.
 template <class Law, class L, bool one_kind>
 void step_chunk(const LawInput& in, void* histories, ForceChunk& out) {
     using Number = NumberOf<L>;

@@ -1,4 +1,4 @@
-// All numbers are doubles.
+// The kernels in which all numbers are doubles.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/laws/double_kernels.cpp"
 #include "engine/vector/targets.hpp"

@@ -1,5 +1,5 @@
-// Friction: Coulomb's cap on the tangential force, how the force of the last step is carried along, and
-// contacts without it.
+// Parts shared by the laws of friction: Coulomb's cap on the tangential force, the turning of the last step's
+// force with its contact, and contacts without friction.
 #if defined(GRAINREEL_LAWS_FRICTION_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_FRICTION_INL
 #undef GRAINREEL_LAWS_FRICTION_INL
@@ -14,12 +14,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Infinite friction as a number whose products stay finite: a contact without normal force holds nothing.
+// Replaces infinite friction by a number whose products stay finite, so that a contact without normal force
+// holds nothing.
 HWY_INLINE double finite_friction(double friction) {
     return std::isinf(friction) ? 1e150 : friction;
 }
 
-// `force` shortened to `limit` >= 0 where it is longer.
+// Shortens `force` to `limit` (>= 0) where it is longer.
 template <class R>
 HWY_INLINE Triple<R> capped_at(const Triple<R>& force, R limit) {
     const R squared = force.squared();
@@ -28,24 +29,25 @@ HWY_INLINE Triple<R> capped_at(const Triple<R>& force, R limit) {
     return select(slides, shortened, force);
 }
 
-// N^2, of the part of `force` that a cap lets act: a spring beyond it gives back no more than one at it.
+// The square (N^2) of the part of `force` that a cap lets act. A spring beyond the cap gives back no more
+// energy than a spring at the cap.
 template <class R>
 HWY_INLINE R squared_within(const Triple<R>& force, R limit) {
     return smaller(force.squared(), limit * limit);
 }
 
-// Carrying a tangential force along with a contact that turns.
+// Carries a tangential force along with a contact that turns.
 
-// Turns `force` as its contact has turned: Cayley's rotation, about the axis of `turn` by 2 atan |turn|,
-// exact in length. Projection alone, as in the original program, cannot see the twist. What rounding leaves
-// of it along `normal`, the contact's own of now, goes.
+// Turns `force` as its contact has turned. This is Cayley's rotation about the axis of `turn` by 2 atan
+// |turn|, which keeps the length exactly. Projection alone, as in the original program, cannot see the twist.
+// The small part along `normal` (the present normal) that rounding leaves is taken off.
 template <class R>
 HWY_INLINE Triple<R> carry_along(const Triple<R>& force, const Triple<R>& turn, const Triple<R>& normal) {
     const Triple<R> once = turn.cross(force), twice = turn.cross(once);
     return force.plus(once + twice, R(2) / (R(1) + turn.squared())).across(normal);
 }
 
-// No tangential force: no history, no torque, no spin.
+// The law without a tangential force. It has no history and no torque, and reads no spin.
 
 struct Frictionless {
     static constexpr bool rubs = false, gains_by_onset = false;

@@ -1,9 +1,9 @@
 // Normal force: Hertz' elastic contact with a dashpot (Hertz 1881; Tsuji, Tanaka & Ishida 1992, Powder
 // Technol. 71, 239),
 //
-//   N = k a^(3/2) + d sqrt(m_eff k) a^(1/4) v_n,   k = 4/3 E* sqrt(R_eff),
+//   N = k a^(3/2) + d sqrt(m_eff k) a^(1/4) v_n,   k = 4/3 E* sqrt(R_eff).
 //
-// whose restitution does not depend on speed. `attraction` as in spring_dashpot-inl.hpp.
+// Its restitution does not depend on speed. `attraction` is as in spring_dashpot-inl.hpp.
 #if defined(GRAINREEL_LAWS_HERTZ_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_HERTZ_INL
 #undef GRAINREEL_LAWS_HERTZ_INL
@@ -26,18 +26,18 @@ struct Hertz {
     struct Parameters {
         R modulus;         // Pa, 4/3 E*
         R damping;         // d
-        R sideways_share;  // sqrt of tangential over normal stiffness: how much smaller its dashpot is
-        R lowest;          // N: 0, or so far below that nothing reaches it
+        R sideways_share;  // sqrt of tangential over normal stiffness: ratio of their dashpots
+        R lowest;          // N, lower bound of the force: 0, or so low that no force reaches it
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
             visit(modulus), visit(damping), visit(sideways_share), visit(lowest);
         }
-        // N/m, dN/da of the elastic part: 2 E* times the contact's radius.
+        // Tangent stiffness (N/m), dN/da of the elastic part: 2 E* times the contact's radius.
         HWY_INLINE R tangent_stiffness(const Touch<R>& touch) const {
             return R(1.5) * modulus * contact_radius(touch);
         }
-        // kg/s, of the dashpots, and 1/s, of the first by mass.
+        // Coefficients of the dashpots (kg/s), and the normal one divided by the mass (1/s).
         HWY_INLINE R normal_damping(const Touch<R>& touch) const {
             return damping * root(touch.effective_mass * modulus * contact_radius(touch));
         }
@@ -47,7 +47,7 @@ struct Hertz {
         HWY_INLINE R sideways_damping(const Touch<R>& touch) const {
             return sideways_share * normal_damping(touch);
         }
-        // m, sqrt(R_eff a).
+        // Contact radius (m), sqrt(R_eff a).
         static HWY_INLINE R contact_radius(const Touch<R>& touch) {
             return root(touch.effective_radius * touch.overlap);
         }
@@ -63,7 +63,7 @@ struct Hertz {
         HWY_INLINE void each(const Each&) {}
     };
 
-    // N, with attraction negative just before the spheres part.
+    // Normal force (N). With attraction it is negative just before the spheres part.
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
         return now(p, h, touch);
@@ -78,7 +78,7 @@ struct Hertz {
         return p.modulus * p.contact_radius(touch) * touch.overlap;
     }
 
-    // J, 2/5 k a^(5/2).
+    // Stored energy (J), 2/5 k a^(5/2).
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>&, const Touch<R>& touch, R) {
         return R(0.4) * spring_force(p, touch) * touch.overlap;

@@ -4,8 +4,8 @@
 //   |T| growing:    K_T = K0 [1 - (T - T*) / (mu N - T*)]^gamma
 //   |T| shrinking:  K_T = K0 [1 - (T* - T) / (mu N + T*)]^gamma
 //
-// T is the signed magnitude along the present friction direction, T* its value at the last turning point.
-// gamma = 1/3 resembles Mindlin's elastic contact, 1 or 2 contacts with plastic flow.
+// T is the signed magnitude along the present friction direction, and T* is its value at the last turning
+// point. gamma = 1/3 resembles Mindlin's elastic contact, 1 or 2 contacts with plastic flow.
 #if defined(GRAINREEL_LAWS_INCREMENTAL_SLIP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
 #undef GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
@@ -22,7 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct IncrementalSlip {
-    // Its stiffness is that of the step's beginning: of first order, and no better for an exact onset.
+    // The stiffness is taken at the step's beginning. That is of first order, so an exact onset would not
+    // help.
     static constexpr bool rubs = true, gains_by_onset = false;
 
     template <class R>
@@ -44,7 +45,7 @@ struct IncrementalSlip {
     struct History {
         Triple<R> force;  // N, on j, perpendicular to k
         R turning_ratio;  // T* / N: T* grows and falls with N
-        R shrinks;        // 1 while |T| does, else 0
+        R shrinks;        // 1 while |T| shrinks, else 0
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
@@ -52,7 +53,7 @@ struct IncrementalSlip {
         }
     };
 
-    // N, on j. A normal force that pulls holds nothing.
+    // Tangential force (N) on j. It is zero where the normal force pulls.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal&, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
@@ -60,7 +61,7 @@ struct IncrementalSlip {
         const auto shrank = h.shrinks > R(0);
         const Triple<R> old = carry_along(h.force, touch.turn, touch.normal);
 
-        // The friction direction: of the old force, or of the slip where there is no force yet.
+        // The friction direction is that of the old force, or that of the slip where there is no force yet.
         const R old_squared = old.squared();
         const auto loaded = old_squared > R(0);
         const Triple<R> guide = select(loaded, old, touch.slip);
@@ -79,35 +80,35 @@ struct IncrementalSlip {
         const R parallel =
             old_size + p.stiffness * softening(p, sign, turning_force, old_size, limit) * along;
         const Triple<R> now = (direction * parallel).plus(touch.slip.less(direction, along), p.stiffness);
-        const auto through_zero = parallel < R(0);  // the direction flips, and what shrank now grows
+        const auto through_zero = parallel < R(0);  // the direction flips, and a force that shrank now grows
         const R ratio = select(pushing > R(0), select(turns, old_size / pushing, ratio_before), R(0));
         h.turning_ratio = select(through_zero, -ratio, ratio);
         h.shrinks = select(shrinks, select(through_zero, R(0), R(1)), R(0));
         h.force = capped_at(now, limit);
         return h.force;
     }
-    // N, on j, as it stands at an instant, without a step.
+    // Tangential force (N) on j at the present instant, without a step.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> now(const Parameters<R>&, const Normal&, const History<R>& h, const Touch<R>&,
                                     R) {
         return h.force;
     }
 
-    // J; the force itself is capped.
+    // Stored energy (J). The force itself is capped, so the energy needs no cap.
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R) {
         return h.force.squared() / (R(2) * p.stiffness);
     }
 
   private:
-    // [..]^gamma of the law, its base held in [0, 1]. No room left to grow or shrink means no stiffness. T
-    // that stands before its turning point, because T* has grown with N, has all of it: otherwise a contact
-    // that turned at mu N and was then pressed harder would slide for ever. `sign`: -1 while |T| shrinks,
-    // else 1.
+    // The factor [..]^gamma of the law, with its base held in [0, 1]. If T has no room left to grow or
+    // shrink, there is no stiffness. If T lies before its turning point, because T* has grown with N, the
+    // contact has its full stiffness. Otherwise a contact that turned at mu N and was then pressed harder
+    // would slide for ever. `sign` is -1 while |T| shrinks, else 1.
     template <class R>
     static HWY_INLINE R softening(const Parameters<R>& p, R sign, R turning_force, R old_size, R limit) {
         const R room = limit - sign * turning_force;
-        const R gone = sign * (old_size - turning_force);  // since the turning point
+        const R gone = sign * (old_size - turning_force);  // N, change since the turning point
         const R base = larger(R(0), smaller(R(1), R(1) - gone / room));
         return select(gone < R(0), R(1), select(room > R(0), power(base, p.gamma), R(0)));
     }

@@ -1,5 +1,5 @@
-// A law as the step loop and observers call it: functions over a chunk of contacts (LawKernel). The step
-// itself is step_chunk() in contact_law-inl.hpp.
+// Makes of a law the functions over a chunk of contacts (LawKernel) that the step loop and observers call.
+// The step itself is step_chunk() in contact_law-inl.hpp.
 #if defined(GRAINREEL_LAWS_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_KERNEL_INL
 #undef GRAINREEL_LAWS_KERNEL_INL
@@ -66,7 +66,8 @@ LawParameters parameters_of(const std::vector<PairPlan>& plans) {
 
 template <class Law, class L>
 const LawKernel& kernel_of() {
-    // There must be registers for two: AVX-512 has. (With floats two were no faster than one.)
+    // Two sets of registers at once need as many registers as AVX-512 has. (With floats, two sets were no
+    // faster than one.)
     using Most = std::conditional_t<kLanes == 8 && L::count == 8, Twice<L>, L>;
     static const LawKernel kernel = [] {
         LawKernel k;

@@ -6,14 +6,14 @@
 
 namespace grainreel {
 
-// double_kernels.cpp and mixed_kernels.cpp
+// These are defined in double_kernels.cpp and mixed_kernels.cpp.
 const LawKernel* double_kernel(const ContactModel& model);
 const LawKernel* double_rolling_kernel();
 const LawKernel* mixed_kernel(const ContactModel& model);
 const LawKernel* mixed_rolling_kernel();
 
 void LawParameters::add(double value) {
-    constexpr double bound = 1e30;  // infinite friction and the like
+    constexpr double bound = 1e30;  // for infinite friction and similar values
     values.push_back(value);
     rounded.push_back(static_cast<float>(std::clamp(value, -bound, bound)));
 }

@@ -1,6 +1,6 @@
 // Tangential force: a linear spring with Coulomb's cap, T = k_t s + m_eff c_t v_t, |T| <= mu N (Cundall &
-// Strack 1979, Geotechnique 29, 47), as LAMMPS' hooke/history has it. With a normal law that has no dashpot
-// c_t = 0.
+// Strack 1979, Geotechnique 29, 47), as LAMMPS' hooke/history has it. If the normal law has no dashpot, c_t =
+// 0.
 #if defined(GRAINREEL_LAWS_LINEAR_SPRING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_LINEAR_SPRING_INL
 #undef GRAINREEL_LAWS_LINEAR_SPRING_INL
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct LinearSpring {
-    // It follows any slip exactly, so that the onset is all that it gets wrong.
+    // The spring follows any slip exactly, so only the onset of a contact causes an error.
     static constexpr bool rubs = true, gains_by_onset = true;
 
     template <class R>
@@ -35,7 +35,7 @@ struct LinearSpring {
 
     template <class R>
     struct History {
-        Triple<R> spring_force;  // N, on j, the spring's part of it, k_t s
+        Triple<R> spring_force;  // N, on j, the spring's part k_t s of the force
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
@@ -43,7 +43,7 @@ struct LinearSpring {
         }
     };
 
-    // N, on j. A normal force that pulls caps by its size, as in LAMMPS.
+    // Tangential force (N) on j. A normal force that pulls caps it by its size, as in LAMMPS.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal& normal, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
@@ -52,18 +52,18 @@ struct LinearSpring {
         const Triple<R> damping = dashpot(normal, touch);
         const Triple<R> whole = h.spring_force + damping;
         const Triple<R> capped = capped_at(whole, p.friction * size_of(normal_force));
-        h.spring_force = capped - damping;  // sliding, the spring keeps what the cap leaves it
+        h.spring_force = capped - damping;  // while sliding, the spring keeps what the cap leaves it
         return capped;
     }
-    // N, on j, as it stands at an instant, without a step.
+    // Tangential force (N) on j at the present instant, without a step.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> now(const Parameters<R>& p, const Normal& normal, const History<R>& h,
                                     const Touch<R>& touch, R normal_force) {
         return capped_at(h.spring_force + dashpot(normal, touch), p.friction * size_of(normal_force));
     }
 
-    // J. What the dashpot leaves of a cap may press the spring against the slip, by more than mu N: none of
-    // that comes back.
+    // Stored energy (J). The cap limits the sum of spring and dashpot, so the spring alone may exceed mu N.
+    // The excess does not come back as energy.
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R normal_force) {
         return squared_within(h.spring_force, p.friction * size_of(normal_force)) / (R(2) * p.stiffness);

@@ -46,7 +46,7 @@ const LawKernel* with_hertz(TangentialLaw tangential) {
     return nullptr;
 }
 
-// nullptr where laws do not go together.
+// Returns nullptr where laws do not go together.
 template <class L>
 const LawKernel* kernel_at(const ContactModel& model) {
     switch (model.normal) {

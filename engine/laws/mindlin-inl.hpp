@@ -1,8 +1,8 @@
 // Tangential force beside Hertz' normal one: Mindlin's no-slip stiffness K_t = 8 G* sqrt(R_eff a) with
 // Coulomb's cap and a dashpot (Mindlin 1949, J. Appl. Mech. 16, 259; Di Renzo & Di Maio 2005, Chem. Eng. Sci.
 // 60, 1303). K_t is 2(1 - nu)/(2 - nu) times Hertz' tangent stiffness for equal materials. Where the contact
-// shrinks its force shrinks with its radius, or energy would be made (Thornton, Cummins & Cleary 2013, Powder
-// Technol. 233, 30).
+// shrinks, its force shrinks with the contact's radius, because otherwise energy would be made (Thornton,
+// Cummins & Cleary 2013, Powder Technol. 233, 30).
 #if defined(GRAINREEL_LAWS_MINDLIN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_MINDLIN_INL
 #undef GRAINREEL_LAWS_MINDLIN_INL
@@ -22,7 +22,7 @@ struct Mindlin {
 
     template <class R>
     struct Parameters {
-        R ratio;     // tangential over normal tangent stiffness
+        R ratio;     // tangential stiffness over normal tangent stiffness
         R friction;  // mu
 
         template <class Each>
@@ -45,7 +45,7 @@ struct Mindlin {
         }
     };
 
-    // N, on j. A normal force that pulls caps by its size.
+    // Tangential force (N) on j. A normal force that pulls caps it by its size.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal& normal, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
@@ -56,10 +56,10 @@ struct Mindlin {
         h.spring_force += touch.slip * stiffness;
         const Triple<R> damping = touch.slip_velocity * normal.sideways_damping(touch);
         const Triple<R> capped = capped_at(h.spring_force + damping, p.friction * size_of(normal_force));
-        h.spring_force = capped - damping;  // sliding, the spring keeps what the cap leaves it
+        h.spring_force = capped - damping;  // while sliding, the spring keeps what the cap leaves it
         return capped;
     }
-    // N, on j, as it stands at an instant, without a step.
+    // Tangential force (N) on j at the present instant, without a step.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> now(const Parameters<R>& p, const Normal& normal, const History<R>& h,
                                     const Touch<R>& touch, R normal_force) {
@@ -67,7 +67,7 @@ struct Mindlin {
                          p.friction * size_of(normal_force));
     }
 
-    // J, as in linear_spring-inl.hpp.
+    // Stored energy (J), as in linear_spring-inl.hpp.
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R normal_force) {
         const R squared = squared_within(h.spring_force, p.friction * size_of(normal_force));

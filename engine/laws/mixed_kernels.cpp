@@ -1,5 +1,5 @@
-// Laws and histories in floats: twice as many to a register. Positions, overlaps and sums of forces stay
-// doubles.
+// The kernels whose laws and histories are in floats, so that a register holds twice as many. Positions,
+// overlaps and sums of forces stay doubles.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/laws/mixed_kernels.cpp"
 #include "engine/vector/targets.hpp"

@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// What makes the bits of x, shifted to a third, those of about x^(-1/3).
+// Constant from which the bits of x, divided by three, are taken to get the bits of about x^(-1/3).
 HWY_INLINE std::uint64_t inverse_cube_root_bits(double) {
     return 0x553ee0ff289dd796;
 }
@@ -22,7 +22,7 @@ HWY_INLINE std::uint32_t inverse_cube_root_bits(float) {
     return 0x54a21d2a;
 }
 
-// Bits of x shifted right: an integer a third as large, near enough for a first guess.
+// First guess of x^(-1/3). Shifts divide the bits of x by three, near enough for a guess.
 template <class D>
 HWY_INLINE LanesOf<D> guess_inverse_cube_root(LanesOf<D> x) {
     const hn::RebindToUnsigned<D> bits;
@@ -43,8 +43,8 @@ HWY_INLINE T guess_inverse_cube_root(T x) {
     return std::bit_cast<T>(of_one_third - third);
 }
 
-// x^(1/3) for x in [0, 1], to the last digits; 0 below 1e-30. Newton's method for the inverse root has no
-// division.
+// Computes x^(1/3) for x in [0, 1], to the last digits; 0 below 1e-30. Newton's method for the inverse root
+// has no division.
 template <class R>
 HWY_INLINE R cube_root(R x) {
     constexpr int rounds = sizeof(NumberOf<R>) == sizeof(double) ? 4 : 3;
@@ -79,8 +79,8 @@ HWY_INLINE R power(R base, R exponent) {
     return any_power(base, exponent);
 }
 
-// Lane by lane, each as if it were alone: slow, and the same at every width.
-// Cube roots as power() has them, to the bit: what shares a register with a contact must not show.
+// Computes powers lane by lane. This is slow, and gives the same bits at every register width. Cube roots
+// have the same bits as in power(), so that a result does not depend on which contacts share a register.
 template <class D>
 HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent) {
     HWY_ALIGN hn::TFromD<D> b[LanesOf<D>::count], e[LanesOf<D>::count];

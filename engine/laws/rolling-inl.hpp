@@ -1,9 +1,10 @@
 // Resistance to rolling: an elastic-plastic rolling spring (Iwashita & Oda 1998, J. Eng. Mech. 124, 285; Ai
-// et al. 2011, Powder Technol. 206, 269, model C without dashpot). The torque grows with the angle rolled,
+// et al. 2011, Powder Technol. 206, 269, model C without dashpot). The torque grows with the rolled angle
+// theta,
 //
-//   M = k_r theta,   k_r = K0 R_eff^2,   |M| <= mu_r R_eff N,
+//   M = k_r theta,   k_r = K0 R_eff^2,   |M| <= mu_r R_eff N.
 //
-// and, being a spring, holds a grain at rest on a slope, which a constant torque does not. It comes on top of
+// A spring holds a grain at rest on a slope, which a constant torque does not. The resistance comes on top of
 // any law that rubs.
 #if defined(GRAINREEL_LAWS_ROLLING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_ROLLING_INL
@@ -44,8 +45,8 @@ struct RollingSpring {
         }
     };
 
-    // N m, on j. `angle`: rad, that i has turned against j across k in this step; `normal`, `turn` as in
-    // Touch.
+    // Torque (N m) on j. `angle` (rad) is the turn of i against j across k in this step; `normal` and `turn`
+    // are as in Touch.
     template <class R>
     static HWY_INLINE Triple<R> torque(const Parameters<R>& p, History<R>& h, const Triple<R>& normal,
                                        const Triple<R>& turn, const Triple<R>& angle, R effective_radius,
@@ -56,7 +57,7 @@ struct RollingSpring {
         return h.torque;
     }
 
-    // J, M^2 / (2 k_r).
+    // Stored energy (J), M^2 / (2 k_r).
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, R effective_radius) {
         const R stiffness = p.stiffness * effective_radius * effective_radius;
@@ -64,8 +65,8 @@ struct RollingSpring {
     }
 };
 
-// Runs the resistance to rolling over a chunk of contacts, after their law: LawKernel as kernel-inl.hpp has
-// it.
+// Runs the resistance to rolling over a chunk of contacts, after their law. The functions are those of
+// LawKernel, as in kernel-inl.hpp.
 
 template <class L>
 void step_rolling(const LawInput& in, void* history, ForceChunk& out) {

@@ -1,4 +1,4 @@
-// Registers from and to the rows of chunks.
+// Loads registers from the rows of chunks, and stores them.
 #if defined(GRAINREEL_LAWS_ROW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_ROW_INL
 #undef GRAINREEL_LAWS_ROW_INL
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Rows hold Numbers: those of L on the way through a law, doubles for observers.
+// Rows hold Numbers: the numbers of L on the way through a law, doubles for observers.
 template <class L, class Number = NumberOf<L>>
 HWY_INLINE L row_at(const Row& from, int c) {
     return load_as<L>(from.of<Number>() + c);

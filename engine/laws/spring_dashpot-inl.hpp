@@ -1,8 +1,9 @@
-// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, with v_n the closing speed. c is a number
-// of the contact's kind, as in LAMMPS' hooke/history, or c_1 / sqrt(m_eff): then grains of all sizes keep one
-// restitution. At the end of contact the dashpot would pull: with attraction it may (as in LAMMPS'
-// hooke/history), and a free impact has e = exp(-pi b / sqrt(1 - b^2)), b = c / (2 sqrt(k / m_eff)); without,
-// N is at least 0 and e a little larger (Schwager & Poeschel 2007, Granul. Matter 9, 465).
+// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, where v_n is the closing speed. c is a
+// constant of the contact's kind, as in LAMMPS' hooke/history, or c_1 / sqrt(m_eff), which gives grains of
+// all sizes the same restitution. At the end of contact the dashpot would pull. With attraction it may pull,
+// as in LAMMPS' hooke/history, and a free impact has e = exp(-pi b / sqrt(1 - b^2)), b = c / (2 sqrt(k /
+// m_eff)); Without attraction, N is at least 0 and e is a little larger (Schwager & Poeschel 2007, Granul.
+// Matter 9, 465).
 #if defined(GRAINREEL_LAWS_SPRING_DASHPOT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_SPRING_DASHPOT_INL
 #undef GRAINREEL_LAWS_SPRING_DASHPOT_INL
@@ -24,18 +25,19 @@ struct SpringDashpot {
 
     template <class R>
     struct Parameters {
-        R stiffness;                    // N/m
-        R damping;                      // 1/s, times the effective mass
-        R tangential_damping;           // 1/s, for the tangential law
-        R by_root, tangential_by_root;  // kg^(1/2)/s, over the root of the effective mass: more of both
-        R lowest;                       // N: 0, or so far below that nothing reaches it
+        R stiffness;           // N/m
+        R damping;             // 1/s, to be multiplied by the effective mass
+        R tangential_damping;  // 1/s, for the tangential law
+        R by_root,
+            tangential_by_root;  // kg^(1/2)/s, divided by the root of the effective mass: added to both
+        R lowest;                // N, lower bound of the force: 0, or so low that no force reaches it
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
             visit(stiffness), visit(damping), visit(tangential_damping);
             visit(by_root), visit(tangential_by_root), visit(lowest);
         }
-        // kg/s, of the dashpots, and 1/s, of the first by mass.
+        // Coefficients of the dashpots (kg/s), and the normal one divided by the mass (1/s).
         HWY_INLINE R normal_damping(const Touch<R>& touch) const {
             return damping_rate(touch) * touch.effective_mass;
         }
@@ -45,7 +47,7 @@ struct SpringDashpot {
         }
 
       private:
-        // Most beds have grains of one size a kind, and need no root.
+        // In most beds the grains of a kind have one size, and no root is needed.
         static HWY_INLINE R rate(R fixed, R over_root, const Touch<R>& touch) {
             if (none(over_root > R(0))) return fixed;
             return fixed + over_root * root(touch.inverse_mass);
@@ -63,7 +65,7 @@ struct SpringDashpot {
         HWY_INLINE void each(const Each&) {}
     };
 
-    // N, with attraction negative just before the spheres part.
+    // Normal force (N). With attraction it is negative just before the spheres part.
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
         return now(p, h, touch);
@@ -78,7 +80,7 @@ struct SpringDashpot {
         return p.stiffness * touch.overlap;
     }
 
-    // J, k a^2 / 2.
+    // Stored energy (J), k a^2 / 2.
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>&, const Touch<R>& touch, R) {
         return R(0.5) * p.stiffness * touch.overlap * touch.overlap;

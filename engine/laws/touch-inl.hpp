@@ -1,5 +1,5 @@
-// What a contact law is told of a touching pair (or of a grain and a wall), all at consistent time levels:
-// geometry and velocities at the end of the step, slip and turn over the step.
+// The input of a contact law for a touching pair, or for a grain and a wall. The time levels are consistent:
+// geometry and velocities belong to the end of the step, slip and turn to the whole step.
 #if defined(GRAINREEL_LAWS_TOUCH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_TOUCH_INL
 #undef GRAINREEL_LAWS_TOUCH_INL
@@ -17,22 +17,23 @@ struct Touch {
     Triple<R> normal;    // unit k, from grain i to grain j, or from the grain to the wall
     R overlap;           // m, > 0
     R inverse_mass;      // 1/kg, of the effective mass; set only for laws that use it
-    R effective_mass;    // kg; as above
-    R effective_radius;  // m; as above
+    R effective_mass;    // kg; set only for laws that use it
+    R effective_radius;  // m; set only for laws that use it
     R closing_speed;     // m/s, k . (v_i - v_j), > 0 when approaching; set only for laws that use velocity
     Triple<R> slip;      // m, of i over j at the contact during this step; set only for laws that rub
-    Triple<R> turn;      // Cayley's vector, tan(angle / 2) along the axis, of the contact's turn during this
-                         // step: as k has turned, and about k by the mean of the two bodies; as above
+    Triple<R>
+        turn;  // Cayley's vector, tan(angle / 2) along the axis, of the contact's turn during this step: the
+               // turn of k, and the mean turn of the two bodies about k; set only for laws that rub
     Triple<R> slip_velocity;  // m/s; set only for laws that rub and have a dashpot
     R step;                   // s, between two forces; set only for laws that use velocity
 };
 
-// What an observer is told of a contact's energy.
+// The energies and powers of a contact that an observer gets.
 template <class R>
 struct Energies {
-    R stored;    // J, that it would give back if it were unloaded
+    R stored;    // J, energy that the contact would give back if it were unloaded
     R sideways;  // J, the part of it in tangential and rolling springs
-    R latched;   // J, that latching has taken since the bodies met, if they were unloaded now
+    R latched;   // J, energy that latching would have taken since the bodies met, if they were unloaded now
     R damping;   // W, into the normal dashpot
     R rubbing;   // W, that slip and rolling put into springs, friction and tangential dashpots
 };

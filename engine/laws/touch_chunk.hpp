@@ -1,5 +1,5 @@
-// Contacts on their way through a law, a chunk at a time: small enough for the first-level cache, laid out so
-// that a register takes several at once.
+// Contacts on their way through a law, a chunk at a time. A chunk is small enough for the first-level cache,
+// and laid out so that a register takes several contacts at once.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 namespace grainreel {
 
 constexpr int kBlock = 16;  // histories are kept in blocks of 16 contacts
-constexpr int kChunk = 64;  // contacts
+constexpr int kChunk = 64;  // contacts in a chunk
 
-// A chunk's bits of its first contacts.
+// The bits of a chunk's first `count` contacts.
 inline std::uint64_t bits_of_first(int count) {
     return count < kChunk ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
 }
 
-// A number of each contact: doubles, or floats on the way through a law of mixed precision.
+// One number of each contact of a chunk: doubles, or floats on the way through a law of mixed precision.
 union alignas(64) Row {
     double doubles[kChunk] = {};
     float floats[kChunk];
@@ -35,7 +35,7 @@ union alignas(64) Row {
         return const_cast<Row*>(this)->of<Number>();
     }
     double operator[](int c) const { return doubles[c]; }  // for observers, who get doubles
-    // Number by number, where either may be held.
+    // Gives one number, whether the row holds doubles or floats of `number_size` bytes.
     double get(int c, std::size_t number_size) const {
         return number_size == sizeof(float) ? floats[c] : doubles[c];
     }
@@ -47,7 +47,8 @@ union alignas(64) Row {
     }
 };
 
-// What geometry and motion say of each contact; see Touch for the meaning. Only what the law asks for is set.
+// Geometry and motion of each contact; see Touch for the meaning. Only the rows that the law asks for are
+// set.
 struct TouchChunk {
     Row normal[3];
     Row overlap;                 // m
@@ -57,8 +58,8 @@ struct TouchChunk {
     Row inverse_distance;        // 1/m, of the centres of a pair
     Row inverse_mass;            // 1/kg, of the effective mass
     Row effective_radius;        // m
-    std::uint64_t touching = 0;  // a bit a contact: overlap > 0
-    Ahead* ahead = nullptr;      // fetched by all that works on the chunk meanwhile
+    std::uint64_t touching = 0;  // one bit for each contact: overlap > 0
+    Ahead* ahead = nullptr;      // data to fetch while the chunk is worked on
 
     bool touches(int c) const { return touching >> c & 1; }
     [[gnu::always_inline]] inline void fetch_some() const {
@@ -71,19 +72,19 @@ struct TouchChunk {
 };
 static_assert(kChunk == 64, "a bit for each contact");
 
-// What the law answers; zero where they do not touch.
+// The forces that the law computes; zero for contacts that do not touch.
 struct ForceChunk {
     Row normal;         // N, on j along k
     Row tangential[3];  // N, on j
 };
 
-// What observers are told of each contact's energy; see Energies for the meaning.
+// Energies and powers of each contact for observers; see Energies for the meaning.
 struct alignas(64) EnergyChunk {
     double stored[kChunk] = {}, sideways[kChunk] = {}, latched[kChunk] = {};  // J
     double damping[kChunk] = {}, rubbing[kChunk] = {};                        // W
 };
 
-// Contacts that resist rolling: their motion, and the torque that answers it.
+// The motion of contacts that resist rolling, and the resulting torque.
 struct RollingChunk {
     Row rate[3];    // rad/s, spin of i against j, across k
     Row torque[3];  // N m, on j, the opposite on i

@@ -2,10 +2,10 @@
 //
 //   N = max(0, min(K1 a, K2 (a - a0))),   a0 = a_max (1 - K1/K2),   e = sqrt(K1/K2) at any speed
 //
-// Loading goes up slope K1, unloading down K2 to the residual overlap a0, reloading up K2 until it meets K1
-// again. Between 0 and a0 the force is zero. The residual is forgotten when the spheres part. Some codes
-// lower a0 when a contact reloads from inside that gap; the min() rule of the original program does not, nor
-// do we.
+// Loading follows slope K1. Unloading follows K2 down to the residual overlap a0, and reloading follows K2 up
+// until it meets K1 again. Between 0 and a0 the force is zero. The residual is forgotten when the spheres
+// part. Some codes lower a0 when a contact reloads from inside that gap; the min() rule of the original
+// program does not, and this code does not either.
 #if defined(GRAINREEL_LAWS_WALTON_BRAUN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_WALTON_BRAUN_INL
 #undef GRAINREEL_LAWS_WALTON_BRAUN_INL
@@ -48,7 +48,7 @@ struct WaltonBraun {
         }
     };
 
-    // N, >= 0.
+    // Normal force (N), >= 0.
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
         h.largest_overlap = larger(h.largest_overlap, touch.overlap);
@@ -60,23 +60,24 @@ struct WaltonBraun {
         return larger(R(0), smaller(p.loading * touch.overlap, p.unloading * (touch.overlap - residual)));
     }
 
-    // J, what unloading from here gives back: N^2 / (2 K2).
+    // Energy (J) that unloading from here gives back: N^2 / (2 K2).
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>&, const Touch<R>&,
                                       R normal_force) {
         return normal_force * normal_force / (R(2) * p.unloading);
     }
-    // J, the area between the slopes up to a_max and back: K1 (1 - K1/K2) a_max^2 / 2.
+    // Latched energy (J), the area between the slopes up to a_max and back: K1 (1 - K1/K2) a_max^2 / 2.
     template <class R>
     static HWY_INLINE R latched_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&) {
         return R(0.5) * p.loading * p.residual_share * h.largest_overlap * h.largest_overlap;
     }
 };
 
-// What the laws share whose unloading slope depends on the largest overlap: Law::unloading says how.
+// Shared part of the laws whose unloading slope depends on the largest overlap. Law::unloading() gives the
+// slope.
 template <class Law>
 struct HardeningSpring {
-    // N, >= 0.
+    // Normal force (N), >= 0.
     template <class P, class H, class R>
     static HWY_INLINE R force(const P& p, H& h, const Touch<R>& touch) {
         h.largest_overlap = larger(h.largest_overlap, touch.overlap);
@@ -89,12 +90,12 @@ struct HardeningSpring {
             Law::unloading(p, h, touch) * (touch.overlap - h.largest_overlap) + p.loading * h.largest_overlap;
         return larger(R(0), smaller(p.loading * touch.overlap, down));
     }
-    // J, what unloading from here gives back: N^2 / (2 K2).
+    // Energy (J) that unloading from here gives back: N^2 / (2 K2).
     template <class P, class H, class R>
     static HWY_INLINE R stored_energy(const P& p, const H& h, const Touch<R>& touch, R normal_force) {
         return normal_force * normal_force / (R(2) * Law::unloading(p, h, touch));
     }
-    // J, the area between the slopes up to a_max and back: K1 (1 - K1/K2) a_max^2 / 2.
+    // Latched energy (J), the area between the slopes up to a_max and back: K1 (1 - K1/K2) a_max^2 / 2.
     template <class P, class H, class R>
     static HWY_INLINE R latched_energy(const P& p, const H& h, const Touch<R>& touch) {
         const R share = R(1) - p.loading / Law::unloading(p, h, touch);

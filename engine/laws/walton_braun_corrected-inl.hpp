@@ -1,13 +1,14 @@
-// Normal force: Walton and Braun's latching spring, with what a step leaves out at its kinks put back. Four
-// corrections, which help only together (each alone can make things worse, for the errors partly cancel):
+// Normal force: Walton and Braun's latching spring, with corrections for the errors that a finite step makes
+// at its kinks. The four corrections help only together. Each alone can make the error larger, because the
+// errors partly cancel:
 //
 //   onset   the first force acts for the time s = a / v the grains have touched, not for half a step
 //   peak    the largest overlap is that of the harmonic motion, sqrt(a^2 + m v^2 / K1), not of a sample
 //   exit    the last force leaves the speed of the harmonic exit, sqrt(v^2 + K2 (a - a0)^2 / m)
 //   K2      1/K2' = e^2/K1 + (1 - e^2) dt^2 / (4 m), which takes back what the step does to the loop's area
 //
-// They take the contact for the only one its grains have, and are right to second order where it is not. For
-// velocity Verlet, whose v is that of the middle of the step.
+// The corrections assume that the grains have no other contact, and are right to second order where they have
+// others. They are for velocity Verlet, whose v belongs to the middle of the step.
 #if defined(GRAINREEL_LAWS_WALTON_BRAUN_CORRECTED_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_WALTON_BRAUN_CORRECTED_INL
 #undef GRAINREEL_LAWS_WALTON_BRAUN_CORRECTED_INL
@@ -46,7 +47,7 @@ struct WaltonBraunCorrected {
     template <class R>
     struct History {
         R largest_overlap;  // m, a_max since the spheres met
-        R peak;             // m, that the harmonic motion will reach
+        R peak;             // m, overlap that the harmonic motion will reach
         R softness;         // m/N, 1/K2'
 
         template <class Each>
@@ -55,7 +56,8 @@ struct WaltonBraunCorrected {
         }
     };
 
-    // s, of the step, that the grains have touched: all of it but in a contact's first.
+    // Time (s) of the step for which the grains have touched. It is the whole step except in the first step
+    // of a contact.
     template <class R>
     static HWY_INLINE R touched(const History<R>& h, const Touch<R>& touch) {
         const R v = touch.closing_speed, dt = touch.step;
@@ -64,9 +66,9 @@ struct WaltonBraunCorrected {
         const R since = select(v > R(0), smaller(dt, touch.overlap / v), dt);
         return select(begins, since, dt);
     }
-    // N, >= 0: over the step about the time of this overlap. (Divisions and roots were most of its time:
-    // masses and stiffnesses divide by their inverses, and what only some contacts want waits until one
-    // does.)
+    // Normal force (N), >= 0, over the step around the time of this overlap. (Divisions and roots took most
+    // of the time. So the inverses of masses and stiffnesses are stored, and terms that only some contacts
+    // need are computed only if one of the contacts needs them.)
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
         const R by_mass = touch.inverse_mass, dt = touch.step, by_step = R(1) / dt;
@@ -77,13 +79,13 @@ struct WaltonBraunCorrected {
         h.largest_overlap = select(loads, a, larger(h.largest_overlap, h.peak));
 
         const R spring = now(p, h, touch);
-        const R before = R(0.5) * spring * met;  // N s, up to now
+        const R before = R(0.5) * spring * met;  // N s, impulse up to now
         const R speed = v - before * by_mass;    // m/s, now
         if (!none(loads)) {
             const R peak = root(a * a + speed * speed * (p.compliance / by_mass));
             h.peak = select(loads, peak, h.peak);
         }
-        const R whole = before + R(0.5) * spring * dt;  // N s, of the step
+        const R whole = before + R(0.5) * spring * dt;  // N s, impulse of the step
         const R rest = a - residual(p, h);              // m, to the end of the force
         const auto steps = dt > R(0), leaves = (rest + dt * (v - whole * by_mass) < R(0)) & (spring > R(0));
         const R over_the_step = select(steps, whole * by_step, spring);
@@ -98,20 +100,20 @@ struct WaltonBraunCorrected {
         return larger(R(0), smaller(p.loading * touch.overlap, down));
     }
 
-    // J, what unloading from here gives back: N^2 / (2 K2).
+    // Energy (J) that unloading from here gives back: N^2 / (2 K2).
     template <class R>
     static HWY_INLINE R stored_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&,
                                       R normal_force) {
         return R(0.5) * normal_force * normal_force * larger(h.softness, p.give_back);
     }
-    // J, K1 a0 a_max / 2: the area between the slopes up to a_max and back.
+    // Latched energy (J), the area between the slopes up to a_max and back: K1 a0 a_max / 2.
     template <class R>
     static HWY_INLINE R latched_energy(const Parameters<R>& p, const History<R>& h, const Touch<R>&) {
         return R(0.5) * p.loading * residual(p, h) * h.largest_overlap;
     }
 
   private:
-    // m: a0 = a_max (1 - K1 / K2').
+    // Residual overlap (m), a0 = a_max (1 - K1 / K2').
     template <class R>
     static HWY_INLINE R residual(const Parameters<R>& p, const History<R>& h) {
         return h.largest_overlap * (R(1) - p.loading * larger(h.softness, p.give_back));

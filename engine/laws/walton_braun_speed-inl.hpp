@@ -1,5 +1,6 @@
 // Normal force: Walton and Braun's latching spring with a restitution that falls with speed (Walton & Braun
-// 1986, J. Rheol. 30, 949). As walton_braun-inl.hpp, but the unloading slope grows with the largest force:
+// 1986, J. Rheol. 30, 949). It is the law of walton_braun-inl.hpp, but the unloading slope grows with the
+// largest force:
 //
 //   K2 = K1 + S F_max,   F_max = K1 a_max,   e(v) = sqrt(w0 / (w0 + S v)),   w0 = sqrt(K1 / m_eff)
 //
@@ -40,16 +41,16 @@ struct WaltonBraunSpeed : HardeningSpring<WaltonBraunSpeed> {
     template <class R>
     using History = WaltonBraun::History<R>;
 
-    // N/m, K2.
+    // Unloading slope K2 (N/m).
     template <class R>
     static HWY_INLINE R unloading(const Parameters<R>& p, const History<R>& h, const Touch<R>&) {
         return p.unloading + p.hardening * h.largest_overlap;
     }
 };
 
-// Normal force: Walton and Braun's latching spring with a restitution from a table e(v). As
+// Normal force: Walton and Braun's latching spring with a restitution from a table e(v). It is the law of
 // walton_braun-inl.hpp, but K2 = K1 / e(v)^2 with the speed v = a_max sqrt(K1 / m_eff) of a free impact that
-// reaches the largest overlap so far. Straight lines between the rows, constant beyond.
+// reaches the largest overlap so far. e(v) is linear between the rows of the table, and constant beyond them.
 
 struct WaltonBraunTable : HardeningSpring<WaltonBraunTable> {
     static constexpr bool has_dashpot = false, uses_velocity = false, uses_mass = true, uses_radius = false;
@@ -87,7 +88,7 @@ struct WaltonBraunTable : HardeningSpring<WaltonBraunTable> {
     template <class R>
     using History = WaltonBraun::History<R>;
 
-    // N/m, K2.
+    // Unloading slope K2 (N/m).
     template <class R>
     static HWY_INLINE R unloading(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch) {
         const R speed = h.largest_overlap * root(p.loading / touch.effective_mass);
