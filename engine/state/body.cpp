@@ -23,14 +23,14 @@ std::vector<Body> bodies_of(const Scene& scene) {
     return bodies;
 }
 
-// Before the motion starts (time 0) nothing has moved. A turn comes before the displacement.
+// Before the motion starts (time 0) nothing has moved. The body is turned first, then displaced.
 BodyPose Body::at(const Pose& drive) const {
     BodyPose pose{place_at(drive), Quaternion::Identity(), velocity_at(drive), Vec3(0, 0, 0)};
     if (turn) {
         pose.rotation = Quaternion(Eigen::AngleAxisd(turn->angle_at(drive.time), turn->axis));
         pose.spin = turn->rate_at(drive.time) * turn->axis;
         const Vec3 arm =
-            pose.rotation * turn->through;  // from the axis' point to the origin, but for its sign
+            pose.rotation * turn->through;  // minus the vector from the axis' point to the origin
         pose.place += turn->through - arm;
         pose.velocity -= pose.spin.cross(arm);
     }

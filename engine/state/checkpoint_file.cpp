@@ -17,7 +17,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::string_view kName = "grainrs";  // of every version, whose digit follows
+constexpr std::string_view kName = "grainrs";  // the same in every version; the version's digit follows
 constexpr char kVersion = 'b';
 
 template <class Grain, class Each>
@@ -32,13 +32,13 @@ bool read_whole(const std::filesystem::path& path, std::string& bytes) {
     const std::uintmax_t size = std::filesystem::file_size(path, failed);
     try {
         bytes.assign(failed ? 0 : size, '\0');
-    } catch (const std::exception&) {  // a file that says it is larger than memory
+    } catch (const std::exception&) {  // a damaged size that is larger than memory
         return false;
     }
     return !failed && in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-// Cuts off name, version and checksum, once these are right.
+// Cuts off name, version and checksum if these are right.
 CheckpointFile::Fault take_prologue(std::string_view& bytes) {
     if (bytes.size() > kName.size() && bytes[kName.size()] != kVersion)
         return CheckpointFile::Fault::other_version;
@@ -51,7 +51,7 @@ CheckpointFile::Fault take_prologue(std::string_view& bytes) {
                                                        : CheckpointFile::Fault::damaged;
 }
 
-// As many values of each kind as there are grains.
+// Whether there are as many values of each kind as grains.
 bool has_all_values(const Grains& g) {
     const auto all = [&](const auto& values) { return values.size() == g.size(); };
     return all(g.species) && all(g.place) && all(g.motion) && all(g.load) && all(g.wall_work) &&

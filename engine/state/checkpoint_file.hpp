@@ -1,5 +1,5 @@
 // The file of a checkpoint: name, version and checksum, the scene, the grains, and behind them the state of
-// the step loop. That part is bytes here, so that grains can be read where there are no laws.
+// the step loop. That state is kept as bytes here, so that grains can be read without any contact laws.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ namespace grainreel {
 
 struct CheckpointHeader {
     std::int64_t step = 0;
-    double start_energy = 0;  // J, of the balance
+    double start_energy = 0;  // J, energy at the start of the balance
     Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
 };
 
-// Whether a file is a checkpoint, of this version or another; and whether a file that begins with these bytes
-// is one.
+// is_checkpoint() says whether a file is a checkpoint, of this version or another. begins_checkpoint() says
+// so for a file that begins with these bytes.
 bool is_checkpoint(const std::filesystem::path& path);
 bool begins_checkpoint(std::string_view bytes);
 
-// What a checkpoint says of itself, without looking at the rest: its step, and the scene as it was used.
-// None where there is no such file, or it is of another version or cut off.
+// The step of a checkpoint and the scene as it was used, read without the rest of the file. There is no label
+// if the file does not exist, is cut off or has another version.
 struct CheckpointLabel {
     std::int64_t step = 0;
     std::string scene;
@@ -34,7 +34,7 @@ struct CheckpointLabel {
 };
 std::optional<CheckpointLabel> label_of_checkpoint(const std::filesystem::path& path);
 
-// Whether it has the bytes that were written, by its checksum.
+// Whether the file has the bytes that were written, by its checksum.
 bool is_whole_checkpoint(const std::filesystem::path& path);
 
 // A checkpoint that was read whole. Its grains are not checked here; the code that uses them does that.
@@ -42,7 +42,7 @@ class CheckpointFile {
   public:
     enum class Fault { none, unreadable, other_version, damaged };
 
-    // Never throws: what is wrong is in fault(), and there is nothing else then.
+    // Never throws. If something is wrong, fault() says what, and nothing else is set.
     explicit CheckpointFile(const std::filesystem::path& path);
     CheckpointFile(CheckpointFile&&) = default;
     CheckpointFile& operator=(CheckpointFile&&) = delete;
@@ -52,9 +52,9 @@ class CheckpointFile {
     std::string scene;  // as text
     CheckpointHeader header;
     bool fresh = false;
-    std::string gathered;  // by observers
+    std::string gathered;  // data that observers have gathered
     Grains grains;
-    // What the step loop keeps.
+    // The bytes of the step loop's state.
     std::string_view rest() const { return rest_; }
 
   private:
@@ -65,10 +65,11 @@ class CheckpointFile {
     Fault fault_ = Fault::none;
 };
 
-// The grains as the file has them.
+// Writes the grains in the format of the file.
 void write_grains(std::ostream& out, const Grains& grains);
 
-// body: all that follows the checksum. To a temporary name, then renamed. Throws RunError.
+// Writes a checkpoint under a temporary name and then renames it. `body` is everything that follows the
+// checksum. Throws RunError.
 void write_checkpoint_file(const std::filesystem::path& path, const std::string& body);
 
 }  // namespace grainreel

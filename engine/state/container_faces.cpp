@@ -72,7 +72,7 @@ Vec3 velocity_of(const Face& face, const Pose& drive, const Vec3& point) {
     return face.body.has_own_motion() ? face.body.at(drive).velocity_at(point) : face.velocity_at(drive);
 }
 
-// A mesh is the wall of its vessel, which has no faces then.
+// If the container is a mesh, the mesh is its wall, and there are no faces.
 std::vector<Face> container_faces(const Container& container, const Drive& drive) {
     std::vector<Face> faces;
     if (container.shape == Container::Shape::none || container.shape == Container::Shape::mesh) return faces;
@@ -131,7 +131,7 @@ std::vector<Face> tray_faces(const Scene& scene) {
         face.name = "tray " + face.name;
         face.body = {kTrayBody, false, Vec3(0, 0, 0)};
         face.point += down;
-        if (face.kind == Face::Kind::plane && face.normal.z() != 0) continue;  // the floor
+        if (face.kind == Face::Kind::plane && face.normal.z() != 0) continue;  // not the floor
         face.ends = true;
         face.along = Vec3(0, 0, -1);
         face.edge = face.point;
@@ -142,9 +142,10 @@ std::vector<Face> tray_faces(const Scene& scene) {
 
 namespace {
 
-// m: as wide as a gap that leaves nothing of the floor. Then the walls' lower edges are those of the outlet.
+// Width (m) of a gap that leaves nothing of the floor. The walls' lower edges are then the edges of the
+// outlet.
 constexpr double kNoFloorLeft = 1e9;
-// Relative: of the floor that rounding leaves where the scene says the same width twice.
+// Relative width of the floor that rounding may leave where outlet and floor are equally wide in the scene.
 constexpr double kRounding = 1e-9;
 
 void open_floor(const Container& container, Face& floor) {
@@ -158,7 +159,8 @@ void open_floor(const Container& container, Face& floor) {
         floor.gap = kNoFloorLeft;
 }
 
-// Vertical walls end at the floor, those of a wedge where the slants begin, and the slants at the floor.
+// Vertical walls end at the floor. In a wedge they end where the slants begin, and the slants end at the
+// floor.
 void end_wall(const Container& container, Face& wall) {
     wall.ends = true;
     wall.along = Vec3(0, 0, 1);

@@ -12,11 +12,12 @@ namespace grainreel {
 
 namespace {
 
-// A face as a rectangle, rolled up for a cylinder's wall. Of a face that is no rectangle it holds more.
+// A face as a rectangle, which is rolled up for a cylinder's wall. If the face is no rectangle, this one
+// covers more than the face.
 struct Patch {
     double length = 0, height = 0;                   // m
-    bool closed = false;                             // its end along the length is its beginning
-    std::function<Vec3(double, double)> point;       // m, at a distance along length and height
+    bool closed = false;                             // true if its end along the length meets its beginning
+    std::function<Vec3(double, double)> point;       // m, point at a distance along length and height
     std::function<bool(const Vec3&, double)> holds;  // whether a grain of this radius (m) may stand there
 };
 
@@ -46,7 +47,7 @@ Patch side_patch(const Container& c, const Face& face) {
     return patch;
 }
 
-// Front or back.
+// The patch of the front or the back.
 Patch end_patch(const Container& c, const Face& face) {
     Patch patch;
     const double x = face.point.x(), wide = c.half_width;
@@ -63,7 +64,7 @@ bool clear_of_outlet(const Container& c, const Vec3& at, double radius) {
     return (slot ? std::abs(at.y()) : std::hypot(at.x(), at.y())) >= c.outlet->half_width + radius;
 }
 
-// Floor or lid.
+// The patch of the floor or the lid.
 Patch level_patch(const Container& c, const Face& face) {
     Patch patch;
     const bool round = c.shape == Container::Shape::cylinder, floor = face.body.number == kFloorBody;
@@ -99,7 +100,8 @@ Patch patch_of(const Container& c, const Face& face) {
     return face.normal.y() != 0 ? side_patch(c, face) : level_patch(c, face);
 }
 
-// Whole numbers of rows and of grains in a row, so that the lattice fits the patch.
+// Fills a patch with glued grains. The numbers of rows and of grains in a row are whole, so that the lattice
+// fits the patch.
 void fill(const Patch& patch, const Scene& scene, const Face& face, std::int32_t number, Random& random,
           GluedGrains& glued) {
     const WallGrains& layer = *scene.container.wall_grains;

@@ -34,8 +34,9 @@ void Grains::set_radius(std::size_t i, double radius, double density) {
 
 namespace {
 
-// values[i] = values[order[i]], of each value the bytes [offset, offset + size): those of a member's part
-// into its part of the room, in their new order, and when all have come back from there.
+// Sets values[i] = values[order[i]], but only the bytes [offset, offset + size) of each value. Each member
+// copies its part into its part of the room in the new order. When all members have done so, it copies the
+// part back.
 template <std::size_t offset, std::size_t size, class Value>
 void reorder_bytes(Value* values, const std::vector<std::int32_t>& order, LargeArray<Load>& room,
                    const TeamMember& me) {

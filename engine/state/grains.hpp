@@ -1,5 +1,5 @@
 // The grains as the step loop holds them: arrays in spatial order, reordered at each rebuild of the
-// neighbour list. `id` tells who a grain is; its index does not.
+// neighbour list. `id` identifies a grain; its index does not.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace grainreel {
 
-// Records of 32 bytes or two such: one aligned load a grain for each kind of access the contact pass makes,
-// and motion and load side by side, number by number, for the integration.
+// Records have 32 or 64 bytes. The contact pass so needs one aligned load per grain for each kind of access.
+// Motion and load have the same layout, number by number, for the integration.
 struct alignas(32) Place {
     Vec3 position;  // m
     double radius;  // m
@@ -24,14 +24,14 @@ struct alignas(64) Motion {
     double inverse_inertia;  // 1/(kg m2)
 };
 
-// What mixed precision reads of a grain's motion: kept by the step loop, against a frame in free flight, so
-// that little is lost by rounding.
+// The motion of a grain as mixed precision reads it. The step loop keeps it relative to a frame in free
+// flight, so that little is lost by rounding.
 struct alignas(32) RoundedMotion {
     float velocity[3], inverse_mass;  // m/s, 1/kg
     float spin[3], radius;            // rad/s, m
 };
 
-// Force and torque of the last evaluation, gravity left out.
+// Force and torque of the last evaluation, without gravity.
 struct alignas(64) Load {
     Vec3 force{0, 0, 0};  // N
     double zero = 0;
@@ -45,7 +45,7 @@ struct Derivatives {
     Vec3 spin_acceleration{0, 0, 0}, spin_jerk{0, 0, 0};  // rad/s2, rad/s3
 };
 
-// Grains: from so many on they do not stay in a processor's own cache.
+// Number of grains from which on they do not stay in a processor's own cache.
 constexpr std::size_t kLargeBed = 50'000;
 
 struct Grains {
@@ -54,25 +54,25 @@ struct Grains {
     LargeArray<Place> place;
     LargeArray<Motion> motion;
     LargeArray<Load> load;
-    LargeArray<RoundedMotion> rounded;     // empty unless a law wants it
+    LargeArray<RoundedMotion> rounded;     // empty unless a law reads it
     LargeArray<double> wall_work;          // J, done by moving walls on this grain since the drive started
     std::vector<Quaternion> orientation;   // empty unless asked for
     std::vector<Derivatives> derivatives;  // empty unless the integrator has them
 
     std::size_t size() const { return id.size(); }
 
-    // Room for so many.
+    // Makes room for `count` grains.
     void reserve(std::size_t count);
-    // A grain at rest; density kg/m3.
+    // Adds a grain at rest; `density` is in kg/m3.
     void add(std::int32_t grain_id, std::int32_t grain_species, const Vec3& position, double radius,
              double density);
-    // Mass and inertia of a solid sphere follow the radius.
+    // Sets the radius (m), and with it mass and inertia of a solid sphere; `density` is in kg/m3.
     void set_radius(std::size_t i, double radius, double density);
     double mass(std::size_t i) const { return 1 / motion[i].inverse_mass; }
     double inertia(std::size_t i) const { return 1 / motion[i].inverse_inertia; }
 
-    // order[new index] = old index. All members of a team call it. The loads must have been used up: they
-    // lend their room.
+    // Puts the grains in a new order: order[new index] = old index. All members of a team call it. The loads
+    // must have been used up, because their memory serves as room for the copies.
     void reorder(const std::vector<std::int32_t>& order, const TeamMember& me);
 };
 

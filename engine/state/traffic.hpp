@@ -11,17 +11,17 @@
 
 namespace grainreel {
 
-// A region in which no grain stays: one whose centre is in it at the end of a step leaves in that step. The
-// region is convex, and one half-space is a plane that grains leave through.
+// A region in which no grain stays: a grain whose centre is in it at the end of a step leaves in that step.
+// The region is convex. With one half-space, grains leave through its plane.
 struct Exit {
     // The points p with normal . p < distance.
     struct HalfSpace {
         Vec3 normal{0, 0, 1};  // unit
         double distance = 0;   // m
     };
-    std::vector<HalfSpace> sides;  // all of them hold; none: no exit
+    std::vector<HalfSpace> sides;  // the region is where all of them overlap; without any there is no exit
 
-    // reach: m, by which every side is moved outwards.
+    // Whether the region holds a centre, if every side is moved outwards by `reach` (m).
     bool holds(const Vec3& centre, double reach = 0) const {
         return !sides.empty() && std::all_of(sides.begin(), sides.end(), [&](const HalfSpace& side) {
             return side.normal.dot(centre) < side.distance + reach;
@@ -29,7 +29,7 @@ struct Exit {
     }
 };
 
-// All that is below a height; m.
+// The region below a height (m).
 inline Exit exit_below(double height) {
     return {{{Vec3(0, 0, 1), height}}};
 }
@@ -49,19 +49,21 @@ struct NewGrain {
     Vec3 position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};  // m, m/s, rad/s
 };
 
-// The account: what a run had at its start, plus what came, less what left, is what it has.
+// The account of a run: what it had at its start, plus what came, less what left, is what it has now.
 struct Traffic {
     std::int64_t came = 0, left = 0;
-    double energy_in = 0, energy_out = 0;  // J, as of a Departure; what an outlet's gate held went out too
-    double work_out = 0;                   // J, that moving walls had done on grains that have left
-    std::int64_t next_id = 0;              // above all ids that there were, as far as grains came or left
-    std::int64_t openings = 0;             // of outlets
+    double energy_in = 0,
+           energy_out = 0;      // J, as in Departure; energy stored at an outlet's gate counts as gone out
+    double work_out = 0;        // J, work that moving walls had done on grains that have left
+    std::int64_t next_id = 0;   // above all ids so far, once a grain has come or left
+    std::int64_t openings = 0;  // number of outlets that have opened
 
     bool any() const { return came != 0 || left != 0 || next_id != 0 || openings != 0; }
 };
 
-// The n-th grain that a feed gives, all but its place. Scene and seed settle it, so that the number of grains
-// that have come tells which ones have come. feed: which of the scene's; number: from 0.
+// A grain of a feed, without its place. `feed` is the number of the feed in the scene, and `number` is the
+// grain's number in the feed, from 0. Scene and seed determine the grain, so the number of grains that have
+// come tells which ones have come.
 NewGrain fed_grain(const Scene& scene, std::size_t feed, std::int64_t number);
 
 }  // namespace grainreel

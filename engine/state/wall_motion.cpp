@@ -53,8 +53,8 @@ WallMotion::Motion WallMotion::before_stages(std::int64_t step, double share_of_
             amplitude_ * (share * angular_frequency_ * cosine + share_rate * sine)};
 }
 
-// A step that begins in one stretch and ends in the next goes by the first of them: they agree where they
-// meet, in place, velocity and acceleration.
+// A step that begins in one stretch and ends in the next follows the first of them. Where two stretches meet,
+// they agree in place, velocity and acceleration.
 WallMotion::Motion WallMotion::in_stretch(std::size_t index, std::int64_t step, double share_of_step) const {
     const DriveSchedule::Piece& piece = pieces_[index];
     const PeriodStretch& stretch = clock_.changes.stretches()[index];
