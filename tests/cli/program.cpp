@@ -32,7 +32,7 @@ void limit(int resource, rlim_t most) {
     if (most > 0) ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-// In the child, between fork and exec.
+// Runs in the child, between fork and exec.
 void become_program(const std::vector<std::string>& words, const Program::Setting& setting, const char* out,
                     const char* err) {
     ::dup2(::open(out, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
@@ -43,7 +43,7 @@ void become_program(const std::vector<std::string>& words, const Program::Settin
     }
     ::dup2(::open(err, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     if (::chdir(setting.folder.c_str()) != 0) ::_exit(127);
-    // Not the tester's own cache; all tests together measure the machine once.
+    // The cache is not the tester's own one; all tests together measure the machine once.
     const std::filesystem::path cache = std::filesystem::temp_directory_path() / "grainreel-test-cache";
     ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
     ::setenv("GRAINREEL_PACKINGS", "off", 1);
@@ -78,7 +78,7 @@ Program::~Program() {
 }
 
 void Program::send(int signal) const {
-    if (process_ > 0) ::kill(process_, signal);  // -1, when it has ended, would be every process there is
+    if (process_ > 0) ::kill(process_, signal);  // -1, after the end, would mean every process there is
 }
 
 bool Program::running() {

@@ -1,4 +1,4 @@
-// The program as its users meet it: started with words, sent signals, read through its pipes.
+// The program as its users meet it: started with words, stopped by signals, and read through its outputs.
 #pragma once
 
 #include <sys/types.h>
@@ -18,14 +18,15 @@ struct Ended {
 class Program {
   public:
     struct Setting {
-        std::filesystem::path folder = ".";      // to run in
-        std::vector<std::string> environment{};  // NAME=value, beside the test's own
-        std::size_t file_size_limit = 0;         // bytes, of every file it writes; 0: none
-        std::size_t memory_limit = 0;            // bytes, of its addresses; 0: none
-        int seconds_limit = 0;                   // s, of processor time, then SIGXCPU ends it; 0: none
-        bool hang_up_ignored = false;            // SIGHUP, as under nohup; whatever the test itself inherits
-        std::filesystem::path out{};             // takes stdout in place of Ended::out
-        bool out_closed = false;                 // stdout is a pipe whose reader has ended
+        std::filesystem::path folder = ".";      // where it runs
+        std::vector<std::string> environment{};  // NAME=value, in addition to the test's own
+        std::size_t file_size_limit = 0;         // bytes, for every file that it writes; 0: none
+        std::size_t memory_limit = 0;            // bytes, for its addresses; 0: none
+        int seconds_limit = 0;                   // s of processor time, after which SIGXCPU ends it; 0: none
+        bool hang_up_ignored =
+            false;  // whether SIGHUP is ignored, as under nohup; the test's own setting does not matter
+        std::filesystem::path out{};  // takes stdout in place of Ended::out
+        bool out_closed = false;      // stdout is a pipe whose reader has ended
     };
 
     // Starts the program with these words after its name.
@@ -43,13 +44,13 @@ class Program {
 
     pid_t process_ = -1;
     int status_ = -1;
-    std::filesystem::path out_, err_;  // its two streams go to files: no pipe to fill up
+    std::filesystem::path out_, err_;  // its outputs go to files, because a pipe could fill up
 };
 
 // Starts it and waits for its end.
 Ended run_program(const std::vector<std::string>& words, const Program::Setting& setting);
 
-// Waits until `condition` holds or the program has ended; says whether it holds.
+// Waits until `condition` holds or the program has ended. Returns whether it holds.
 bool wait_until(Program& program, const std::function<bool()>& condition);
 
 }  // namespace grainreel::test

@@ -1,4 +1,4 @@
-// The line on segregation at the end of a run.
+// Tests of the line on segregation at the end of a run.
 #include "engine/run/folder/scene_folder_run.hpp"
 
 #include <gmock/gmock.h>
@@ -40,7 +40,7 @@ TEST(SegregationText, SpeaksOfTheLargestAndTheSmallestSpecies) {
               "probability that b lies above c from 0.00 to 0.75 (1/2 is mixed); "
               "unlike neighbours over chance from 0.10 to 0.70 (1 is mixed); "
               "Lacey mixing index from 0.20 to 0.90 (1 is mixed)");
-    // Where species have one size, the first counts as big, as in measures.csv.
+    // If species have the same size, the first counts as big, as in measures.csv.
     EXPECT_THAT(segregation_text(of_sizes({1, 1}), indices(0, 0, 0, 0), indices(0, 0, 0, 0), "the last row"),
                 testing::HasSubstr("height of a minus b"));
 }
@@ -68,7 +68,7 @@ Measures row(double step, double value) {
     return {names, {step, value}};
 }
 
-// Eight rows a period that swing by 1 about a value which rises by 0.1 a period.
+// There are eight rows a period that vary by 1 about a value, which rises by 0.1 a period.
 TEST(LateMeansOfARun, AreOverWholePeriods) {
     const Clock clock{1e-3, 80, 0};
     LateMeans late(clock, 3);

@@ -1,4 +1,4 @@
-// The meshes that come with the program.
+// Tests of the meshes that come with the program.
 #include "engine/mesh/shipped/shipped_meshes.hpp"
 
 #include <gmock/gmock.h>

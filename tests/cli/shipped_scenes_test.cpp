@@ -1,4 +1,4 @@
-// The scenes that come with the program: listed, copied, run by name.
+// Tests of the scenes that come with the program: they are listed, copied and run by name.
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "engine/measure/columns.hpp"
 
@@ -49,7 +49,7 @@ TEST(ShippedScenes, AreFoundByNameAndByWordsOfIt) {
     EXPECT_EQ(nearest_shipped_scene("/nowhere"), std::nullopt);
 }
 
-// The first sentence: a full stop inside a number does not end it.
+// The first sentence is shown; a full stop inside a number does not end it.
 TEST(ShippedScenes, AreToldByTheFirstSentenceOfTheirComment) {
     EXPECT_EQ((ShippedScene{"a", "# Grains of 0.5 mm\n#   fall. They rest.\n\ntitle = 1\n"}.about()),
               "Grains of 0.5 mm fall");

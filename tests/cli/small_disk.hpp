@@ -11,7 +11,7 @@ namespace grainreel::test {
 
 class SmallDisk {
   public:
-    // On a folder that is there. Seen by this process and those that it starts.
+    // Lays the disk over an existing folder. This process and those that it starts see it.
     SmallDisk(const std::filesystem::path& folder, std::size_t bytes) : folder_(folder) {
         mounted_ =
             ::unshare(CLONE_NEWNS) == 0 &&
@@ -24,7 +24,7 @@ class SmallDisk {
     SmallDisk(const SmallDisk&) = delete;
     SmallDisk& operator=(const SmallDisk&) = delete;
 
-    bool mounted() const { return mounted_; }  // false where that is not allowed
+    bool mounted() const { return mounted_; }  // false where mounting is not allowed
 
   private:
     std::filesystem::path folder_;

@@ -1,4 +1,4 @@
-// An empty folder for one test, gone afterwards.
+// An empty folder for one test, which is removed afterwards.
 #pragma once
 
 #include <chrono>
@@ -40,7 +40,7 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
     std::ofstream(path, std::ios::binary) << text;
 }
 
-// As if it had been there for an hour: nobody waits for the rest of it.
+// Writes a file that seems an hour old, so that no reader waits for the rest of it.
 inline void write_old_text(const std::filesystem::path& path, const std::string& text) {
     write_text(path, text);
     std::filesystem::last_write_time(path,

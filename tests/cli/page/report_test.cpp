@@ -1,5 +1,5 @@
-// `grainreel report` from the outside: a finished run as a page. What the page does in a browser:
-// tests/browser.
+// Tests of `grainreel report` as a user sees it: a finished run as a page. What the page does in a browser is
+// tested in tests/browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST_F(ReportProgram, MakesOnePageWithWordsFirstAndBytesLast) {
     for (const char* chapter :
          {"What was computed", "Methods", "BibTeX", "Where it comes from", "scene.toml"})
         EXPECT_THAT(page, HasSubstr(chapter));
-    // Nothing comes from elsewhere: the sources' links are the page's own files.
+    // Nothing comes from other places: the sources' links lead to the page's own files.
     for (const char* elsewhere : {"src=\"http", "href=\"http", "@import", "url(http"})
         EXPECT_THAT(page, Not(HasSubstr(elsewhere)));
 }
@@ -66,19 +66,19 @@ TEST_F(ReportProgram, EachRunLeavesItsPage) {
     const std::string first = text_of(here / "run/report.html");
     EXPECT_THAT(first, HasSubstr("id=\"film-bytes\""));
     EXPECT_THAT(first, HasSubstr("id=\"bed-bytes\""));
-    EXPECT_THAT(first, Not(HasSubstr("what it kept until then")));  // the run is complete by then
+    EXPECT_THAT(first, Not(HasSubstr("what it kept until then")));  // the run is complete at that time
     const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
     EXPECT_EQ(record["written"]["page"], "report.html");
     EXPECT_EQ(record["status"], "complete");
     EXPECT_TRUE(record["wall_s"].contains("making the page"));
-    // A run that has one can be replaced, and the new one has none when it is not to.
+    // A run with a page can be replaced, and the new run has none if it is told so.
     const Ended again = program({"movie", "fifty.toml", "--out", "run", "--force", "--no-report"});
     ASSERT_EQ(again.status, 0) << again.err;
     EXPECT_FALSE(fs::exists(here / "run/report.html"));
     EXPECT_TRUE(nlohmann::json::parse(text_of(here / "run/run.json"))["written"]["page"].is_null());
 }
 
-// Beside each other: where one of them has meshes.
+// Runs beside each other have the script if one of them has meshes.
 TEST_F(ReportProgram, OnlyPagesWithMeshesCarryTheirScript) {
     const char* const script = "class Meshes";
     run({"--no-film"});
@@ -92,7 +92,7 @@ TEST_F(ReportProgram, OnlyPagesWithMeshesCarryTheirScript) {
     EXPECT_THAT(text_of(here / "both.html"), HasSubstr(script));
 }
 
-// A film that leaves out what it did not foresee goes with charts and bed all the same.
+// A film may leave out frames that nobody foresaw; charts and bed still go with it.
 TEST_F(ReportProgram, TheFilmIsTiedByTheRunsOwnTable) {
     run({"--set", "film.segment=[{ kind = \"locked\", every = 1 }]"});
     const auto record = nlohmann::json::parse(text_of(here / "run/run.json"));
@@ -111,8 +111,8 @@ nlohmann::json facts_of(const std::string& page) {
     return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
-// Without the files beside it the bed has the trajectory's moments alone, five of them; damaged ones are as
-// good as none.
+// Without the files beside it the bed has only the trajectory's moments, five of them. Damaged files count as
+// missing.
 TEST_F(ReportProgram, TheBedHasTheMomentOfEachFrameOfTheFilm) {
     run({});
     const auto facts = facts_of(text_of(here / "run/report.html"));
@@ -128,7 +128,8 @@ TEST_F(ReportProgram, TheBedHasTheMomentOfEachFrameOfTheFilm) {
     EXPECT_EQ(facts_of(text_of(here / "run/report.html"))["bed"]["times"].size(), 5u);
 }
 
-// The start, the end, 16 moments in the two periods before it (of four that the run has), and 11 in between.
+// Kept are the start, the end, 16 moments in the two periods before the end (of four that the run has), and
+// 11 in between.
 TEST_F(ReportProgram, ForcesOfKeyMomentsAreKept) {
     run({"--set", "film.caption=[{from=\"0.03 s\", to=\"0.06 s\", text=\"See\"}]"});
     const auto bed = facts_of(text_of(here / "run/report.html"))["bed"];
@@ -142,21 +143,21 @@ TEST_F(ReportProgram, ForcesOfKeyMomentsAreKept) {
     for (std::size_t k = 0; k < keys.size(); ++k)
         EXPECT_EQ(bed["forces"]["pairs"][k].get<std::size_t>(), contacts.touches(k).size());
     EXPECT_TRUE(bed["contacts"]);
-    // Some rows of the last one are missing.
+    // Some rows of the last moment are missing.
     fs::resize_file(here / "run/key_contacts.nc", fs::file_size(here / "run/key_contacts.nc") - 4);
     const Ended cut = program({"report", "run"});
     EXPECT_THAT(cut.err,
                 HasSubstr("key_contacts.nc: was cut off; the forces of the last key moments are not"));
     EXPECT_EQ(facts_of(text_of(here / "run/report.html"))["bed"]["forces"]["moments"].size(),
               keys.size() - 1);
-    // A run without a page keeps none, and its page says nothing of them.
+    // A run without a page keeps no key moments, and its page says nothing about them.
     ASSERT_EQ(program({"movie", "fifty.toml", "--out", "other", "--no-report"}).status, 0);
     EXPECT_FALSE(fs::exists(here / "other/key_moments.nc"));
     ASSERT_EQ(program({"report", "other"}).status, 0);
     EXPECT_TRUE(facts_of(text_of(here / "other/report.html"))["bed"]["forces"].is_null());
 }
 
-// Charts of both, in what they differ, and elements of their own.
+// The page has charts of both runs, the differences between them, and elements of its own for each.
 TEST_F(ReportProgram, SetsRunsSideBySide) {
     run({});
     ASSERT_EQ(
@@ -241,7 +242,7 @@ TEST_F(ReportProgram, SaysWhichFilesLackOrAreDamaged) {
     EXPECT_THAT(altered.err, HasSubstr("copy/measures.csv:4: has "));
 }
 
-// Where the page lies elsewhere its links would lead nowhere.
+// If the page lies in another folder, its links would lead nowhere.
 TEST_F(ReportProgram, LinksFilesOnlyWhereTheyAre) {
     run({});
     ASSERT_EQ(program({"report", "run"}).status, 0);
@@ -258,7 +259,7 @@ TEST_F(ReportProgram, LinksFilesOnlyWhereTheyAre) {
                 testing::ContainsRegex("the film itself is movie\\.[a-z0-9]+ in the run"));
 }
 
-// As the film's grains are: the bed says its title, range and bands.
+// The page's bed has the colours of the film's grains: title, range and bands.
 TEST_F(ReportProgram, TheBedHasTheFilmsColours) {
     run({"--set", "film.colour={by=\"start-height\",layers=3,range=[0,0.02],unit=\"mm\"}"});
     ASSERT_EQ(program({"report", "run"}).status, 0);
@@ -292,7 +293,7 @@ TEST_F(ReportProgram, ARunWithoutMomentsHasAPageWithoutABed) {
     EXPECT_EQ(facts_of(page)["end"], 0.2);
 }
 
-// A step that is far too large: the grains fly apart.
+// The step is far too large, so the grains fly apart.
 TEST_F(ReportProgram, AFailedRunHasAPageThatSaysSo) {
     write_small_scene(here.path());
     std::string text = text_of(here / "fifty.toml");

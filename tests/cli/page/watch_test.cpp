@@ -1,5 +1,5 @@
-// `grainreel watch` and `movie --watch` from the outside, by connections of this machine alone. What the page
-// does in a browser: tests/browser.
+// Tests of `grainreel watch` and `movie --watch` as a user sees them, only by connections of this machine.
+// What the page does in a browser is tested in tests/browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -29,7 +29,7 @@ using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-// Any that was free just now.
+// A port that was free just now.
 int free_port() {
     return Listening("127.0.0.1", 0).port();
 }
@@ -115,7 +115,7 @@ TEST_F(Watched, GivesNothingFromOutsideTheRun) {
     EXPECT_EQ(get(port, "/run.json").status, 200);
 }
 
-// A page of somebody else's whose name leads to this machine asks under that name.
+// Another page whose name leads to this machine asks under that name.
 TEST_F(Watched, RefusesAForeignHost) {
     make_run();
     watch();
@@ -128,7 +128,7 @@ TEST_F(Watched, RefusesAForeignHost) {
     }
     EXPECT_EQ(get(port, "/measures.csv", "LOCALHOST:" + std::to_string(port)).status, 200);
     const Visitor old(port);
-    old.send("GET /measures.csv HTTP/1.0\r\n\r\n");  // without any
+    old.send("GET /measures.csv HTTP/1.0\r\n\r\n");  // without a header Host
     EXPECT_EQ(parsed(old.receive()).status, 403);
 }
 
@@ -144,7 +144,7 @@ TEST_F(Watched, IsForReadingAlone) {
     EXPECT_EQ(get(port, "/measures.csv").status, 200);
 }
 
-// The other side closes long before all of it has come.
+// The other side closes long before the whole request has come.
 TEST_F(Watched, CutsOffWhatIsTooLarge) {
     make_run();
     watch();
@@ -222,7 +222,7 @@ std::size_t open_files(const fs::path& process) {
         std::distance(fs::directory_iterator(process / "fd"), fs::directory_iterator()));
 }
 
-// The process that listens at a port, by its command line.
+// Finds the process with these words in its command line.
 fs::path process_with(const std::string& words) {
     for (const auto& entry : fs::directory_iterator("/proc")) {
         std::string line = text_of(entry.path() / "cmdline");
@@ -232,8 +232,8 @@ fs::path process_with(const std::string& words) {
     return {};
 }
 
-// A hundred that say nothing, or take nothing of what they asked for; others are answered meanwhile, and when
-// all have gone nothing of them is left.
+// A hundred visitors send nothing, or take nothing of what they asked for. Others are answered meanwhile, and
+// when all have gone nothing of them is left.
 TEST_F(Watched, SlowVisitorsHoldUpNobody) {
     make_run();
     watch();
@@ -266,7 +266,7 @@ TEST_F(Watched, AMovieShowsItselfWhileItRuns) {
     Program movie({"movie", "fifty.toml", "--out", "run", "--duration", "60s", "--threads", "1", "--watch",
                    std::to_string(port)},
                   {here.path(), {}});
-    // Half way, as a browser would ask.
+    // Asks in the middle of the run, as a browser would.
     Json seen;
     ASSERT_TRUE(wait_until(movie, [&] {
         const HttpAnswer answer = get(port, "/live/state");

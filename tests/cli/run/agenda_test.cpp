@@ -61,7 +61,7 @@ TEST(Agenda, ARunThatGoesOnKeepsItsClock) {
     EXPECT_EQ(stops[2].step, 9);
 }
 
-// The step nearest to each multiple: nothing adds up.
+// Each step is the one nearest to a multiple, so errors do not add up.
 TEST(Agenda, AnIntervalOfStepsAndAPartDoesNotDrift) {
     Agenda agenda({}, 2.4, 0, 0, 1000);
     std::int64_t count = 0;
@@ -70,7 +70,7 @@ TEST(Agenda, AnIntervalOfStepsAndAPartDoesNotDrift) {
         EXPECT_EQ(stop->step, std::llround(2.4 * static_cast<double>(count)));
         ++count;
     }
-    EXPECT_EQ(count, 417);  // 1000 / 2.4 = 416.7, and the first
+    EXPECT_EQ(count, 417);  // 1000 / 2.4 = 416.7, and the first one
 }
 
 TEST(Agenda, NothingWantedStillGoesToTheEnd) {
@@ -81,7 +81,7 @@ TEST(Agenda, NothingWantedStillGoesToTheEnd) {
     EXPECT_TRUE(stops[0].measures && stops[1].measures);
 }
 
-// A drive of 100 steps a period that from period 5 on has 40, after a change over 3.
+// The drive has 100 steps a period, and from period 5 on 40, after a change over 3 periods.
 TEST(Agenda, RhythmsByPeriodsFollowTheDriveThatChanges) {
     Clock clock{0.01, 100, 0};
     const double change = length_of_change(3, 100, 40);

@@ -1,4 +1,4 @@
-// Films of a bed that lands in every second period of the drive.
+// Tests of films of a bed that lands in every second period of the drive.
 #include "render/film/sources/bed_periods.hpp"
 
 #include <fmt/format.h>
@@ -46,14 +46,14 @@ std::vector<std::int64_t> shown(const BedPeriods& bed, const FilmSegment& rule,
     return steps;
 }
 
-// A bed that is seen to repeat itself every second period in the tenth of them.
+// Runs the bed, which is found in the tenth period to repeat itself every second period.
 void run(BedPeriods& bed, int periods) {
     for (int period = 0; period < periods; ++period)
         bed.note(period * kClock.steps_per_period, period < 10 ? 1 : 2, 0.5);
 }
 
 TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
-    // The segment begins in period 3: what comes counts from there.
+    // The segment begins in period 3, and the next frames count from there.
     const std::vector<Shot> all{{250, 0}, {330, 0}, {410, 0}, {490, 0}, {570, 0}};
     BedPeriods bed(scene_with(0), kClock, all, true);
     EXPECT_THAT(bed.possible(), testing::ElementsAre(1, 2, 3, 4));
@@ -65,14 +65,14 @@ TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
     ASSERT_EQ(bed.news().size(), 1u);
     EXPECT_THAT(bed.news()[0], HasSubstr("only every 2 periods of the drive"));
     EXPECT_THAT(bed.news()[0], HasSubstr("film.periods = 1"));
-    // One frame every second period is in step with the bed already.
+    // One frame every second period is already in step with the bed.
     const std::vector<Shot> second{{330, 0}, {490, 0}, {650, 0}};
     BedPeriods bed_of_two(scene_with(0), kClock, second, true);
     run(bed_of_two, 20);
     EXPECT_THAT(shown(bed_of_two, locked(2), second), testing::ElementsAre(330, 490, 650));
 }
 
-// Films side by side, whose other panels may repeat themselves otherwise.
+// In films side by side the other panels may repeat themselves after other numbers of periods.
 TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
     const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
     BedPeriods bed(scene_with(0), kClock, all, false);
@@ -82,7 +82,7 @@ TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
     EXPECT_THAT(bed.news().at(0), HasSubstr("locked frames jump"));
 }
 
-// A film without locked frames, displacements and means is told nothing of them.
+// A film without locked frames, displacements and means gets no message about them.
 TEST(BedPeriods, SpeakOnlyOfWhatTheFilmShows) {
     const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
     const auto news = [&](int periods, bool may_leave_out, const auto& change) {
@@ -157,7 +157,7 @@ class DoubledBed : public testing::Test {
     TemporaryFolder here;
 };
 
-// 20 periods: 21 frames at one a period. Ten periods are needed to know.
+// 20 periods have 21 frames with one for each period. Ten periods are needed to find out.
 TEST_F(DoubledBed, IsShownEverySecondPeriod) {
     const Ended ended = grainreel({"movie", "bed.toml", "--frames", "--threads", "1", "--out", "found"});
     ASSERT_EQ(ended.status, 0) << ended.err;

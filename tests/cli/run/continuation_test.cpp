@@ -1,5 +1,5 @@
-// Runs that go on from another's checkpoint, as the user starts them: check and movie agree, a refusal leaves
-// nothing behind.
+// Tests of runs that continue from another run's checkpoint, as the user starts them: check and movie agree,
+// and a refusal leaves nothing behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST_F(ContinuedMovie, CheckSaysWhatHappensToABedFromAFile) {
         return at == std::string::npos ? check.out
                                        : check.out.substr(at + 1, check.out.find('\n', at + 1) - at);
     };
-    // Checkpoints of the packed bed, and of one that is shaken.
+    // These are checkpoints of the packed bed, and of the bed while it is shaken.
     const char *rests = "checkpoints/000000000000.grs", *moves = "checkpoint.grs";
     EXPECT_THAT(line(rests, "walton-braun"),
                 HasSubstr("stiffness as in the file's run; contacts keep their histories\n"));

@@ -1,4 +1,5 @@
-// What `check` says of time: what it is made of, and what is kept of the machine's speed.
+// Tests of the times that `check` estimates: what they consist of, and what is kept about the machine's
+// speed.
 #include "render/app/estimate/cost_estimate.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ TEST(CostEstimate, IsInverseToTheMachinesSpeed) {
     EXPECT_EQ(slow.film_seconds, fast.film_seconds);
 }
 
-// The scene has 12 frames and one more: 0.2 s at a half of real time and 30 a second.
+// The scene has 12 frames and one more: 0.2 s at half speed and 30 frames a second.
 TEST(CostEstimate, EngineAndFilmTakeTurnsOrDoNot) {
     const CostEstimate turns = cost_of(scene_with({}), in_turn, machine);
     const CostEstimate together = cost_of(scene_with({}), beside, machine);
@@ -51,7 +52,7 @@ TEST(CostEstimate, EngineAndFilmTakeTurnsOrDoNot) {
     EXPECT_NEAR(together.total_seconds, rest + std::max(turns.engine_seconds, turns.film_seconds), 1e-12);
 }
 
-// 4.5 contacts a grain, of which few are left where the bed is thrown up. Stages count by their time.
+// A grain has 4.5 contacts, few of which are left while the bed is thrown up. Stages count by their time.
 TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
     const auto contacts = [](std::vector<std::string> sets) {
         sets.emplace_back("drive.ramp=0");
@@ -73,7 +74,7 @@ TEST(CostEstimate, ABedAtRestHasItsContactsAllTheTime) {
     EXPECT_GT(thrown / lies, 2);
 }
 
-// The amplitude grows over 0.15 s of the 0.2 s, by a smooth step, whose half is half of the way.
+// The amplitude grows over 0.15 s of the 0.2 s, by a smooth step that is a half at half its time.
 TEST(CostEstimate, TheBedLiesUntilTheDriveHasGrown) {
     const auto contacts = [](const std::string& level, const std::string& ramp) {
         const FilmedScene scene = scene_with({"drive.g_level=" + level, "drive.ramp=" + ramp});
@@ -105,7 +106,7 @@ TEST(CostEstimate, WhatIsMeasuredCosts) {
     EXPECT_NEAR((often - none) / (fields - none), 2, 0.05);
 }
 
-// Two threads that share a core do not halve a film's time.
+// Two threads that share a core do not halve the time of a film.
 TEST(CostEstimate, AFilmGainsWhatTwoThreadsGain) {
     MachineFigures shared = machine;
     shared.gain_of_two = 1.25;
@@ -143,7 +144,8 @@ TEST(CostEstimate, OneProcessorDrawsAndEncodesInTurn) {
     EXPECT_LT(cost_of(scene_with({}), in_turn, machine).film_seconds, alone.film_seconds);
 }
 
-// Threads gain what was measured of the team, and never more than there are; half of it with 1000 grains.
+// Threads gain what was measured for the team, and never more than their number; with 1000 grains they gain
+// half of it.
 TEST(CostEstimate, ThreadsGainWhatTheTeamGains) {
     MachineFigures team = machine;
     team.lattice_team = 1.6 * team.lattice_one;
@@ -154,7 +156,7 @@ TEST(CostEstimate, ThreadsGainWhatTheTeamGains) {
     EXPECT_NEAR(cost_of(scene, {2, 1, 1, true}, team).packing_seconds, one / (1 + 0.6 * share), 1e-9 * one);
     team.lattice_team = 50 * team.lattice_one;
     EXPECT_NEAR(cost_of(scene, {2, 1, 1, true}, team).packing_seconds, one / (1 + share), 1e-9 * one);
-    team.lattice_team = 0.1 * team.lattice_one;  // measured in a bad moment
+    team.lattice_team = 0.1 * team.lattice_one;  // as if measured while the machine was busy
     EXPECT_NEAR(cost_of(scene, {2, 1, 1, true}, team).packing_seconds, one, 1e-9 * one);
 }
 
@@ -236,7 +238,7 @@ TEST_F(SpeedCacheIn, AFolderThatCannotBeMadeKeepsNothing) {
     ::setenv("XDG_CACHE_HOME", (here / "file").c_str(), 1);
     keep_some();
     EXPECT_FALSE(SpeedCache().engine(2));
-    ::setenv("XDG_CACHE_HOME", "relative", 1);  // of no meaning, says the standard
+    ::setenv("XDG_CACHE_HOME", "relative", 1);  // the standard says that a relative path has no meaning
     EXPECT_TRUE(SpeedCache().path().empty() || SpeedCache().path().is_absolute());
 }
 

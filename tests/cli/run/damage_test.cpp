@@ -1,5 +1,5 @@
-// trajectory.nc and contacts.nc with bytes changed: what is read is what was written, or nothing, and nothing
-// that a file says makes the program crash or ask for memory without bound.
+// Tests of trajectory.nc and contacts.nc with changed bytes: what is read is what was written, or nothing;
+// and no number in a file makes the program crash or ask for memory without bound.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ std::string written_contacts(const TemporaryFolder& here) {
     return text_of(here / "c.nc");
 }
 
-// One bit, or up to sixteen bytes; in the header as often as in all the rest, which is larger.
+// Changes one bit, or up to sixteen bytes. Half of the changes are in the header, though the rest is larger.
 std::string damaged(std::string bytes, std::mt19937& random) {
     const auto below = [&](std::size_t limit) { return random() % limit; };
     const std::size_t at = below(random() % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 1500));
@@ -72,12 +72,13 @@ std::string damaged(std::string bytes, std::mt19937& random) {
                 bytes[i] = static_cast<char>(random());
             break;
         default:
-            bytes = bytes.substr(0, at) + bytes.substr(std::min(bytes.size(), at + 4));  // four are missing
+            bytes =
+                bytes.substr(0, at) + bytes.substr(std::min(bytes.size(), at + 4));  // four bytes are missing
     }
     return bytes;
 }
 
-// Bit by bit, but for what the file keeps as float.
+// Compares bit by bit, except for numbers that the file keeps as floats.
 bool same(const Frame& a, const Frame& b) {
     const auto close = [](const Vec3& u, const Vec3& v) { return (u - v).norm() <= 1e-6 * v.norm(); };
     bool all = a.step == b.step && a.time == b.time && a.cycles == b.cycles && a.phase == b.phase &&
@@ -116,7 +117,7 @@ TEST(Damage, NoFrameIsReadThatWasNotWritten) {
     EXPECT_GT(left_out, 50);
 }
 
-// An earlier version's file: its checksums are not known by that name.
+// Returns a file of an earlier version, in which checksums are not known by that name.
 std::string without_checksums(std::string bytes) {
     for (std::size_t at = 0; (at = bytes.find("_checksum", at)) != std::string::npos;)
         bytes.replace(at, 9, "_somewhat");
@@ -163,7 +164,7 @@ TEST(Damage, NoContactIsReadThatWasNotWritten) {
         try {
             const ContactsReader reader(here / "d.nc");
             if (reader.cut_off() || reader.uncounted() > 0 || !reader.has_checksums())
-                continue;  // it says so
+                continue;  // the program reports the damage
             for (int i = 0; i < frames; ++i) {
                 const std::vector<Touch> touches = reader.touches(static_cast<std::size_t>(i));
                 const std::vector<SavedContact> wanted = made_contacts(i);
@@ -180,7 +181,8 @@ TEST(Damage, NoContactIsReadThatWasNotWritten) {
     EXPECT_GT(refused, 100);
 }
 
-// Each count in a header becomes the largest number that its four bytes hold. No memory is asked for that.
+// Each count in a header becomes the largest number of its four bytes. No memory may be asked for such a
+// count.
 TEST(Damage, ACountIsHeldAgainstTheFile) {
     const TemporaryFolder here;
     const std::string whole = written_trajectory(here);
@@ -265,7 +267,7 @@ TEST_F(DamagedRun, AnEarlierVersionsTrajectoryIsDrawnWithANote) {
     EXPECT_THAT(film.err, HasSubstr("run/trajectory.nc: has no checksums"));
 }
 
-// docs/reference/scenes.md is where a reader of the files looks.
+// People who read the files look into docs/reference/scenes.md.
 TEST_F(DamagedRun, TheDocumentationListsEveryVariable) {
     const std::string docs = text_of(fs::path(GRAINREEL_SOURCE) / "docs/reference/scenes.md");
     const std::size_t trajectory = docs.find("## The contents of trajectory.nc");

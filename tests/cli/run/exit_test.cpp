@@ -1,5 +1,5 @@
-// Grains that leave through an [[exit]]: who left is in outflow.csv, as with an outlet, and a run that goes
-// on keeps it.
+// Tests of grains that leave through an [[exit]]. They are in outflow.csv, as with an outlet, and a run that
+// is continued keeps this file.
 #include <gtest/gtest.h>
 
 #include <cmath>

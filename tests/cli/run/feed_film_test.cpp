@@ -1,4 +1,5 @@
-// A scene with a feed, through the program: its files have room for all grains, and it is drawn again.
+// Tests of a scene with a feed, run by the program: its files have room for all grains, and it is drawn
+// again.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -23,7 +24,7 @@ TEST(FeedFilm, HasRoomForAllAndIsDrawnAgain) {
     const TrajectoryReader reader(here / "run/trajectory.nc");
     EXPECT_EQ(reader.info().capacity, 70u) << "50 at the start, and 100 a second for 0.2 s";
     EXPECT_EQ(reader.read(0).size(), 50u);
-    // The last frame of the trajectory is the run's end, and the last look at the feed up to 200 steps
+    // The last frame of the trajectory is the run's end; the last look at the feed was up to 200 steps
     // before.
     const Frame last = reader.read(reader.frames() - 1);
     EXPECT_GE(last.size(), 69u);

@@ -1,4 +1,4 @@
-// Folders that come from somebody else, in which a link or a pipe has the name of a run's file.
+// Tests of folders that come from somebody else, in which a link or a pipe has the name of a run's file.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -43,7 +43,7 @@ TEST_F(ForeignFolder, NothingIsWrittenThroughALink) {
                              "checkpoints/000000000000.grs.part",
                              ".report.html.part"}) {
         copy("whole", "run");
-        // With the right bytes, so that nothing else is wrong.
+        // The file has the right bytes, so that nothing else is wrong.
         const fs::path file = here / "run" / name, target = here / "precious";
         const std::string bytes = fs::exists(file) ? text_of(file) : precious;
         write_text(target, bytes);
@@ -62,7 +62,7 @@ TEST_F(ForeignFolder, NothingIsWrittenThroughALink) {
         EXPECT_EQ(run({"resume", "run", "--for", "0.02 s"}).status, 2) << name;
         EXPECT_TRUE(fs::is_empty(here / "outside")) << name;
     }
-    // The folder itself may be one, which the user named.
+    // The folder itself may be a link, because the user named it.
     copy("whole", "run");
     fs::create_directory_symlink(here / "run", here / "named");
     EXPECT_EQ(run({"resume", "named", "--for", "0.02 s", "--no-film"}).status, 0);
@@ -81,7 +81,7 @@ TEST_F(ForeignFolder, ReportAndRenderWriteThroughNoLinkEither) {
     EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(here / "run/report.html")));
 }
 
-// Whatever is asked of it: a pipe would be waited for without an end.
+// Whatever the question is, no pipe is read, because that would never end.
 TEST_F(ForeignFolder, NoPipeIsWaitedFor) {
     movie("whole", {"--frames"});
     const std::vector<Words> questions = {{"inspect", "run", "--at", "0.05 s"},
@@ -93,14 +93,14 @@ TEST_F(ForeignFolder, NoPipeIsWaitedFor) {
          {"run.json", "scene.toml", "trajectory.nc", "contacts.nc", "fields.nc", "measures.csv",
           "outflow.csv", "film_moments.nc", "key_moments.nc", "key_contacts.nc", "checkpoint.grs",
           "movie.mp4", "poster.png", "film_times.csv", ".lock", "checkpoints/000000000000.grs"}) {
-        // Two of the questions each, by turns: all four are asked of what they read.
+        // Two of the questions are asked for each file, in turn, so that all four are asked.
         for (int k = 0; k < 2; ++k, ++which) {
             const Words& words = questions[(which + which / 2) % questions.size()];
             copy("whole", "run");
             fs::remove_all(here / "both");
             fs::remove(here / "run" / name);
             ASSERT_EQ(::mkfifo((here / "run" / name).c_str(), 0600), 0);
-            EXPECT_LE(run(words).status, 2) << words.front() << ' ' << name;  // and it ends
+            EXPECT_LE(run(words).status, 2) << words.front() << ' ' << name;  // and the program ends
         }
     }
     for (const char* file : {"run.grs", "run.csv"}) {

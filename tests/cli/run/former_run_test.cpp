@@ -1,4 +1,4 @@
-// What a run was, kept and put back; and files as they lie in folders from elsewhere.
+// Tests of keeping a run as it was and putting it back, and of files in folders from other places.
 #include "engine/files/former_run.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace test;
 
-// The end or the beginning of what grows is copied; the rest gets a second name.
+// The end or the beginning of files that grow is copied; other files get a second name.
 TEST(FormerRun, IsPutBackAsItWas) {
     const TemporaryFolder here;
     const fs::path run = here / "run";
@@ -45,7 +45,7 @@ TEST(FormerRun, IsPutBackAsItWas) {
     EXPECT_TRUE(FormerRun::is_kept(run));
     EXPECT_EQ(text_of(run / "trajectory.nc"), "more places");
     EXPECT_EQ(text_of(run / "outflow.csv"), rows.substr(0, 5));
-    // The run goes on.
+    // The run continues.
     TextFile(run / "measures.csv", rows.size() - 3).write("30 again\n40\n");
     TextFile(run / "outflow.csv", 5).write("10 again\n");
     replace_file(run / "scene.toml", "new");
@@ -68,7 +68,7 @@ TEST(FormerRun, IsPutBackAsItWas) {
     EXPECT_FALSE(fs::exists(run / kFormerRunPart));
 }
 
-// As if the file had had its places from the first.
+// The new file is as if it had had its places from the beginning.
 TEST(FormerRun, FramesAreWrittenAgainWithMorePlaces) {
     const TemporaryFolder here;
     TrajectoryInfo info;
@@ -115,7 +115,7 @@ TEST(PlainFile, LinksAreNotWrittenThroughAndPipesNotRead) {
     EXPECT_TRUE(make_plain_folder(here / "other"));
 }
 
-// Where the value is the same, and in the same table of several.
+// A comment is taken over if the value is the same, and in the same table of several.
 TEST(Comments, AreTakenOver) {
     const std::string before =
         "# all\ntitle = \"a\"\n[[pair]]\n# why\nk = 1.0\n[[pair]]\n# and why\nk = 2.0\n[run]\n# new\nstep = "

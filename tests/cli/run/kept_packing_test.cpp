@@ -1,5 +1,5 @@
-// Packings that are kept: a run that begins with one is, to the bit, the run that packs by itself. And what
-// is no packing of this start is never taken.
+// Tests of packings that are kept: a run that begins with a kept packing is the same, to the bit, as a run
+// that packs by itself. A file that is no packing of this start is never used.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ const Variant variants[] = {
 
 struct End {
     std::uint64_t state;
-    std::vector<std::string> measures;  // by column, every digit, as measures.csv has them
+    std::vector<std::string> measures;  // the columns with every digit, as in measures.csv
     bool operator==(const End&) const = default;
 };
 
@@ -129,8 +129,8 @@ TEST(KeptPacking, IsAnotherWhereAnythingDecidesIt) {
         EXPECT_NE(key_with({set}), key) << set;
 }
 
-// With rain nothing moves before step 0, so settings of a study over the drive share it; radii that grow see
-// the drive's first steps.
+// With rain nothing moves before step 0, so all drives of a study share one packing. If radii grow, the
+// packing has the drive's first steps in it.
 TEST(KeptPacking, IsSharedByDrivesWhereNothingOfThePackingFollowsThem) {
     const std::vector<std::string> given{"start.method=rain", "contact.stiffness=700 N/m", "run.step=5 us"};
     const auto key = [&](std::vector<std::string> sets, const std::string& more) {
@@ -140,7 +140,7 @@ TEST(KeptPacking, IsSharedByDrivesWhereNothingOfThePackingFollowsThem) {
     EXPECT_EQ(key(given, "drive.g_level=2"), key(given, "drive.g_level=4"));
     EXPECT_NE(key({"start.method=rain"}, "drive.g_level=2"), key({"start.method=rain"}, "drive.g_level=4"));
     EXPECT_NE(key({given[1], given[2]}, "drive.g_level=2"), key({given[1], given[2]}, "drive.g_level=4"));
-    // That packing is the same one, to the bit.
+    // The packing is the same, to the bit.
     const TemporaryFolder here;
     std::vector<std::string> two = given, four = given;
     two.emplace_back("drive.g_level=2"), four.emplace_back("drive.g_level=4");
@@ -184,7 +184,7 @@ TEST(KeptPacking, IsBelievedInNothing) {
         EXPECT_FALSE(is_taken(bad, key)) << "byte " << k * (good.size() - 1) / 59;
         EXPECT_FALSE(is_taken(good.substr(0, k * good.size() / 60), key)) << k;
     }
-    // A checkpoint of the same state is none.
+    // A checkpoint of the same state is no packing.
     packs.save_checkpoint(file);
     EXPECT_FALSE(is_taken(text_of(file), key));
 }
@@ -237,7 +237,7 @@ TEST_F(PackingProgram, FindsThePackingAndTheRunIsTheSame) {
 }
 
 TEST_F(PackingProgram, KeepsNothingOfWhatIsShortOrNotWanted) {
-    EXPECT_EQ(movie("short", {}, "").status, 0);  // the usual: longer than a second
+    EXPECT_EQ(movie("short", {}, "").status, 0);  // the usual case: packing takes longer than a second
     EXPECT_EQ(movie("off", {}, "off").status, 0);
     EXPECT_EQ(movie("not", {"--no-cache"}).status, 0);
     EXPECT_TRUE(kept().empty());

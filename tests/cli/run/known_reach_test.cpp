@@ -1,4 +1,4 @@
-// How high grains got, by counting.
+// Tests of how high grains got, found by counting them.
 #include "render/film/sources/recorded_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace grainreel {
 namespace {
 
-// One in a hundred of 200 grains is two: the two highest do not count, the third does.
+// One in a hundred of 200 grains is two: the two highest grains do not count, and the third does.
 TEST(KnownReach, LeavesOutOneGrainInAHundred) {
     Frame frame;
     for (int k = 0; k < 200; ++k) {
@@ -15,7 +15,7 @@ TEST(KnownReach, LeavesOutOneGrainInAHundred) {
         frame.position.emplace_back(0, 0, 0.0005 * k);
     }
     EXPECT_DOUBLE_EQ(*reach_of(frame), 0.0005 * 197 + 0.002);
-    frame.position[5].z() = 3;  // one stray more: one less of the others
+    frame.position[5].z() = 3;  // with one more stray grain, one less of the others is left out
     EXPECT_DOUBLE_EQ(*reach_of(frame), 0.0005 * 198 + 0.002);
 }
 

@@ -1,4 +1,4 @@
-// Every variable of every NetCDF file says what it is, in units that UDUNITS knows.
+// Tests that every variable of every NetCDF file has a description and units that UDUNITS knows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
@@ -16,8 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// A feed, an outlet, a plane, two species, orientations, forces on walls, fields: all variables that there
-// are.
+// A scene with a feed, an outlet, a plane, two species, orientations, forces on walls and fields, so that all
+// variables are written.
 constexpr const char* kEverything = R"(title = "Everything"
 [[species]]
 name = "small"
@@ -62,7 +62,7 @@ size = "160x120"
 rate = 10
 )";
 
-// What UDUNITS-2 was seen to read.
+// These units were read by UDUNITS-2 when it was tried.
 const std::set<std::string> known_units{"1",       "s", "second", "m",  "meter",  "degree", "m s-1",
                                         "rad s-1", "N", "Pa",     "m3", "kg m-3", "m2 s-2"};
 

@@ -1,4 +1,4 @@
-// `grainreel movie` from the outside: what it writes, says and refuses.
+// Tests of `grainreel movie` as a user sees it: what it writes, prints and refuses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::int64_t lines_of(const fs::path& file) {
 
 class MovieProgram : public testing::Test {
   protected:
-    // `grainreel movie SCENE words...`, run in the test's folder.
+    // Runs `grainreel movie SCENE words...` in the test's folder.
     Ended movie(std::vector<std::string> words, const std::vector<std::string>& environment = {}) {
         words.insert(words.begin(), {"movie", scene.string()});
         return run_program(words, {here.path(), environment});
@@ -45,7 +45,7 @@ class MovieProgram : public testing::Test {
     fs::path scene = write_small_scene(here.path());
 };
 
-// Means and exposures want moments of their own; the run and what is written of it stay what they are.
+// Means and exposures need moments of their own. The run and its files do not change.
 TEST_F(MovieProgram, MeansAndExposuresLeaveTheRunAlone) {
     ASSERT_EQ(movie({"--no-film", "--out", "plain"}).status, 0);
     const std::string segments =
@@ -207,11 +207,11 @@ TEST_F(MovieProgram, ProgressJsonIsAnObjectALine) {
         EXPECT_TRUE(object["event"] != "progress" || (object.contains("stage") && object.contains("done")));
     }
     EXPECT_THAT(events, testing::Contains("progress"));
-    EXPECT_THAT(events, testing::Contains("warning"));  // of the strobing film
+    EXPECT_THAT(events, testing::Contains("warning"));  // about the film, which strobes
     EXPECT_THAT(events, testing::Contains("info"));
 }
 
-// Every one of them: exit status 2, one line that says what is wrong, and nothing on disk.
+// For every mistake the exit status is 2, one line says what is wrong, and nothing is on disk.
 TEST_F(MovieProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     write_text(here / "broken.toml", "title = \n");
     const std::string fifty = scene.string();

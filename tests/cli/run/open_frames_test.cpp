@@ -1,5 +1,5 @@
-// Frames of whatever lies on disk, through the one list of readers; and through the one of writers back to
-// disk.
+// Tests of frames in all formats on disk, read through the one list of readers and written through the one
+// list of writers.
 #include "engine/files/frames/open_frames.hpp"
 
 #include <gmock/gmock.h>
@@ -46,7 +46,7 @@ std::vector<std::string> names_of(const World& world) {
     return names;
 }
 
-// A run of fifty grains, once for all tests of this file.
+// A run of fifty grains, made once for all tests of this file.
 class OpenFrames : public testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -60,7 +60,7 @@ class OpenFrames : public testing::Test {
     static void TearDownTestSuite() { delete run_; }
 
     static fs::path run() { return *run_ / "run"; }
-    // One of its files, alone and under another name.
+    // A copy of one of its files, alone and under another name.
     fs::path copied(const char* file, const char* name) const {
         fs::copy_file(run() / file, here / name);
         return here / name;
@@ -145,10 +145,10 @@ TEST_F(OpenFrames, RefusesWhatItDoesNotKnowWithAListOfWhatItReads) {
         }
     }
     EXPECT_THROW(open_frames(here / "missing"), UserError);
-    EXPECT_THROW(open_frames(run() / "contacts.nc"), UserError);  // no grains in it
+    EXPECT_THROW(open_frames(run() / "contacts.nc"), UserError);  // the file has no grains
 }
 
-// A file is not believed that says how much is to come.
+// Counts in a file are not believed.
 TEST_F(OpenFrames, CountsAreBoundedBeforeMemoryIsAskedFor) {
     std::string bytes = text_of(run() / "checkpoint.grs");
     const std::size_t prologue = 16;
@@ -234,7 +234,7 @@ TEST(FrameWriters, AnUnknownFormatIsRefusedWithAList) {
     }
 }
 
-// Frames of another program: no scene, no density, no step.
+// Frames as of another program: they have no scene, no density and no step.
 class Foreign final : public FrameArchive {
   public:
     Foreign() : path_("foreign.dump") {

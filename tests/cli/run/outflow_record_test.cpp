@@ -1,4 +1,4 @@
-// How much has flowed out, from outflow.csv and on the frame.
+// Tests of how much has flowed out, in outflow.csv and on the frame.
 #include "engine/files/outflow_csv.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ TEST(OutflowSums, CountsRowsAndTheirMassUntilATime) {
                                                     "0.1,7,1,0.002,0,0,0,0,0,0\n"
                                                     "0.2,3,1,0.001,0,0,0,0,0,0\n"
                                                     "0.2,5,1,0.001,0,0,0,0,0,0\n"
-                                                    "0.3,6,1,0.0"),  // cut off
+                                                    "0.3,6,1,0.0"),  // a row that is cut off
                                           scene);
     ASSERT_TRUE(record);
     const double unit = 4.0 / 3 * std::numbers::pi * 1e-9 * scene.species[0].density;
@@ -62,7 +62,7 @@ TEST(OutflowSums, RefusesWhatIsOfAnotherScene) {
     }
 }
 
-// Bytes that are no number are damage, with file and line; none of them counts as 0.
+// Bytes that are no number are damage and are reported with file and line; none of them counts as 0.
 TEST(OutflowSums, RefusesDamageWithItsLine) {
     const TemporaryFolder here;
     const FilmedScene scene = with_outlet();

@@ -1,5 +1,5 @@
-// What pictures show beside their own moment: ways, exposures, means; given by a run that goes on and keeps
-// what they will want, or by a record that has every moment.
+// Tests of what pictures show beside their own moment: displacements, exposures and means. They come from a
+// run that goes on and keeps the moments that it will need, or from a record with every moment.
 #include "render/film/sources/picture_parts.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ const Clock kClock{1e-4, 800, 0};  // 12.5 Hz
 
 using PlaceAt = std::function<Vec3(std::int64_t step)>;
 
-// One grain, and a container that is where `wall` says.
+// A frame of one grain, and a container at the place `wall`.
 Frame frame_at(std::int64_t step, const Vec3& position, const Vec3& wall = Vec3::Zero()) {
     Frame frame;
     frame.step = step;
@@ -36,7 +36,7 @@ Vec3 at_rest(std::int64_t) {
     return Vec3::Zero();
 }
 
-// Has moments alone.
+// A source that has only moments.
 class Moments : public PartSupply {
   public:
     std::vector<Touch> touches(const Frame&) const override { return {}; }
@@ -44,7 +44,7 @@ class Moments : public PartSupply {
     std::optional<FlowedOut> flowed_out(const Frame&) const override { return std::nullopt; }
 };
 
-// Every moment from `first` on, as from a record.
+// A source that has every moment from `first` on, as a record has.
 class AnyMoment final : public Moments {
   public:
     AnyMoment(PlaceAt grain, PlaceAt wall, std::int64_t first)
@@ -88,7 +88,7 @@ struct Asked {
     int periods = 1;
 };
 
-// The picture, by both ways, which give the same.
+// The picture, made in both ways, which must give the same.
 Frame picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
               const PlaceAt& wall = at_rest, std::int64_t first = 0) {
     Frame at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
@@ -126,7 +126,7 @@ TEST(PictureParts, GiveTheWayOfAPeriod) {
     EXPECT_THAT(steps_of(parts.moments(802, FilmSegment(), 1)), testing::ElementsAre(2));
     EXPECT_TRUE(parts.moments(801, FilmSegment(), 1).empty()) << "before the run there is nothing";
     const auto moved = [](std::int64_t step) {
-        // Through the periodic wall: 3 mm, not -37.
+        // The way goes through the periodic wall: 3 mm, not -37 mm.
         return step < 400 ? Vec3(0.019, 0, 0.1) : Vec3(-0.018, 0.002, 0.11);
     };
     const Frame now = picture(parts, {802, FilmSegment()}, moved, at_rest, 2);
@@ -135,7 +135,7 @@ TEST(PictureParts, GiveTheWayOfAPeriod) {
     EXPECT_TRUE(picture(parts, {801, FilmSegment()}, moved, at_rest, 2).displacement.empty());
 }
 
-// A bed that repeats itself every second period: what it does in between is not in its way.
+// The bed repeats itself every second period, and its motion in between is not in the displacement.
 TEST(PictureParts, GiveTheMeanWayOfAPeriodOverSeveral) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
     const auto bounced = [](std::int64_t step) {
@@ -163,7 +163,8 @@ TEST(PictureParts, GiveTheMomentsOfAnExposure) {
     }
 }
 
-// A grain that shakes with the container and drifts: x = sin(2 pi f t), in all three directions, plus v t.
+// Place of a grain that shakes with the container and drifts: x = sin(2 pi f t) in all three directions, plus
+// v t.
 Vec3 shaken(std::int64_t step, const Vec3& drift) {
     const double turn = 2 * std::numbers::pi * kClock.cycles(step);
     return Vec3(0.001, 0.004, 0.005) * std::sin(turn) + drift * kClock.time(step);
@@ -177,7 +178,8 @@ TEST(PictureParts, OfAMeanLeaveTheDriftAlone) {
     const Frame now = picture(
         parts, {kShot, mean_of(3)}, [&](std::int64_t step) { return shaken(step, drift); },
         [](std::int64_t step) { return shaken(step, Vec3::Zero()); });
-    // The mean of 48 samples, 1/16 of a period apart and ending now, lags by half of 47 of them.
+    // The mean of 48 samples, which are 1/16 of a period apart and end now, lags by half of 47 of these
+    // intervals.
     const Vec3 expected = drift * (kClock.time(kShot) - 0.5 * 47 * 50 * kClock.step);
     EXPECT_LT((now.position[0] - expected).norm(), 1e-15);
     EXPECT_LT((now.velocity[0] - drift).norm(), 1e-13);
@@ -185,7 +187,7 @@ TEST(PictureParts, OfAMeanLeaveTheDriftAlone) {
     EXPECT_LT(now.container().velocity.norm(), 1e-13);
 }
 
-// A bed that repeats itself every second period: means of one period become means of two.
+// The bed repeats itself every second period, so means over one period become means over two.
 TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
     const Vec3 drift(0, 0.02, -0.01);
     constexpr std::int64_t kShot = 4300;
@@ -200,7 +202,7 @@ TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
             EXPECT_LT(error, 1e-12);
         else
             EXPECT_GT(error, 0.01);
-        // The mean over 16 moments, the last of them the shot's own, spread over those periods.
+        // The mean is over 16 moments spread over those periods; the last one is the shot's own.
         Vec3 mean = Vec3::Zero();
         for (int k = 0; k < 16; ++k) mean += doubled(kShot - k * periods * kClock.steps_per_period / 16) / 16;
         EXPECT_LT((frame.position[0] - mean).norm(), 1e-12);
@@ -218,7 +220,7 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
         at.x() -= kDepth * std::round(at.x() / kDepth);
         return at;
     };
-    for (const std::int64_t shot : {800, 1600}) {  // in the first period it goes past the end, at 0.01 s
+    for (const std::int64_t shot : {800, 1600}) {  // in the first period the grain passes the end at 0.01 s
         const Frame now = picture(PictureParts(scene, kClock, 0), {shot, mean_of(1)}, wrapped);
         double expected = 0.1 * (kClock.time(shot) - 0.5 * 15 * 50 * kClock.step) + 0.019;
         expected -= kDepth * std::round(expected / kDepth);
@@ -230,12 +232,12 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
 TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
     const Frame now = picture(PictureParts(FilmedScene(), kClock, 0), {400, mean_of(1)},
                               [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
-    double expected = 0;  // 9 samples from step 0 to 400, and 7 of rest
+    double expected = 0;  // 9 samples are from step 0 to 400, and 7 are at rest
     for (int k = 0; k <= 8; ++k) expected += 1e-5 * 50 * k / 16;
     EXPECT_NEAR(now.position[0].z(), expected, 1e-15);
 }
 
-// Where the source lacks a moment, no part is made of the others.
+// If the source lacks a moment, no part is made of the others.
 TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
     Frame now = frame_at(1600, Vec3(1, 2, 3));
@@ -244,7 +246,7 @@ TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
     EXPECT_TRUE(now.displacement.empty());
 }
 
-// A grain that came since and one that has gone have no way. Those that were there all the time have theirs.
+// A grain that came or left meanwhile has no displacement. Grains that were there all the time have theirs.
 TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
     const auto with = [](Frame frame, std::int32_t id, const Vec3& at) {

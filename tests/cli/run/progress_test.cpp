@@ -1,4 +1,4 @@
-// Words and numbers of the progress line, threads, pace.
+// Tests of words and numbers of the progress line, of threads and of the pace.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Runs that lie on disk as sources of frames: what they supply, files that do not belong together, files that
-// lack something, files that grow.
+// Tests of runs on disk as sources of frames: what they supply, files that do not belong together, files that
+// lack something, and files that grow.
 #include "render/film/sources/recorded_run.hpp"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,8 @@ class Recorded : public testing::Test {
   protected:
     Recorded() { write_small_scene(here.path()); }
     Ended program(const std::vector<std::string>& words) { return run_program(words, {here.path(), {}}); }
-    // A run in `name`, with all that can be kept, of the small scene with other values for some keys.
+    // Makes a run in the folder `name` that keeps all it can. It is of the small scene with other values for
+    // some keys.
     void run(const std::string& name, const std::vector<std::string>& sets = {}) {
         std::vector<std::string> words = {"movie", "fifty.toml", "--no-film",           "--out",
                                           name,    "--set",      "output.contacts=true"};
@@ -36,7 +37,7 @@ class Recorded : public testing::Test {
         const Ended ended = program(words);
         ASSERT_EQ(ended.status, 0) << ended.err;
     }
-    // run/ with one of its files replaced by that of other/.
+    // Replaces a file of run/ by that of other/.
     void mix(const char* file) {
         fs::remove_all(here / "mixed");
         fs::copy(here / "run", here / "mixed");
@@ -50,7 +51,7 @@ class Recorded : public testing::Test {
         text.replace(text.find(from), from.size(), to);
         write_text(here / "mixed/scene.toml", text);
     }
-    // Refused in one line by all who draw, with nothing written.
+    // Expects that all verbs that draw refuse the run in one line and write nothing.
     void expect_refused(const testing::Matcher<std::string>& words) {
         for (const std::vector<std::string>& command :
              {std::vector<std::string>{"render", "mixed", "--at", "0.1", "--set", "film.force_chains=true"},
@@ -80,7 +81,7 @@ TEST_F(Recorded, AnEditedSceneIsRefused) {
     const auto trajectory = AllOf(HasSubstr("mixed/trajectory.nc: "), HasSubstr("scene.toml beside it"));
     edit_scene("frequency = 20", "frequency = 21");
     expect_refused(AllOf(trajectory, HasSubstr("1 periods of the drive at 0.05 s"), HasSubstr("has 21 Hz")));
-    // After one of the three periods of the ramp 2 g at 20 Hz have this share of their speed.
+    // The drive reaches 2 g at 20 Hz in three periods; after one of them the speed has this share.
     const double u = 1.0 / 3, share = u * u * u * (10 + u * (6 * u - 15));
     const double speed = share * 2 * 9.81 / (2 * std::numbers::pi * 20);
     edit_scene("amplitude = 0.", "amplitude = 0.1");
@@ -94,7 +95,7 @@ TEST_F(Recorded, AnEditedSceneIsRefused) {
     expect_refused(AllOf(trajectory, HasSubstr("has 50 grains, but scene.toml beside it has 51")));
     edit_scene("diameter = 0.006", "diameter = 0.005");
     expect_refused(trajectory);
-    // As many grains and of those sizes, but not as many of each.
+    // There are as many grains with the same sizes, but other numbers of each.
     std::string text = text_of(here / "run/scene.toml");
     text.replace(text.find("count = 40"), 10, "count = 39");
     text.replace(text.find("count = 10"), 10, "count = 11");
@@ -102,7 +103,7 @@ TEST_F(Recorded, AnEditedSceneIsRefused) {
     expect_refused(AllOf(trajectory, HasSubstr("has 40 grains of 'small'")));
 }
 
-// The scene is the same but for the seed: only what the grains did tells the runs apart.
+// The scene differs only in the seed, so only the grains' motion tells the runs apart.
 TEST_F(Recorded, AnotherRunsMeasuresAndContactsAreRefused) {
     run("run");
     run("other", {"run.seed=2"});
@@ -158,7 +159,7 @@ TEST_F(Recorded, GivesItsFramesInAnyOrder) {
     EXPECT_EQ(archive.nearest(9), 4u);
     EXPECT_THAT(archive.before(3, 0.1), testing::ElementsAre(1, 2));
 
-    // The same frame, whoever asks for it and after whatever other.
+    // A frame is the same whoever asks for it and whatever frame was read before.
     const Frame last = record.frame(4), first = record.frame(0), again = record.frame(4);
     EXPECT_EQ(last.position, again.position);
     EXPECT_EQ(last.displacement, again.displacement);
@@ -206,7 +207,7 @@ TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
     EXPECT_EQ(four.exposed[2]->position, archive.grains(archive.nearest(0.15) - 1).position);
 }
 
-// What is whole is read while the run goes on: each frame with its contacts and its row of measures.
+// All that is whole is read while the run goes on: each frame with its contacts and its row of measures.
 TEST_F(Recorded, IsReadWhileItGrows) {
     Program movie(
         {"movie", "fifty.toml", "--no-film", "--out", "run", "--duration", "3600 s", "--set",
@@ -217,7 +218,7 @@ TEST_F(Recorded, IsReadWhileItGrows) {
         try {
             return RecordedRun(here / "run", {}).moments().size();
         } catch (const UserError&) {
-            return 0;  // none yet
+            return 0;  // there is no frame yet
         }
     };
     ASSERT_TRUE(wait_until(movie, [&] { return frames() > 5; }));
@@ -230,7 +231,7 @@ TEST_F(Recorded, IsReadWhileItGrows) {
         if (turn == 0) first = last;
         const Frame frame = record.frame(last - 1);
         EXPECT_FALSE(frame.touches.empty()) << "frame " << last - 1;
-        const double row = record.moments()[last - 1].time / (0.05 / 8);  // the last until then
+        const double row = record.moments()[last - 1].time / (0.05 / 8);  // the last row at that time
         EXPECT_GE(static_cast<double>(frame.measure_rows), row - 1e-6);
     }
     const Ended film = program({"render", "run", "--out", "film", "--every", "100"});
@@ -240,7 +241,7 @@ TEST_F(Recorded, IsReadWhileItGrows) {
     EXPECT_GT(last, first) << "it did not grow";
 }
 
-// Nothing is run, and the progress says so.
+// No scene is run, and the progress line says so.
 TEST_F(Recorded, ComparedIsDrawingAlone) {
     run("run");
     const Ended ended = program(
@@ -258,7 +259,7 @@ TEST_F(Recorded, ComparedIsDrawingAlone) {
     EXPECT_GT(shown, 0);
 }
 
-// A scene beside a finished run of which nothing may be brought back shows no means of its own.
+// A scene is beside a finished run, and the run may not be replayed. So the scene shows no means either.
 TEST_F(Recorded, WhatAMixedFilmLeavesOutIsNamed) {
     run("run");
     const Ended ended = program({"compare", "run", "fifty.toml", "--out", "both", "--size", "480x270",

@@ -1,4 +1,4 @@
-// What the program prints as its result, where it cannot be written.
+// Tests of what happens when the program cannot print its result.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(Result, ThatCannotBeWrittenIsAFailure) {
     EXPECT_EQ(nlohmann::json::parse(text_of(here / "run/run.json"))["status"], "complete");
 }
 
-// As `inspect RUN | head` closes it.
+// `inspect RUN | head` closes the pipe in this way.
 TEST(Result, AReaderThatHasSeenEnoughIsNoFailure) {
     const TemporaryFolder here;
     const std::string scene = write_small_scene(here.path()).string();

@@ -1,4 +1,4 @@
-// Runs that are taken up again: longer ones, and those that cannot go on, which stay as they were.
+// Tests of runs that are resumed: longer ones, and runs that cannot be resumed, which stay as they were.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -12,7 +12,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-// The feed still gives grains, so that each end has more of them.
+// The feed still gives grains, so there are more of them at each end.
 TEST_F(ResumedFolder, OneThatIsStillFedIsMadeLongerTwice) {
     movie("whole", {"--frames", "--duration", "0.16 s"});
     movie("run", {"--frames"});
@@ -26,7 +26,7 @@ TEST_F(ResumedFolder, OneThatIsStillFedIsMadeLongerTwice) {
     EXPECT_EQ(run({"inspect", "run", "--at", "0.15 s"}).status, 0);
 }
 
-// The film has to begin anew, so that everything is cut; then the disk is full.
+// The film has to begin anew, so everything is cut; then the disk is full.
 TEST_F(ResumedFolder, OneThatFailsIsPutBack) {
     movie("run", {"--frames"});
     fs::resize_file(here / "run/film_moments.nc", 0);
@@ -63,7 +63,7 @@ TEST_F(ResumedFolder, OneThatIsKilledIsPutBackByTheNext) {
     expect_same_run("whole", "run");
 }
 
-// Each is seen before the first is cut.
+// All files are checked before the first one is cut.
 TEST_F(ResumedFolder, AFileWithWhichItCannotGoOnIsNamedAndNothingChanges) {
     movie("whole");
     const auto refused = [&](const char* file, const std::function<void(const fs::path&)>& damage) {
@@ -87,7 +87,7 @@ TEST_F(ResumedFolder, AFileWithWhichItCannotGoOnIsNamedAndNothingChanges) {
 
 TEST_F(ResumedFolder, ARowThatWasTakenOutOfTheOutflowIsMissed) {
     std::string text = busy_scene_text;
-    // Without fields, of walls too, it goes on from its end.
+    // Without fields, also of walls, the run continues from its end.
     text.erase(text.find("[output.fields]"), text.find("[film]") - text.find("[output.fields]"));
     text.replace(text.find("[\"walls\", \"outflow\"]"), 20, "[\"outflow\"]");
     write_text(here / "busy.toml", text);
@@ -104,7 +104,7 @@ TEST_F(ResumedFolder, ARowThatWasTakenOutOfTheOutflowIsMissed) {
     expect_same_folder("run", before);
 }
 
-// What is kept of its film is lost, and all of it is drawn again.
+// The frames kept for its film are lost, so all of the film is drawn again.
 TEST_F(ResumedFolder, WithoutTheMomentsOfItsFilmItBeginsAnew) {
     movie("whole", {"--frames", "--duration", "0.13 s"});
     movie("short", {"--frames"});
@@ -117,7 +117,7 @@ TEST_F(ResumedFolder, WithoutTheMomentsOfItsFilmItBeginsAnew) {
     }
 }
 
-// Records in the middle would be missing in the end.
+// Otherwise records in the middle would be missing at the end.
 TEST_F(ResumedFolder, CutContactsAndFieldsAreWrittenAgain) {
     movie("whole", {"--frames", "--duration", "0.13 s"});
     movie("run", {"--frames"});
@@ -128,7 +128,7 @@ TEST_F(ResumedFolder, CutContactsAndFieldsAreWrittenAgain) {
     expect_same_run("whole", "run");
 }
 
-// The record's first word finds no room, and there is no old one to write it over.
+// There is no room for the first text of run.json, and no old text to write it over.
 TEST_F(ResumedFolder, AFullDiskWithoutARecordIsAFailure) {
     movie("run", {"--no-film"});
     fs::remove(here / "run/run.json");
@@ -139,7 +139,7 @@ TEST_F(ResumedFolder, AFullDiskWithoutARecordIsAFailure) {
     expect_same_folder("run", before);
 }
 
-// What the plan chose for the same scene in one go, and why.
+// The comments are those of the plan for the same scene in one go, with the reasons of its choices.
 TEST_F(ResumedFolder, ItsSceneKeepsItsComments) {
     movie("run", {"--no-film"});
     const std::string before = text_of(here / "run/scene.toml");
@@ -163,7 +163,7 @@ TEST_F(ResumedFolder, AMissingPageIsMade) {
     program.send(SIGKILL);
     program.wait();
     std::error_code none;
-    fs::remove(here / "run/report.html", none);  // in case it was quick
+    fs::remove(here / "run/report.html", none);  // in case the page was made quickly
     const auto film = fs::last_write_time(here / "run/movie.mp4");
     const Ended ended = run({"resume", "run"});
     EXPECT_EQ(ended.status, 0) << ended.err;
@@ -178,7 +178,7 @@ TEST_F(ResumedFolder, AMissingPageIsMade) {
     const Ended over = run({"resume", "run"});
     EXPECT_EQ(over.status, 2);
     EXPECT_THAT(over.err, HasSubstr("has come to 0.1 s already"));
-    // As versions before left it.
+    // Versions before left the run like this.
     fs::remove(here / "run/report.html");
     EXPECT_EQ(run({"resume", "run"}).status, 0);
     EXPECT_TRUE(fs::exists(here / "run/report.html"));

@@ -1,5 +1,5 @@
-// Runs that are taken up again in their folders: killed ones, stopped ones, and finished ones that are to be
-// longer. What they leave is what a run in one go leaves, byte by byte.
+// Tests of runs that are resumed in their folders: killed runs, stopped runs, and finished runs that are made
+// longer. They leave the same files as a run in one go, byte by byte.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -37,7 +37,7 @@ class ResumedRun : public testing::Test {
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
-    // Starts the run and kills it once its trajectory has so many frames.
+    // Starts the run and kills it when its trajectory has so many frames.
     void kill_at(std::size_t frames, const Words& more, int signal = SIGKILL) const {
         Program program(movie("run", more), {.folder = here.path()});
         ASSERT_TRUE(wait_until(program, [&] { return frames_in("run") >= frames; }));
@@ -48,7 +48,7 @@ class ResumedRun : public testing::Test {
         try {
             return TrajectoryReader(here / folder / "trajectory.nc").frames();
         } catch (const UserError&) {
-            return 0;  // not there yet
+            return 0;  // the file is not there yet
         }
     }
     nlohmann::json record(const std::string& folder) const {
@@ -61,7 +61,7 @@ class ResumedRun : public testing::Test {
             names.insert(entry.path().filename());
         return names;
     }
-    // All that both left but what tells of wall time.
+    // Compares all files of both runs, except for what depends on wall time.
     void expect_same(const std::string& whole, const std::string& resumed) const {
         EXPECT_EQ(record(resumed)["status"], "complete");
         EXPECT_EQ(record(resumed)["engine"]["state_hash"], record(whole)["engine"]["state_hash"]);
@@ -112,7 +112,7 @@ TEST_F(ResumedRun, AKilledOneEndsAsIfItHadNotBeen) {
     expect_same("whole", "run");
 }
 
-// A kill in the middle of a write leaves a frame that is counted and not whole.
+// A kill in the middle of a write leaves a frame that is counted but not whole.
 TEST_F(ResumedRun, AFrameThatWasHalfWrittenIsWrittenAgain) {
     ASSERT_EQ(run(movie("whole", with_all)).status, 0);
     kill_at(9, with_all);
@@ -124,7 +124,7 @@ TEST_F(ResumedRun, AFrameThatWasHalfWrittenIsWrittenAgain) {
     expect_same("whole", "run");
 }
 
-// Browsers do not play Matroska, so the page needs a copy, which goes along with the film.
+// Browsers do not play Matroska, so the page needs a copy, which is written together with the film.
 TEST_F(ResumedRun, TheCopyForThePageIsWhole) {
     const Words words = {"--duration", "1.5 s", "--format", "ffv1"};
     kill_at(9, words);
@@ -153,7 +153,7 @@ TEST_F(ResumedRun, KilledTwiceAndStoppedOnce) {
 
 TEST_F(ResumedRun, AFinishedOneIsMadeLonger) {
     Words more = with_all;
-    more.push_back("--no-report");  // without key moments, which are chosen for an end
+    more.push_back("--no-report");  // without key moments, because these are chosen for a run's end
     more[1] = "0.4 s";
     ASSERT_EQ(run(movie("whole", more)).status, 0);
     more[1] = "0.25 s";
@@ -165,7 +165,7 @@ TEST_F(ResumedRun, AFinishedOneIsMadeLonger) {
     expect_same("whole", "run");
 }
 
-// Their contacts have a stiffness that the plan chose beside that of the pair of species.
+// The plan chose the stiffness of contacts with glued grains beside that of the pair of species.
 TEST_F(ResumedRun, GluedGrainsStayAsStiff) {
     for (const char* law : {"contact.law=walton-braun", "contact.law=hertz"}) {
         SCOPED_TRACE(law);
@@ -193,7 +193,7 @@ TEST_F(ResumedRun, GrainsThatLeaveAreToldOnce) {
     expect_same("whole", "run");
 }
 
-// A picture of them shows more than a moment: the run begins anew where it was packed.
+// A picture of means and forces needs more than a moment, so the run begins anew from its packing.
 TEST_F(ResumedRun, AFilmOfMeansAndForcesIsMadeAnew) {
     const Words more = {"--duration", "1.5 s",
                         "--set",      "film.segment=[{playback=2, exposure=\"5 ms\"}]",
@@ -207,7 +207,7 @@ TEST_F(ResumedRun, AFilmOfMeansAndForcesIsMadeAnew) {
     expect_same("whole", "run");
 }
 
-// A closing slow motion comes at the new end.
+// A slow motion at the end moves to the new end.
 TEST_F(ResumedRun, TheFilmsLastSegmentMovesToTheNewEnd) {
     const auto with_end = [](const char* duration) {
         return Words{"--duration", duration,
@@ -220,7 +220,7 @@ TEST_F(ResumedRun, TheFilmsLastSegmentMovesToTheNewEnd) {
     expect_same("whole", "run");
 }
 
-// The container goes over to the new drive without a jump, and each part of the run comes back as it was.
+// The container changes to the new drive without a jump, and each part of the run is restored as it was.
 TEST_F(ResumedRun, AnAcceptedDriveTakesOverSmoothly) {
     ASSERT_EQ(run(movie("run", {"--duration", "0.2 s", "--size", "320x240"})).status, 0);
     const auto grain_at = [&](const char* time) {
@@ -244,12 +244,13 @@ TEST_F(ResumedRun, AnAcceptedDriveTakesOverSmoothly) {
     };
     const std::vector<double> time = column("time_s"), floor = column("floor_position_m"),
                               level = column("drive_g_level");
-    const double fastest = 2 * 9.81 / (2 * std::numbers::pi * 20);  // a 2 pi f at the first drive, m/s
+    const double fastest = 2 * 9.81 / (2 * std::numbers::pi * 20);  // m/s, a 2 pi f at the first drive
     for (std::size_t k = 1; k < time.size(); ++k)
         EXPECT_LE(std::abs(floor[k] - floor[k - 1]), 1.01 * fastest * (time[k] - time[k - 1])) << time[k];
-    EXPECT_NEAR(*std::max_element(level.begin(), level.end()), 2, 1e-6);  // it grows from 0 at first
+    EXPECT_NEAR(*std::max_element(level.begin(), level.end()), 2,
+                1e-6);  // the drive grows from 0 at the beginning
     EXPECT_NEAR(level.back(), 1.5, 1e-6);
-    // A kept moment of the second part, as it was kept and as it comes back.
+    // Compares a kept moment of the second part with the same moment restored.
     const auto place = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"inspect", "run", "--at", "0.45 s", "--grain", "7", "--json"};
         words.insert(words.end(), more.begin(), more.end());
@@ -273,7 +274,7 @@ TEST_F(ResumedRun, ARunThatGoesOnKeepsItsCheckpoints) {
     program.wait();
 }
 
-// Each pair of the run's scene has its own friction, and all of them change.
+// Each pair in the run's scene has its own friction, and all of them change.
 TEST_F(ResumedRun, AnAcceptedFrictionIsThatOfAllPairs) {
     ASSERT_EQ(run(movie("run", {"--duration", "0.1 s", "--no-film"})).status, 0);
     fs::copy(here / "run", here / "as_before", fs::copy_options::recursive);
@@ -307,7 +308,7 @@ TEST_F(ResumedRun, WithoutOneOfItsFilesItIsRefusedAndLeftAsItIs) {
         }
 }
 
-// The rows tell how far the run came, where its last checkpoint is lost.
+// If the last checkpoint is lost, the rows tell how far the run came.
 TEST_F(ResumedRun, ALostCheckpointDoesNotMakeItShorter) {
     ASSERT_EQ(run(movie("run", {"--duration", "0.2 s", "--no-film"})).status, 0);
     fs::remove(here / "run/checkpoint.grs");

@@ -1,4 +1,4 @@
-// A run on disk that is taken up again, and what is in its folder before and after.
+// A run on disk that is resumed, and the content of its folder before and after.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,12 +34,12 @@ class ResumedFolder : public testing::Test {
         const Ended ended = run(words);
         ASSERT_EQ(ended.status, 0) << ended.err;
     }
-    // The same run again, as it is on disk.
+    // Makes a copy of a run on disk.
     void copy(const std::string& from, const std::string& to) const {
         fs::remove_all(here / to);
         fs::copy(here / from, here / to, fs::copy_options::recursive);
     }
-    // What is in each of its files but the log.
+    // The content of each file except the log.
     std::map<std::string, std::string> files_of(const std::string& folder) const {
         std::map<std::string, std::string> files;
         for (const auto& entry : fs::recursive_directory_iterator(here / folder))
@@ -56,7 +56,7 @@ class ResumedFolder : public testing::Test {
         }
         for (const auto& [name, bytes] : now) EXPECT_EQ(before.count(name), 1u) << name;
     }
-    // All but what tells of wall time, and moments of former ends.
+    // Compares two runs, except for what depends on wall time, and moments of former ends.
     void expect_same_run(const std::string& whole, const std::string& resumed) const {
         for (const char* name : {"trajectory.nc", "contacts.nc", "measures.csv", "outflow.csv", "final.csv",
                                  "film_moments.nc", "fields.nc", "scene.toml", "film_times.csv"})

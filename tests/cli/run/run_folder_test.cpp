@@ -23,7 +23,7 @@ std::string message_of(const RunFolderRequest& request) {
     return "no error";
 }
 
-// An earlier run in `path`, with a file to know it by.
+// Makes an earlier run in `path`, with a file by which it can be recognised.
 void make_run(const fs::path& path) {
     fs::create_directory(path);
     write_text(path / "run.json", "{}");
@@ -69,7 +69,7 @@ TEST(RunFolder, ForceKeepsTheOldRunUntilTheNewOneIsComplete) {
     EXPECT_TRUE(fs::exists(here / "run"));
 }
 
-// Whatever a run with fields and an outlet leaves.
+// The folder has all files of a run with fields and an outlet.
 TEST(RunFolder, ForceReplacesARunWithAllItsFiles) {
     const TemporaryFolder here;
     make_run(here / "run");
@@ -160,7 +160,7 @@ TEST(RunFolder, AFolderInUseIsRefusedAndItsHolderNamed) {
         EXPECT_EQ(entries(here.path()), 1u);
         EXPECT_EQ(text_of(run / "run.json"), "{}");
     }
-    EXPECT_EQ(entries(run), 1u);  // the lock is gone with its holder
+    EXPECT_EQ(entries(run), 1u);  // the lock went with its holder
     EXPECT_EQ(message_of({"wedge", "output", run, true}), "no error");
 }
 
@@ -172,7 +172,7 @@ TEST(RunFolder, ARunThatIsBeingReplacedIsInUseToo) {
     EXPECT_THAT(message_of({"wedge", "output", here / ".run.old-1", true}), HasSubstr("is in use"));
 }
 
-// A killed run leaves the file, but not the lock.
+// A killed run leaves the file, but nobody has its lock.
 TEST(RunFolder, ALockFileThatWasLeftBehindMeansNothing) {
     const TemporaryFolder here;
     make_run(here / "run");
@@ -197,7 +197,7 @@ TEST(RunFolder, KnowsWhenItIsGone) {
     EXPECT_NO_THROW(folder.lock().check_there());
     fs::rename(here / "run", here / "elsewhere");
     EXPECT_THROW(folder.lock().check_there(), RunError);
-    const RunFolder another({"wedge", "output", here / "run", false});  // of the same name
+    const RunFolder another({"wedge", "output", here / "run", false});  // a scene of the same name
     EXPECT_THROW(folder.lock().check_there(), RunError);
     EXPECT_NO_THROW(another.lock().check_there());
 }

@@ -1,4 +1,5 @@
-// Runs that do not reach their end: signals, a full disk. What they had must stay usable.
+// Tests of runs that do not reach their end because of signals or a full disk. What they had must stay
+// usable.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -22,14 +23,15 @@ namespace fs = std::filesystem;
 using namespace test;
 using testing::HasSubstr;
 
-// The program is held meanwhile, so that both signals wait for it and no good order comes between them.
+// The program is halted meanwhile, so that both signals wait for it and it cannot begin an orderly end
+// between them.
 void send_both_at_once(Program& program) {
     for (const int signal : {SIGSTOP, SIGINT, SIGTERM, SIGCONT}) program.send(signal);
 }
 
 class StoppedMovie : public testing::Test {
   protected:
-    // An hour of shaking, in run/ of the test's folder.
+    // The command for an hour of shaking, in run/ of the test's folder.
     std::vector<std::string> long_run(const std::vector<std::string>& more = {}) const {
         std::vector<std::string> words = {"movie", scene.string(), "--duration", "3600 s", "--out", "run"};
         words.insert(words.end(), more.begin(), more.end());
@@ -40,7 +42,7 @@ class StoppedMovie : public testing::Test {
         try {
             return TrajectoryReader(here / "run/trajectory.nc").frames();
         } catch (const UserError&) {
-            return 0;  // not there yet
+            return 0;  // the file is not there yet
         }
     }
 
@@ -79,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, SignalledMovie, testing::Values(SIGINT, SIGTER
                                                               : "HangUp";
                          });
 
-// A closed terminal sends SIGHUP from the kernel and from the shell.
+// A closed terminal sends SIGHUP twice: from the kernel and from the shell.
 TEST_F(StoppedMovie, ASecondHangUpLeavesTheGoodOrder) {
     Program program(long_run(), {here.path(), {}});
     ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 5; }));
@@ -102,7 +104,7 @@ TEST_F(StoppedMovie, GoesOnUnderNohup) {
     EXPECT_EQ(program.wait().status, 143);
 }
 
-// To the end of 0.3 s, from the checkpoint of a run that was ended; the state's hash is that of a run in one
+// A run that was stopped is resumed from its checkpoint to 0.3 s; the state's hash is that of a run in one
 // go.
 void expect_goes_on(const fs::path& here) {
     std::string text = text_of(here / "run/scene.toml");
@@ -122,7 +124,7 @@ void expect_goes_on(const fs::path& here) {
 }
 
 TEST_F(StoppedMovie, ASecondSignalKeepsTheStateAndLeavesTheFilm) {
-    // Drawn so large that the film is far behind.
+    // Pictures are so large that the film is far behind.
     Program program(long_run({"--size", "1920x1080"}), {here.path(), {}});
     ASSERT_TRUE(wait_until(program, [&] { return frames_on_disk() >= 1; }));
     fs::remove(here / "run/checkpoint.grs");
@@ -137,7 +139,7 @@ TEST_F(StoppedMovie, ASecondSignalKeepsTheStateAndLeavesTheFilm) {
     EXPECT_TRUE(fs::exists(here / "run/checkpoint.grs"));
 }
 
-// There is no state yet, so nothing to wait for.
+// There is no state yet, so the program has nothing to wait for.
 TEST_F(StoppedMovie, ASecondSignalWhilePackingStopsAtOnce) {
     Program program(long_run({"--set", "species.small.count=150", "--set", "run.step=1e-7 s"}),
                     {here.path(), {}});
@@ -149,8 +151,8 @@ TEST_F(StoppedMovie, ASecondSignalWhilePackingStopsAtOnce) {
     EXPECT_EQ(record()["status"], "running");
 }
 
-// The first signal has stopped the run, and the film is being finished. One thread: engine and film take
-// turns, so that many pictures wait to be drawn.
+// The first signal has stopped the run, and the film is being finished. With one thread, engine and film take
+// turns, so many pictures wait to be drawn.
 TEST_F(StoppedMovie, ASecondSignalWhilePicturesWaitLeavesTheFilmAndTellsItsLength) {
     for (const char* format : {"mp4", "gif"}) {
         Program program(long_run({"--size", "960x540", "--threads", "1", "--frames", "--format", format}),
@@ -158,7 +160,7 @@ TEST_F(StoppedMovie, ASecondSignalWhilePicturesWaitLeavesTheFilmAndTellsItsLengt
         ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/frames/000001.png"); }));
         program.send(SIGINT);
         ASSERT_TRUE(wait_until(program, [&] { return record()["status"] == "interrupted"; }));
-        EXPECT_EQ(record()["written"]["film_frames"], nullptr);  // not known before it is closed
+        EXPECT_EQ(record()["written"]["film_frames"], nullptr);  // not known before the film is closed
         program.send(SIGINT);
         const Ended ended = program.wait();
         EXPECT_EQ(ended.status, 130);
@@ -180,7 +182,7 @@ TEST_F(StoppedMovie, AThirdSignalWhilePicturesWaitEndsAtOnceAndSaysSo) {
     ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/poster.png"); }));
     program.send(SIGINT);
     ASSERT_TRUE(wait_until(program, [&] { return record()["status"] == "interrupted"; }));
-    program.send(SIGSTOP);  // so that the last two come together
+    program.send(SIGSTOP);  // so that the last two signals come together
     program.send(SIGINT);
     program.send(SIGTERM);
     program.send(SIGCONT);
@@ -217,7 +219,7 @@ TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
     fs::create_directory(here / "run");
     write_text(here / "run/run.json", "{}");
     write_text(here / "run/movie.mp4", "the old film");
-    // So many grains, and so hard ones, that packing takes a while.
+    // There are so many stiff grains that packing takes a while.
     Program program(long_run({"--force", "--set", "species.small.count=150", "--set", "run.step=1e-7 s"}),
                     {here.path(), {}});
     ASSERT_TRUE(wait_until(program, [&] { return fs::exists(here / "run/scene.toml"); }));
@@ -229,7 +231,7 @@ TEST_F(StoppedMovie, InterruptedBeforeTheFirstStepKeepsTheOldRun) {
     EXPECT_EQ(record()["status"], "interrupted");
 }
 
-// The limit on a file's size stands for the full disk: the write that passes it fails.
+// A limit on the size of files stands for the full disk: the write that exceeds it fails.
 TEST_F(StoppedMovie, AFullDiskEndsTheRunAndKeepsTheFramesBefore) {
     const Ended ended = run_program(long_run({"--no-film", "--set", "output.measures_interval=10 s"}),
                                     {here.path(), {}, 300000});
@@ -251,7 +253,7 @@ TEST_F(StoppedMovie, AFullDiskEndsTheRunAndKeepsTheFramesBefore) {
     EXPECT_EQ(read_grain_table(here / "run/final.csv").size(), 50u);
 }
 
-// So full that no new file can be had: run.json says so all the same.
+// The disk is so full that no new file can be made. run.json still tells it.
 TEST_F(StoppedMovie, AFullDiskIsWrittenDownInRunJson) {
     fs::create_directory(here / "disk");
     const SmallDisk disk(here / "disk", 300000);
@@ -283,7 +285,8 @@ TEST_F(StoppedMovie, AFolderThatIsGoneEndsTheRun) {
     }
 }
 
-// Its files go on where it is now; the folder that somebody else has put in its place is left alone.
+// The run's files continue in its present place; a folder that somebody else has put in the old place is not
+// touched.
 TEST_F(StoppedMovie, AFolderThatIsRenamedAndReplacedEndsTheRun) {
     for (const bool film : {true, false}) {
         Program program(
@@ -340,7 +343,7 @@ TEST_F(StoppedMovie, AComparisonThatIsRenamedKeepsItsPanels) {
     Program program({"compare", scene.string(), scene.string(), "--duration", "3600 s", "--out", "run",
                      "--size", "640x360", "--captions", "a|b"},
                     {here.path(), {}});
-    // The film is the last file that is opened, when both panels have begun.
+    // The film is the last file that is opened, after both panels have begun.
     ASSERT_TRUE(wait_until(program, [&] {
         return fs::exists(here / "run/movie.mp4") && fs::exists(here / "run/fifty-2/checkpoints");
     }));
@@ -369,9 +372,9 @@ TEST_F(StoppedMovie, AFolderInUseIsLeftAlone) {
         const Ended refused = run_program(words, {here.path(), {}});
         EXPECT_EQ(refused.status, 2);
         EXPECT_THAT(refused.err, HasSubstr("error: --out run: is in use by process "));
-        EXPECT_THAT(refused.err, HasSubstr("--duration '3600 s'"));  // its command
+        EXPECT_THAT(refused.err, HasSubstr("--duration '3600 s'"));  // the command of the run
     }
-    // To read there is allowed.
+    // Reading in that folder is allowed.
     EXPECT_EQ(run_program({"render", "run", "--at", "0", "--out", "still.png"}, {here.path(), {}}).status, 0);
     program.send(SIGINT);
     EXPECT_EQ(program.wait().status, 130);

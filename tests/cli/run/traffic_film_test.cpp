@@ -1,4 +1,4 @@
-// A run that grains leave and enter, through its files and onto pictures.
+// Tests of a run that grains leave and enter: its files and its pictures.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -28,7 +28,7 @@ FilmedScene sink_scene(const std::vector<std::string>& more = {}) {
     return read_filmed_scene_text(test::small_scene_text, "sink.toml", sets);
 }
 
-// Grains leave through the floor, and two come from above every now and then.
+// A run in which grains leave through the floor, and two come from above now and then.
 struct Sink {
     FilmedScene scene;
     Plan plan = plan_of(scene);
@@ -87,7 +87,7 @@ TEST(TrafficFilm, FilesHaveWhoIsThere) {
         all.insert(now.begin(), now.end());
         for (const std::int32_t id : all)
             if (!now.contains(id)) gone.insert(id);
-        // Measures are of those who are there.
+        // Measures count only grains that are there.
         Vec3 small(0, 0, 0);
         double count = 0;
         for (std::size_t k = 0; k < frame.size(); ++k)
@@ -98,7 +98,7 @@ TEST(TrafficFilm, FilesHaveWhoIsThere) {
         EXPECT_LT((centre - small / count).norm(), 1e-12) << i;
     }
     EXPECT_LE(all.size(), reader.info().capacity);
-    // What was lost, of all that came in, does not fall: nothing gains energy.
+    // The energy lost, out of all that came in, never falls: no grain gains energy.
     for (std::size_t i = 1; i < measures.size(); ++i)
         EXPECT_GT(measures[i].at("lost_J"),
                   measures[i - 1].at("lost_J") - 1e-3 * measures[i].at("wall_work_J"))
@@ -124,12 +124,12 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     on.advance(2 * quarter);
     EXPECT_EQ(on.state_hash(), whole.simulation.state_hash());
     EXPECT_EQ(on.traffic().left, whole.simulation.traffic().left);
-    // To start anew with those who are left: the scene has to say how many there are.
+    // The run starts anew with the grains that are left, so the scene has to give their number.
     scene.start.keep_clock = false;
     EXPECT_THROW(Simulation(scene, whole.plan, 1), UserError);
 }
 
-// Colours, trails, chains and arrows of a bed whose grains change; a picture shows those of its frame alone.
+// The bed's grains change; a picture has the colours, trails, chains and arrows of its own frame only.
 TEST(TrafficFilm, PicturesShowWhoIsThere) {
     Sink sink(sink_scene({"film.trails.species=[\"big\"]", "film.trails.duration=\"0.1 s\"",
                           "film.force_chains=true", "film.arrows.grid=8", "film.highlight=[3, 17]",
@@ -147,7 +147,8 @@ TEST(TrafficFilm, PicturesShowWhoIsThere) {
         if (const char* at = std::getenv("GRAINREEL_LOOK"))
             write_png(std::string(at) + "/sink_" + std::to_string(i) + ".png", picture, {});
         if (i != 16) continue;
-        // Nothing is left of who has gone: without trails a renderer that saw only this frame draws the same.
+        // Nothing of the grains that have gone is left: without trails, a renderer that saw only this frame
+        // draws the same.
         FilmedScene plain = sink.scene;
         plain.film.shows.trails = {};
         Renderer one(plain, 1), other(plain, 1);

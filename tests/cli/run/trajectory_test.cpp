@@ -31,7 +31,8 @@ TrajectoryInfo made_info(std::size_t capacity, bool orientation = false) {
     return info;
 }
 
-// Through memory, since GCC 12 at -O3 takes the rounding out of a vector's way to float and back.
+// The numbers go through memory, because GCC 12 at -O3 would leave out the rounding of a vector to floats and
+// back.
 Vec3 as_floats(const Vec3& v) {
     Vec3 rounded;
     for (int k = 0; k < 3; ++k) {
@@ -41,7 +42,7 @@ Vec3 as_floats(const Vec3& v) {
     return rounded;
 }
 
-// Bit by bit, but for what the file keeps as float.
+// Compares bit by bit, except for numbers that the file keeps as floats.
 void expect_same(const Frame& got, const Frame& wanted) {
     EXPECT_EQ(got.step, wanted.step);
     EXPECT_EQ(got.time, wanted.time);
@@ -86,7 +87,7 @@ TEST(Trajectory, ReadsBackContactNumbers) {
                     with_contact_numbers(made_frame(5 - static_cast<int>(i), static_cast<int>(i))));
 }
 
-// A run of an earlier version goes on without them.
+// The file of an earlier version is continued without contact numbers.
 TEST(Trajectory, AFileWithoutContactNumbersGoesOnWithoutThem) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(5);
@@ -115,7 +116,7 @@ TEST(Trajectory, ReadsBackWhatWasWritten) {
     for (std::size_t i = 0; i < 3; ++i) expect_same(reader.read(i), made_frame(5, static_cast<int>(i), true));
 }
 
-// Container and floor have variables of their own; what further bodies there are has a dimension.
+// Container and floor have variables of their own; all other bodies share a dimension.
 TEST(Trajectory, SaysWhereAllBodiesAre) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
@@ -162,7 +163,7 @@ Frame with_bodies(Frame frame, int bodies) {
     return frame;
 }
 
-// The shape once, at rest; where it is in every frame.
+// The file has the shape once, at rest, and its place in every frame.
 TEST(Trajectory, KeepsTheShapesOfMeshes) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
@@ -211,7 +212,7 @@ TEST(Trajectory, SaysHowFarTheContainerHasTurned) {
     expect_same(reader.read(0), frame);
 }
 
-// What is in a file with neither is not changed by what a file may have.
+// Optional variables must not change a file that does not have them.
 TEST(Trajectory, AFileWithoutMeshesHasNoneOfTheirVariables) {
     const TemporaryFolder here;
     TrajectoryWriter(here / "t.nc", made_info(2)).write(made_frame(2, 1));
@@ -222,7 +223,7 @@ TEST(Trajectory, AFileWithoutMeshesHasNoneOfTheirVariables) {
     nc_close(file);
 }
 
-// A vertex, a count, a corner: each byte of the shapes.
+// Each part of the shapes is damaged in turn: a vertex, a count, a corner.
 TEST(Trajectory, DamagedShapesAreRefused) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
@@ -272,8 +273,8 @@ Frame frame_with(const std::vector<std::int32_t>& ids, int number) {
     return frame;
 }
 
-// Who has gone keeps its place in the file; who comes gets the next one. A place without a grain is in the
-// container's lowest corner, too small to be seen.
+// A grain that has gone keeps its place in the file, and a new grain gets the next one. In a place without a
+// grain stands one in the container's lowest corner, too small to be seen.
 TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
     const TemporaryFolder here;
     const std::vector<Frame> frames{frame_with({0, 1, 2, 5}, 0), frame_with({0, 2, 5}, 1),
@@ -328,8 +329,8 @@ TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
         }
 }
 
-// Files of earlier versions have fill values where no grain has been, and a grain that has gone where it was
-// last.
+// Files of earlier versions have fill values where no grain has been; a grain that has gone stays at its last
+// place.
 TEST(Trajectory, FilesOfEarlierVersionsAreRead) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(4);
@@ -350,7 +351,8 @@ TEST(Trajectory, FilesOfEarlierVersionsAreRead) {
         const std::vector<double> last(width, 0.004);
         ASSERT_EQ(nc_put_vara_double(file, variable, gone.data(), count.data(), last.data()), NC_NOERR);
     }
-    // Their own sums would be right; these are not, and a file without any is read as it is.
+    // These checksums are wrong, though the sums of the numbers would be right; a file without checksums is
+    // read as it is.
     ASSERT_EQ(nc_inq_varid(file, "grain_checksum", &variable), NC_NOERR);
     ASSERT_EQ(nc_rename_var(file, variable, "grain_nothing"), NC_NOERR);
     nc_close(file);
@@ -362,7 +364,7 @@ TEST(Trajectory, FilesOfEarlierVersionsAreRead) {
     }
 }
 
-// No run writes it, but somebody's program may.
+// No run writes such flags, but somebody's program may.
 TEST(Trajectory, FlagsThatDoNotMatchTheCountAreDamage) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(3, true);
@@ -446,7 +448,7 @@ TEST(Trajectory, FollowsTheAmberConvention) {
     nc_close(file);
 }
 
-// What a program killed now would leave is what another process reads now.
+// Another process reads now what the program would leave if it were killed now.
 TEST(Trajectory, IsReadableWhileItIsBeingWritten) {
     const TemporaryFolder here;
     TrajectoryWriter writer(here / "t.nc", made_info(4));
@@ -494,7 +496,7 @@ TEST(Trajectory, AForeignFileIsToldWhatItLacks) {
                   "trajectory.nc of a run");
 }
 
-// Three frames of 200 grains.
+// A file with three frames of 200 grains.
 std::string three_frames(const TemporaryFolder& here) {
     {
         TrajectoryWriter writer(here / "t.nc", made_info(200, true));
@@ -504,7 +506,8 @@ std::string three_frames(const TemporaryFolder& here) {
     return test::text_of(here / "t.nc");
 }
 
-// A killed run leaves that. The library reads zeros there; one byte less must show.
+// A killed run leaves such a frame. The library reads zeros beyond the end, so even one missing byte must be
+// noticed.
 TEST(Trajectory, ALastFrameThatIsNotWholeIsLeftOut) {
     const TemporaryFolder here;
     const std::string whole = three_frames(here);
@@ -521,12 +524,12 @@ TEST(Trajectory, ALastFrameThatIsNotWholeIsLeftOut) {
 TEST(Trajectory, AFileThatWasCutOffIsAUserError) {
     const TemporaryFolder here;
     const std::string whole = three_frames(here);
-    const std::size_t record = (whole.size() - 1) / 3;  // and part of the header
+    const std::size_t record = (whole.size() - 1) / 3;  // includes a part of the header
     test::write_old_text(here / "cut.nc", whole.substr(0, whole.size() - record));
     EXPECT_THAT(mistake_in(here / "cut.nc"), testing::HasSubstr("cut.nc: was cut off: of its 3 frames 1"));
 }
 
-// A run that goes on in it puts the count right.
+// A run that continues in the file corrects the count.
 TEST(Trajectory, ItIsWrittenOnBehindTheLastWholeFrame) {
     const TemporaryFolder here;
     const std::string whole = three_frames(here);
@@ -565,7 +568,7 @@ TEST(Trajectory, AMomentIsAFrameWithoutGrains) {
     EXPECT_EQ(moment.size(), 0u);
 }
 
-// Against what the library writes, in each of the classic formats.
+// The header is compared with what the library writes, in each of the classic formats.
 TEST(NetcdfHeader, IsWhatLiesOnDisk) {
     const TemporaryFolder here;
     for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA}) {
@@ -651,7 +654,7 @@ TEST(ContactsFile, HasTheTrianglesOfMeshes) {
     }
     ContactsWriter(here / "c.nc", 1).write(1, {touch(3, 9), {4, 5, 1, {}, {}}});
     const ContactsReader reader(here / "c.nc");
-    EXPECT_EQ(reader.touches(0).size(), 2u);  // two parts of one mesh
+    EXPECT_EQ(reader.touches(0).size(), 2u);  // the grain touches two parts of one mesh
     EXPECT_EQ(reader.touches(1).size(), 2u);
     int file = -1, variable = -1;
     ASSERT_EQ(nc_open((here / "c.nc").c_str(), NC_WRITE, &file), NC_NOERR);
@@ -663,7 +666,7 @@ TEST(ContactsFile, HasTheTrianglesOfMeshes) {
     const int other = 10;
     nc_put_var1_int(file, variable, &row, &other);
     nc_close(file);
-    EXPECT_THROW(ContactsReader(here / "c.nc").touches(1), UserError);  // the row's checksum counts it
+    EXPECT_THROW(ContactsReader(here / "c.nc").touches(1), UserError);  // the checksum of the row covers it
 }
 
 TEST(ContactsFile, IsReadFrameByFrame) {

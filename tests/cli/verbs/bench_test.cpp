@@ -1,4 +1,4 @@
-// The verb `bench`: what it prints adds up, and names the run it was.
+// Tests of the verb `bench`: its numbers add up, and it names the run that it made.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(Bench, CostsAddUpToTheStep) {
         EXPECT_EQ(r["particles"], 500);
         EXPECT_EQ(r["threads"], threads);
         EXPECT_EQ(r["precision"], "double");
-#ifndef __SANITIZE_ADDRESS__  // whose heap keeps no such accounts
+#ifndef __SANITIZE_ADDRESS__  // (the sanitizer's heap does not count memory)
         EXPECT_GT(r["bytes_per_particle"], 100);
 #endif
         ASSERT_EQ(r["phases"].size(), 1u);

@@ -1,4 +1,4 @@
-// The verb `chart`: it stops when told to, goes on, and touches no folder that is not its own.
+// Tests of the verb `chart`: it stops when told to, continues, and touches no folder that is not its own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-// `grainreel check` as its users meet it: what it refuses at once, and what ends it.
+// Tests of `grainreel check` as its users meet it: what it refuses at once, and what ends it.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST_F(CheckProgram, ReadsAPipe) {
     EXPECT_THAT(ended.out, HasSubstr("Fifty grains"));
 }
 
-// A damping that is given leaves every size a restitution of its own; one that is asked for holds for all.
+// With a given damping every size has a restitution of its own; a given restitution holds for all sizes.
 TEST_F(CheckProgram, TellsTheRestitutionOfAllSizes) {
     const std::string spread = "species.small.diameter={ min = \"1 mm\", max = \"4 mm\" }";
     const auto contacts = [&](const char* more) {
@@ -75,15 +75,15 @@ TEST_F(CheckProgram, ABoxThatIsOnlyFedIsNotPacked) {
     EXPECT_THAT(ended.out, HasSubstr("start        empty; all grains come by [[feed]]\n"));
 }
 
-// Held in the middle of its work by a pipe that says nothing; had the signal not ended it, the closed pipe
-// would, with a complaint about an empty scene.
+// A pipe that stays silent holds the program in the middle of its work. If the signal did not end it, the
+// closed pipe would, with a message about an empty scene.
 class SignalledCheck : public CheckProgram, public testing::WithParamInterface<int> {};
 
 TEST_P(SignalledCheck, EndsAtOnce) {
     const fs::path pipe = here / "pipe.toml";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     Program program({"check", pipe.string()}, setting());
-    int end = -1;  // can be opened when the program reads
+    int end = -1;  // the pipe can be opened as soon as the program reads
     ASSERT_TRUE(
         wait_until(program, [&] { return (end = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK)) >= 0; }));
     program.send(GetParam());
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, SignalledCheck, testing::Values(SIGINT, SIGTER
                                                               : "HangUp";
                          });
 
-// In the middle of measuring what a frame costs, whose film lies in a folder of its own.
+// The signal comes while the program measures the cost of a frame, whose film lies in a folder of its own.
 TEST_P(SignalledCheck, LeavesNothingBehind) {
     const fs::path temporary = here / "tmp";
     fs::create_directory(temporary);
@@ -111,7 +111,7 @@ TEST_P(SignalledCheck, LeavesNothingBehind) {
     EXPECT_TRUE(fs::is_empty(temporary));
 }
 
-// Counted before they are made: each of these took minutes or gigabytes, or had no end.
+// Numbers are computed before anything is made: each of these took minutes or gigabytes, or had no end.
 TEST_F(CheckProgram, RefusesMoreThanCanBeMade) {
     const auto complaint = [&](const std::vector<std::string>& words) {
         std::vector<std::string> all = {scene.string()};
@@ -156,7 +156,7 @@ std::string line_with(const std::string& text, const std::string& words) {
     return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
-// Measured once: the second answer is that of the first, to the digit.
+// The machine is measured once: the second answer is the same as the first, to the digit.
 TEST_F(CheckProgram, KeepsWhatItMeasuredOfTheMachine) {
     const Ended first = check({scene.string()}), second = check({scene.string()});
     EXPECT_EQ(first.status, 0) << first.err;
@@ -187,7 +187,7 @@ TEST_F(CheckProgram, TellsWhatEachMeshIsAndWhatWasMended) {
     EXPECT_EQ(ended.out.find(words, first + 8 + words.size()), std::string::npos) << ended.out;
 }
 
-// A plate of 200 m beside grains of 10 mm.
+// A plate of 200 m is beside grains of 10 mm.
 TEST_F(CheckProgram, HintsAtMillimetres) {
     write_mesh_scene(here.path());
     const Ended small = check({"plate.toml"});

@@ -1,4 +1,4 @@
-// Text from a scene or from the command line that would do something to a terminal or to a file.
+// Tests of text in a scene or on the command line that could harm a terminal or a file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// What `man` and the shells are given: the same verbs and options as --help, in scripts that a shell can
-// read.
+// Tests of the manual page and of completions for shells: they have the same verbs and options as --help, in
+// scripts that a shell can read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string output_of(const std::vector<std::string>& words) {
     return ended.out;
 }
 
-// The words of a text that begin with `start`, up to a comma, a blank or a line's end.
+// The words of a text that begin with `start`, up to a comma, a blank or the end of the line.
 std::vector<std::string> words_with(const std::string& text, const std::string& start) {
     std::vector<std::string> found;
     std::istringstream in(text);
@@ -32,7 +32,7 @@ std::vector<std::string> words_with(const std::string& text, const std::string& 
     return found;
 }
 
-// What bash offers for the last of these words.
+// The completions that bash offers for the last of these words.
 std::vector<std::string> offered(const std::filesystem::path& script, const std::vector<std::string>& words) {
     std::string line = "source '" + script.string() + "'; compopt() { :; }; COMP_WORDS=(";
     for (const std::string& word : words) line += "'" + word + "' ";

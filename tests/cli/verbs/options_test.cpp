@@ -1,4 +1,4 @@
-// What is typed after options, before anything is made of it.
+// Tests of the words after options, before anything is made of them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// A folder of such a name was made, though no message or run.json can name it.
+// A folder with such a name was made once, though no message or run.json can name it.
 TEST(Options, FoldersAreNamedInUtf8) {
     const TemporaryFolder here;
     const std::string scene = write_small_scene(here.path()).string();

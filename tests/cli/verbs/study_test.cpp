@@ -1,4 +1,4 @@
-// The verb `study` as its users meet it: runs, stops, goes on, gathers.
+// Tests of the verb `study` as its users meet it: it runs, stops, continues and gathers results.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ std::string replaced(std::string text, const std::string& part, const std::strin
     return text.replace(at, part.size(), other);
 }
 
-// Members that nobody waits for.
+// A study whose members run longer than any test waits.
 std::string with_long_runs() {
     return replaced(four_members, "run.duration=0.1 s", "run.duration=1000 s");
 }
@@ -71,7 +71,7 @@ class StudyVerb : public testing::Test {
     nlohmann::json record(const fs::path& member) const {
         return nlohmann::json::parse(std::ifstream(member / "run.json"));
     }
-    // Row by row, cell by cell.
+    // The cells of the table, row by row.
     std::vector<std::vector<std::string>> table() const {
         std::vector<std::vector<std::string>> rows;
         std::istringstream text(text_of(out() / "study.csv"));
@@ -116,7 +116,7 @@ TEST_F(StudyVerb, RunsReducesAndCharts) {
             page, HasSubstr("src=\"posters/" + fs::path(rows[first].back()).filename().string() + ".png\""));
 }
 
-// A member's run is the one that `movie --set ...` makes: the hash of its end state tells.
+// A member's run is the same as that of `movie --set ...`; the hash of its end state shows it.
 TEST_F(StudyVerb, AMemberIsWhatMovieMakes) {
     ASSERT_EQ(run_program(words(write(four_members), {"--no-posters"}), {}).status, 0);
     const Ended movie = run_program(
@@ -137,7 +137,7 @@ TEST_F(StudyVerb, GoesOnWithWhatIsMissing) {
     std::vector<fs::file_time_type> times;
     for (const fs::path& member : all) times.push_back(fs::last_write_time(member / "run.json"));
     fs::remove_all(all[1]);
-    // As a killed run leaves it.
+    // A killed run leaves such a file.
     write_text(all[2] / "run.json", "{\"status\": \"run");
     ASSERT_EQ(run_program(words(study, {"--no-posters"}), {}).status, 0);
     EXPECT_EQ(text_of(out() / "study.csv"), before);
@@ -193,7 +193,7 @@ TEST_F(StudyVerb, StopsInGoodOrder) {
     EXPECT_THAT(text_of(out() / "study.csv"), HasSubstr("incomplete"));
 }
 
-// What ends at once leaves no member behind that goes on by itself.
+// When a study ends at once, none of its members goes on by itself.
 TEST_F(StudyVerb, MembersEndWithAKilledStudy) {
     Program program(words(write(with_long_runs()), {"--jobs", "1", "--no-posters"}), {});
     ASSERT_TRUE(wait_until(program, [&] {
@@ -208,7 +208,7 @@ TEST_F(StudyVerb, MembersEndWithAKilledStudy) {
 }
 
 TEST_F(StudyVerb, AFailedMemberEndsNothing) {
-    // The step of the second value is far beyond what the contacts allow.
+    // The step of the second value is far too long for the contacts.
     const std::string study = write(
         replaced(replaced(four_members, "drive.g_level", "run.step"), "[2, 3]", "[\"1e-5 s\", \"1e-2 s\"]"));
     const Ended ended = run_program(words(study, {"--no-posters"}), {});
@@ -230,7 +230,7 @@ TEST_F(StudyVerb, CommandsRunElsewhereAndAreGathered) {
     EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 4);
     EXPECT_TRUE(members().empty());
     write_text(folder_ / "commands.txt", printed.out);
-    // The members run the scene as it was when they were printed.
+    // The members run the scene as it was when their commands were printed.
     write_text(folder_ / "it's fifty.toml", "no scene");
     ASSERT_EQ(std::system(("head -3 '" + (folder_ / "commands.txt").string() + "' | sh > /dev/null").c_str()),
               0);
@@ -240,7 +240,7 @@ TEST_F(StudyVerb, CommandsRunElsewhereAndAreGathered) {
     EXPECT_EQ(gathered.status, 0) << gathered.err;
     EXPECT_THAT(gathered.err, HasSubstr("3 of 4 members are complete"));
     EXPECT_EQ(table().back()[2], "missing");
-    // What is left is printed, and no more.
+    // Only the members that are still to be run are printed.
     const Ended rest = run_program(words(study, {"--print-commands"}), {});
     EXPECT_EQ(std::count(rest.out.begin(), rest.out.end(), '\n'), 1);
 }
@@ -270,8 +270,8 @@ TEST_F(StudyVerb, MistakesWriteNothing) {
     EXPECT_THAT(taken.err, HasSubstr("holds something that is no study"));
 }
 
-// One drive after the other: with rain, and stiffness and step given, the second begins with the packing of
-// the first; else the study says why not.
+// One drive runs after the other. With rain, and with stiffness and step given, the second begins with the
+// packing of the first; otherwise the study says why not.
 TEST_F(StudyVerb, SharesPackings) {
     std::string text = replaced(four_members, "seeds = 2\n", "");
     const Program::Setting setting{

@@ -1,4 +1,4 @@
-// measures.csv, final.csv, run.json, log.txt.
+// Tests of measures.csv, final.csv, run.json and log.txt.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(GrainTable, ReadsBackBitByBit) {
     }
 }
 
-// "CSV UTF-8" of a spreadsheet begins with a mark and ends its lines as Windows does.
+// A spreadsheet's "CSV UTF-8" begins with a mark and ends its lines as on Windows.
 TEST(GrainTable, IsReadAsASpreadsheetSavesIt) {
     const TemporaryFolder here;
     const Frame frame = made_frame(3, 4);
@@ -108,7 +108,7 @@ TEST(GrainTable, MistakesAreNamedWithTheirPlace) {
     EXPECT_THROW(read_grain_table("/nowhere/final.csv"), UserError);
 }
 
-// Whose column was `species`, from 0.
+// In these tables the column was `species`, counted from 0.
 TEST(GrainTable, TablesOfEarlierVersionsAreReadAsTheyWereMeant) {
     const TemporaryFolder here;
     const std::string columns = "radius,x,y,z,vx,vy,vz,wx,wy,wz\n", rest = ",0.1,0,0,0,0,0,0,0,0,0\n";
@@ -120,7 +120,7 @@ TEST(GrainTable, TablesOfEarlierVersionsAreReadAsTheyWereMeant) {
                 HasSubstr("final.csv:2:3: `species` is -1, but it counts from 0"));
 }
 
-// The header is what readers of the file rely on: names and order.
+// Readers of the file rely on names and order in the header.
 TEST(MeasuresCsv, HasAColumnForEveryNumber) {
     const TemporaryFolder here;
     const std::vector<std::string> species{"small", "big, \"round\""};
@@ -223,7 +223,7 @@ TEST(RunJson, HoldsTheRecord) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(here.path()), {}), 1);  // nothing left over
 }
 
-// A folder in the way stands for the full disk: no new file can be had.
+// A folder with the new file's name stands for the full disk: no new file can be made.
 TEST(RunJson, IsWrittenInPlaceWhereNoNewFileCanBeHad) {
     const TemporaryFolder here;
     RunJson record;

@@ -1,4 +1,4 @@
-// The table of verbs, and what --help makes of it.
+// Tests of the table of verbs, and of --help, which is made from it.
 #include "render/app/verbs/verbs.hpp"
 
 #include <gmock/gmock.h>
