@@ -1,4 +1,4 @@
-// Options that say where a film goes and how it is drawn, and the environment's part in that.
+// Options that say where a film goes and how it is drawn, with defaults from environment variables.
 
 #include <fmt/format.h>
 #include <cstdlib>
@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-// The value of a variable of the environment; none when it is empty.
+// The value of an environment variable; none when it is empty.
 std::optional<std::string> variable(const char* name) {
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0' ? std::optional<std::string>(value) : std::nullopt;

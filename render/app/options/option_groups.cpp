@@ -57,7 +57,7 @@ namespace {
 
 constexpr int most_parts = 100'000;
 
-// "3/16"
+// Parses the number of a part and the number of parts: "3/16".
 PartsWanted parse_part(const std::string& text) {
     const auto number = [](const char* from, const char* to) {
         int value = 0;
@@ -76,7 +76,7 @@ PartsWanted parse_part(const std::string& text) {
     return parts;
 }
 
-// Whether a word, or it and the one after it, is that option.
+// Whether the word is that option, with its value inside or in the next word.
 bool is_option(const std::string& word, const std::string& option, bool& value_follows) {
     value_follows = word == option;
     return value_follows || word.rfind(option + "=", 0) == 0;
@@ -175,11 +175,11 @@ void add_reporting(CLI::App& verb, ReporterOptions& report) {
     verb.add_flag("--verbose", report.verbose, "Say more on stderr");
 }
 
-// Options that give keys of the scene another value.
+// Options that give keys of the scene other values.
 
 namespace {
 
-// An option that stands for a key of the scene.
+// Adds an option that stands for a key of the scene.
 void add_key(CLI::App& verb, Assignments& sets, const char* flag, const char* key, const char* type,
              const std::string& about) {
     verb.add_option_function<std::string>(
@@ -270,7 +270,7 @@ void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets) 
     add_scene_keys(verb, sets);
 }
 
-// Where a run is shown live.
+// Options that say where a run is shown live.
 
 namespace {
 

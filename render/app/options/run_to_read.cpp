@@ -65,7 +65,7 @@ std::string trimmed(const std::string& text) {
     return from == std::string::npos ? "" : text.substr(from, to - from + 1);
 }
 
-// "a=b,c=d". Throws UserError for another form.
+// Parses pairs such as "a=b,c=d". Throws UserError for another form.
 std::vector<Pair> pairs_of(const std::string& option, const std::string& text, const char* example) {
     std::vector<Pair> pairs;
     std::size_t from = 0;
@@ -88,7 +88,8 @@ double positive(const std::string& option, const std::string& text, Dimension di
                 const char* example) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool plain = error == std::errc() && end == text.data() + text.size();  // in SI
+    const bool plain =
+        error == std::errc() && end == text.data() + text.size();  // a plain number is in SI units
     try {
         if (!plain) value = parse_quantity(text, dimension, example);
     } catch (const std::exception& problem) {

@@ -19,7 +19,7 @@ namespace grainreel {
 namespace {
 
 constexpr double inch = 25.4;          // mm
-constexpr double points_an_inch = 72;  // of type
+constexpr double points_an_inch = 72;  // points of type in an inch
 constexpr double letter = 1.6;         // mm, mean width of DejaVu Sans at 8 points
 constexpr const char* font = "DejaVu Sans,8";
 
@@ -27,11 +27,12 @@ double whole_points(double mm) {
     return std::round(mm / inch * points_an_inch);
 }
 
-// gnuplot's letters and lines have the sizes of a screen of 96 pixels an inch; ours are points of print.
+// The `set terminal` command of gnuplot. Its letters and lines have sizes for a screen of 96 pixels an inch;
+// ours are in points of print.
 std::string terminal(const std::string& form, const Paper& paper) {
     const double wide = whole_points(paper.width_mm), high = whole_points(paper.height_mm());
     constexpr double letters = points_an_inch / 96;
-    if (form == "svg")  // a unit is a point
+    if (form == "svg")  // one unit is a point
         return fmt::format("set terminal svg noenhanced size {},{} font '{}' background 'white'", wide, high,
                            font);
     if (form == "png") {
@@ -42,8 +43,8 @@ std::string terminal(const std::string& form, const Paper& paper) {
             paper.width_mm / inch * paper.dpi, paper.height_mm() / inch * paper.dpi, font, letters * pixel,
             pixel, letters * pixel);
     }
-    // A hair wider, for gnuplot cuts off what is no whole point.
-    constexpr double hair = 0.01, line = 2;  // the lines of this terminal are half as wide
+    // The size is a little larger, since gnuplot cuts off fractions of a point.
+    constexpr double hair = 0.01, line = 2;  // the lines of this terminal are half as wide as asked
     return fmt::format(
         "set terminal pdfcairo noenhanced size {:.6f}in,{:.6f}in font '{}' fontscale {} linewidth {} "
         "pointscale {}",
@@ -106,7 +107,7 @@ RunError not_gnuplots(const std::filesystem::path& file) {
                                 file.string()));
 }
 
-// CRC of PNG's chunks: ISO 3309, PNG specification, annex D.
+// The CRC of PNG's chunks (ISO 3309; PNG specification, annex D).
 std::uint32_t crc(std::string_view bytes) {
     std::uint32_t sum = 0xffffffffu;
     for (const char byte : bytes) {
@@ -149,7 +150,7 @@ void say_dots(const std::filesystem::path& png, double dpi) {
     constexpr double inch = 0.0254;          // m
     if (bytes.size() < behind_head || bytes.compare(12, 4, "IHDR") != 0) throw not_gnuplots(png);
     const std::string dots = big_endian(static_cast<std::uint32_t>(dpi / inch + 0.5));
-    const std::string chunk = "pHYs" + dots + dots + '\1';  // a metre
+    const std::string chunk = "pHYs" + dots + dots + '\1';  // dots a metre, in both directions
     constexpr std::uint32_t length = 9;
     bytes.insert(behind_head, big_endian(length) + chunk + big_endian(crc(chunk)));
     replace_file(png, bytes);

@@ -1,7 +1,7 @@
 // Charts for print: the paper that gnuplot draws on.
 //
-// gnuplot draws the charts of studies and of `chart` already, so these are drawn by it too. Its commands stay
-// beside each chart, and whoever needs other letters or other words changes them there.
+// gnuplot draws the charts of studies and of `chart` too, so the program needs only one such tool. Its
+// commands stay beside each chart, so that users can change letters or words there.
 #pragma once
 
 #include <cstddef>
@@ -14,31 +14,31 @@ namespace grainreel {
 struct Paper {
     std::vector<std::string> forms{"pdf"};  // pdf, svg, png
     double width_mm = 85;                   // a column of a journal
-    double dpi = 300;                       // of png
+    double dpi = 300;                       // dots an inch of png files
 
     double height_mm() const;
 };
 
-// How many letters of 8 points fit on a line.
+// How many letters of 8 points fit on the lines of a chart.
 struct PaperLines {
     std::size_t across, upright, key, keys_a_line;
 };
 PaperLines lines_on(const Paper& paper);
 
-// Commands for gnuplot, to be given before anything is plotted: encoding, frame, grid, places of names.
+// Commands that gnuplot needs before anything is plotted: encoding, frame, grid, places of names.
 std::string paper_style();
 
-// Draws a chart's files, STEM.pdf and so on, in `folder`. commands: what goes before `plot`. plots: what
-// goes behind it. They stay as STEM.gp. Gives the files. Throws RunError without gnuplot.
+// Draws a chart's files, STEM.pdf and so on, in `folder`. commands: gnuplot's commands before `plot`. plots:
+// the arguments of `plot`. They stay as STEM.gp. Returns the files. Throws RunError when there is no gnuplot.
 std::vector<std::filesystem::path> draw_on_paper(const std::filesystem::path& folder, const std::string& stem,
                                                  const std::string& commands, const std::string& plots,
                                                  const Paper& paper);
 
-// The width and height of an SVG file become mm, in the proportions that it has. Its letters may be of any
-// font without serifs where theirs is missing. Throws RunError where the file is none of gnuplot's.
+// Gives an SVG file a width and height in mm and keeps its proportions. Where its font is missing, any font
+// without serifs may be used. Throws RunError when the file is not one of gnuplot's.
 void say_size_in_mm(const std::filesystem::path& svg, double width_mm);
 
-// A PNG file tells printers its pixels an inch (pHYs). Throws RunError as above.
+// Makes a PNG file tell printers its pixels an inch (pHYs). Throws RunError as above.
 void say_dots(const std::filesystem::path& png, double dpi);
 
 }  // namespace grainreel

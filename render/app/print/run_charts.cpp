@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Okabe and Ito (2008), as studies have them; dashes as on the page of several runs.
+// Colours of Okabe and Ito (2008), as in the charts of studies; dashes are as on the page of several runs.
 constexpr std::array<const char*, 6> colours{"#0072b2", "#d55e00", "#009e73",
                                              "#cc79a7", "#e69f00", "#000000"};
 constexpr std::array<const char*, 6> dashes{"solid", "(8,3)", "(2,2)", "(8,2,2,2)", "(4,2)", "(1,3)"};
@@ -38,7 +38,7 @@ struct MeasuredRun {
     std::shared_ptr<const MeasureTable> table;
     std::string name;
 
-    // The index of a column; none where it has none.
+    // The index of a column; none when the table lacks it.
     std::optional<std::size_t> column(const std::string& wanted) const {
         const auto& all = table->columns();
         const auto found = std::find(all.begin(), all.end(), wanted);
@@ -83,7 +83,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-// Names of the measures to draw for all runs: those that their pages begin with, or all that they have.
+// Names of the measures to draw for all runs: those with which their pages begin, or all that they have.
 std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::vector<std::string>& wanted) {
     std::vector<std::string> names;
     const bool all = wanted == std::vector<std::string>{"all"};
@@ -116,8 +116,8 @@ std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::
 
 struct MeasureAxis {
     std::string title;                 // with the unit
-    double size = 1;                   // SI units in one of the axis
-    std::array<double, 2> span{0, 1};  // SI, of all values
+    double size = 1;                   // SI units in one unit of the axis
+    std::array<double, 2> span{0, 1};  // range of all values, SI
 };
 
 std::string with_unit(const std::string& name, const std::string& unit) {
@@ -139,7 +139,7 @@ std::array<double, 2> span_of(const std::deque<MeasuredRun>& runs, const std::st
     return found;
 }
 
-// In the unit that the largest value reads well in.
+// The axis of a measure, in a unit that suits the largest value.
 MeasureAxis axis_of(const std::deque<MeasuredRun>& runs, const std::string& measure) {
     const std::array<double, 2> span = span_of(runs, measure);
     const double largest = std::max(std::abs(span[0]), std::abs(span[1]));
@@ -153,7 +153,7 @@ MeasureAxis axis_of(const std::deque<MeasuredRun>& runs, const std::string& meas
     return {measure, 1, span};
 }
 
-// Round limits, and a tick at each.
+// Commands for round limits with a tick at each.
 std::string upright_axis(const MeasureAxis& axis) {
     constexpr int most_ticks = 7;
     const auto [low, high] = round_limits(axis.span[0] / axis.size, axis.span[1] / axis.size, most_ticks);
@@ -164,7 +164,7 @@ std::string upright_axis(const MeasureAxis& axis) {
 }
 
 MeasureAxis time_axis(const std::deque<MeasuredRun>& runs) {
-    constexpr double short_run = 0.1;  // s, as in films
+    constexpr double short_run = 0.1;  // s; shorter runs are shown in ms, as in films
     double end = 0;
     for (const MeasuredRun& run : runs)
         for (const double time : run.values("time_s"))
@@ -252,7 +252,7 @@ std::string cell(const std::string& text) {
     return quoted + "\"";
 }
 
-// The rows that are drawn.
+// The rows of a curve that are drawn.
 std::vector<std::size_t> shown_rows(const std::vector<double>& y) {
     std::vector<std::size_t> rows;
     const std::size_t parts = kMostCurvePoints / 4, count = y.size();
@@ -282,7 +282,7 @@ std::string curve_table(std::size_t number, const std::vector<double>& x, const 
                         const std::string& name) {
     std::string text;
     const std::string last = name.empty() ? "" : "," + cell(name);
-    bool gap = true;  // no second empty line, which would begin another block
+    bool gap = true;  // the last line is empty; a second one would begin another block
     for (const std::size_t row : shown_rows(y)) {
         const bool there = std::isfinite(x[row]) && std::isfinite(y[row]);
         if (there) text += fmt::format("{},{},{}{}\n", number, x[row], y[row], last);

@@ -1,4 +1,4 @@
-// Which settings of a study begin with the same packing, so that one packs for all by the cache.
+// Finds out which settings of a study begin with the same packing. The cache lets one of them pack for all.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace grainreel {
 
 class PackingSharing {
   public:
-    // Settings are told as they are planned.
+    // To be called for each setting when it is planned.
     void add_setting(const Scene& scene, const Plan& plan);
 
     // "4 settings share one packing", or why settings that differ in the drive alone do not share theirs.
@@ -20,12 +20,13 @@ class PackingSharing {
     std::string text() const;
 
   private:
-    static constexpr std::size_t kMost = 200;  // settings that are looked at: each costs some milliseconds
+    static constexpr std::size_t kMost =
+        200;  // limit for the settings that are looked at, since each costs some milliseconds
 
-    std::size_t settings_ = 0, packing_ = 0;  // those that were looked at, and those of them that pack
+    std::size_t settings_ = 0, packing_ = 0;  // settings that were looked at, and those of them that pack
     std::set<std::string> packings_;
-    std::set<std::string> without_drive_;  // scenes but for their drives
-    bool grows_ = false;                   // a setting's radii grow
+    std::set<std::string> without_drive_;  // packings of the scenes without their drives
+    bool grows_ = false;                   // whether the radii of some setting grow
 };
 
 }  // namespace grainreel

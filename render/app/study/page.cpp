@@ -13,7 +13,7 @@ namespace {
 
 using State = MemberResult::State;
 
-constexpr std::size_t most_warnings = 20;  // that the page lists
+constexpr std::size_t most_warnings = 20;  // warnings that the page lists
 
 constexpr const char* style = R"(
 :root { color-scheme: light dark; --line: #8886; }
@@ -62,7 +62,7 @@ std::string chart_figures(const Study& study, const std::vector<std::string>& st
     return fmt::format("<h2>Charts</h2>\n{}<div class=\"charts\">\n{}</div>\n", bars, text);
 }
 
-// Settings, in order: the index of the first member of each.
+// The index of the first member of each setting, in the order of settings.
 std::vector<std::size_t> first_members(const std::vector<Member>& members) {
     std::vector<std::size_t> firsts;
     for (std::size_t m = 0; m < members.size(); ++m)

@@ -1,4 +1,4 @@
-// index.html: a study to be looked at in a browser.
+// Makes index.html, the page of a study for a browser.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace grainreel {
 
-// Paths count from the study's folder, where posters and films are looked for. charts: stems of charts/*.svg.
+// The page's text. Paths are relative to the study's folder, where posters and films are looked for. charts:
+// stems of charts/*.svg.
 std::string study_page(const Study& study, const std::vector<Member>& members,
                        const std::vector<MemberResult>& results, const StudyFolder& folder,
                        const std::vector<std::string>& charts);

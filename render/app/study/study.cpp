@@ -5,7 +5,7 @@
 namespace grainreel {
 namespace {
 
-// Whether the seeds of the study or of one of its variants are as asked.
+// Whether `asked` is true for the seeds of the study or of one of its variants.
 template <typename Asked>
 bool any_seeds(const Study& study, const Asked& asked) {
     if (asked(study.seeds)) return true;

@@ -1,4 +1,4 @@
-// The verb `bench`: how fast the engine and the drawing are on beds of known kind.
+// The verb `bench` measures how fast the engine and the drawing are on known beds.
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>

@@ -1,4 +1,4 @@
-// The verb `chart`: experiments on the methods themselves, as tables and pictures.
+// The verb `chart` makes tables and pictures of experiments on the methods themselves.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -73,7 +73,7 @@ class ChartVerb final : public Verb {
                             commands));
     }
 
-    std::string name_;  // of the chart
+    std::string name_;  // name of the chart
     std::optional<std::filesystem::path> out_;
     bool quick_ = false;
 };

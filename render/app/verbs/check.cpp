@@ -1,4 +1,4 @@
-// The verb `check`: what a scene will do, in words, before it is run.
+// The verb `check` says in words what a scene will do, before it is run.
 #include <sstream>
 
 #include "engine/measure/columns.hpp"

@@ -13,7 +13,8 @@ namespace grainreel {
 
 namespace {
 
-// CLI11 puts checks behind the type, as in "N:INT in [1 - 10]" or "CASE:{wedge,sea}".
+// The type of an option without the checks that CLI11 adds to it, as in "N:INT in [1 - 10]" or
+// "CASE:{wedge,sea}".
 std::string plain_type(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     return type.substr(0, type.find(':'));
@@ -26,7 +27,7 @@ std::vector<std::string> pieces(const std::string& text, char border) {
     return all;
 }
 
-// The words of a check that allows a list of them.
+// The words that a check of CLI11 allows.
 std::vector<std::string> words_of_check(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     const auto begin = type.find(":{"), end = type.find('}');
@@ -34,7 +35,7 @@ std::vector<std::string> words_of_check(const CLI::Option& option) {
     return pieces(type.substr(begin + 2, end - begin - 2), ',');
 }
 
-// The words that an option takes which checks them itself, from the same list.
+// The words of options that check their words themselves. They come from the lists that those options use.
 std::vector<std::string> words_of(const std::string& option) {
     if (option == "--format") return all_of(film_format_words);
     if (option == "--for") return purpose_names();

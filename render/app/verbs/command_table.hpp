@@ -1,5 +1,5 @@
-// The verbs and options of the command line as a table. Man pages and completion for shells are written from
-// it, and it is taken from the parser that --help prints, so the three cannot differ.
+// The verbs and options of the command line as a table. It is made from the parser that prints --help; man
+// pages and completion for shells are written from it, so the three cannot differ.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -9,7 +9,7 @@
 namespace grainreel {
 
 struct CommandOption {
-    std::vector<std::string> names;   // "-h", "--help"; of a positional its one name, "SCENE"
+    std::vector<std::string> names;   // "-h", "--help"; a positional argument has one name, "SCENE"
     std::string value;                // "DIR"; empty for a flag
     std::string about;                // one sentence or a few
     std::string group;                // heading in --help, "Options" unless the verb says otherwise
@@ -28,7 +28,7 @@ struct CommandOption {
 
 struct CommandVerb {
     std::string name, about;
-    std::vector<std::string> notes;  // what stands below the options in --help, a line each
+    std::vector<std::string> notes;  // lines below the options in --help
     std::vector<CommandOption> positionals, options;
 };
 

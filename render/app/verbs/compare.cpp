@@ -1,4 +1,4 @@
-// The verb `compare`: several scenes, or finished runs, in one film, side by side and in step.
+// The verb `compare` shows several scenes or finished runs in one film, side by side and in step.
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
@@ -40,7 +40,7 @@ class Compare final : public Verb {
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
         add_scene_keys(parser, request_.sets);
-        const bool keep = false;  // each panel has its own
+        const bool keep = false;  // each panel has its own camera
         add_camera_file(parser, camera_, keep);
         add_film(parser, film_,
                  "Folder of the film, with one in it for each run [output/ and the scenes' names]");
@@ -53,7 +53,7 @@ class Compare final : public Verb {
                         throw UserError(fmt::format(
                             "{}: is of render, for one run; a comparison is drawn in one go", option));
                     })
-                ->group("");  // not for --help
+                ->group("");  // hidden from --help
         for (const char* other : {"--frames", "--no-film"}) at->excludes(parser.get_option(other));
         add_reporting(parser, report);
     }

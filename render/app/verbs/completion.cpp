@@ -1,5 +1,5 @@
-// The verb `completion`: a script with which a shell completes our command line: verbs, options, the words
-// that an option takes, scenes, and the keys of a scene after --set.
+// The verb `completion` writes a script with which a shell completes our command line: verbs, options, the
+// words that an option takes, scenes, and the keys of a scene after --set.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string>
@@ -17,7 +17,7 @@ namespace grainreel {
 
 namespace {
 
-// What the scripts are made from.
+// The words from which the scripts are made.
 struct CompletionWords {
     std::vector<CommandVerb> verbs;
     std::vector<Key> keys;
@@ -28,7 +28,7 @@ std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-// "species[].count" is typed with an index, and the first one is offered.
+// The key as it is typed: "species[].count" needs an index, and the first one is offered.
 std::string typed_key(const std::string& path) {
     std::string key = path;
     for (auto at = key.find("[]"); at != std::string::npos; at = key.find("[]", at))
@@ -68,20 +68,20 @@ std::vector<std::string> verbs_with_scenes(const std::vector<CommandVerb>& verbs
     return names;
 }
 
-// A text in single quotes of a POSIX shell.
+// Puts a text into single quotes of a POSIX shell.
 std::string in_quotes(const std::string& text) {
     std::string safe = "'";
     for (const char letter : text) safe += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
     return safe + "'";
 }
 
-// The first sentence, or what comes before a bracket or a semicolon: a line for a menu.
+// A short text for a menu: the first sentence, or the part before a bracket or a semicolon.
 std::string short_about(const std::string& about) {
     return about.substr(
         0, std::min({about.find(';'), about.find(" ("), about.find(" ["), about.find(". "), about.size()}));
 }
 
-// Cases of a verb in bash: what may follow each option that takes a value.
+// The cases of a verb in bash: the words that may follow each option that takes a value.
 std::string bash_cases(const CommandVerb& verb) {
     std::string text;
     for (const CommandOption& option : verb.options) {
@@ -101,7 +101,7 @@ std::string bash_cases(const CommandVerb& verb) {
     return text;
 }
 
-// "type:help:action" of zsh's _arguments may hold no bare colon or bracket.
+// Escapes a text for "type:help:action" of zsh's _arguments, where colons and brackets must be escaped.
 std::string zsh_text(const std::string& text) {
     std::string safe;
     for (const char letter : text) {

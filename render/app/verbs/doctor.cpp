@@ -1,5 +1,5 @@
-// The verb `doctor`: what this machine has, what is missing, and how to get it. Each thing is found by using
-// it: a context is made, an encoder is opened, a lattice is stepped.
+// The verb `doctor` says what this machine has, what is missing, and how to get it. It checks each thing by
+// using it: a context is made, an encoder is opened, a lattice is stepped.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -35,9 +35,9 @@ namespace {
 struct Finding {
     std::string what;      // "OpenGL by OSMesa"
     std::string state;     // what was found, or why it was not
-    bool good = true;      // it is there and enough
-    bool needed = true;    // without it there are no films; otherwise something less is missing
-    std::string remedy{};  // what to do when it is not good
+    bool good = true;      // it is present and good enough
+    bool needed = true;    // without it there are no films; false: only a smaller feature is missing
+    std::string remedy{};  // what the user can do when it is not good
 };
 
 namespace fs = std::filesystem;
@@ -87,7 +87,7 @@ std::optional<fs::path> on_the_path(const std::string& program) {
     return std::nullopt;
 }
 
-// bytes; with what the system would give up of its caches
+// Available memory in bytes, with the caches that the system would give up.
 double available_memory() {
     std::ifstream figures("/proc/meminfo");
     std::string name, unit;
@@ -99,7 +99,7 @@ double available_memory() {
     return 0;
 }
 
-// The folder itself, or the nearest one above it that is there.
+// The folder itself, or the nearest one above it that exists.
 fs::path existing(fs::path folder) {
     std::error_code error;
     folder = fs::absolute(folder, error);
@@ -121,7 +121,7 @@ std::vector<Finding> find_drawing() {
     std::vector<Finding> found = {
         opengl("OpenGL by OSMesa", gl::Provider::osmesa, "on Debian: apt-get install libosmesa6"),
         opengl("OpenGL by EGL", gl::Provider::egl, "on Debian: apt-get install libegl1 libgl1-mesa-dri")};
-    // One of the two is enough.
+    // One of the two is enough, so each is needed only when the other is missing too.
     for (Finding& finding : found) finding.needed = !found[0].good && !found[1].good;
     return found;
 }
@@ -129,14 +129,14 @@ std::vector<Finding> find_drawing() {
 std::vector<Finding> find_films() {
     std::vector<Finding> found;
     for (const auto& [word, format] : film_format_words) {
-        if (format == FilmFormat::png) continue;  // has no encoder
+        if (format == FilmFormat::png) continue;  // the format png has no encoder
         found.push_back(film_format(std::string(word), format));
         found.back().needed = format == FilmFormat::mp4;
     }
     return found;
 }
 
-// Nothing is wrong with a full cache: it makes room by itself.
+// Findings about imports. A full cache is no fault: it makes room by itself.
 std::vector<Finding> find_imports() {
     constexpr double megabyte = 1e6;
     const ImportsKept kept = imports_kept();
@@ -170,7 +170,7 @@ std::vector<Finding> find_programs() {
     return {gnuplot};
 }
 
-// Those that words on films have in any case, and all others.
+// Findings about the letters that words on films always need, and about all others.
 std::vector<Finding> find_letters() {
     std::vector<std::string> here, absent, packages;
     bool usual = true;

@@ -1,4 +1,4 @@
-// The verb `export`: frames of a run, of ours or of another program, in another program's format.
+// The verb `export` writes frames of a run, of ours or of another program, in another program's format.
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -89,7 +89,8 @@ class Export final : public Verb {
     bool ends_in_good_order() const override { return false; }
 
   private:
-    // "run.dump" and vtk: "run-vtk", a folder; xyz: "run.xyz", or "run-2.xyz" where that is taken.
+    // The usual name of the result: "run.dump"; for vtk the folder "run-vtk"; for xyz "run.xyz". When a name
+    // is taken, a number is added: "run-2.xyz".
     fs::path usual_name() const {
         std::string ending;
         for (const FrameFormat& format : frame_formats())

@@ -1,4 +1,4 @@
-// The verb `handover`: a scene as a folder that LAMMPS or LIGGGHTS runs, here or on a cluster.
+// The verb `handover` writes a scene as a folder that LAMMPS or LIGGGHTS runs, here or on a cluster.
 #include <algorithm>
 #include <filesystem>
 
@@ -80,7 +80,7 @@ class Handover final : public Verb {
         request_.edinburgh = law_ == "edinburgh";
         check_schedule(scene, count_film(scene, plan.clock, plan.steps));
         CarriedScene carried = carry(scene, plan, request_);
-        // Each is a line of its own; the last one ends the verb.
+        // Each refusal is a line of its own; the last one ends the verb.
         for (std::size_t i = 0; i + 1 < carried.refusals.size(); ++i)
             reporter.error(refusal_text(carried.refusals[i]));
         if (!carried.refusals.empty()) throw UserError(refusal_text(carried.refusals.back()));
@@ -101,7 +101,7 @@ class Handover final : public Verb {
     }
 
   private:
-    // A folder in whose place ours would come must be a hand-over, and nothing else.
+    // Checks that a folder which ours would replace is a hand-over and nothing else.
     void check_replaceable() {
         std::error_code ignored;
         if (!folder_.out || !folder_.force || !fs::exists(*folder_.out, ignored)) return;

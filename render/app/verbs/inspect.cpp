@@ -1,5 +1,5 @@
-// The verb `inspect`: the options by which a moment of a run is asked, and how its answer is printed. How the
-// answer is found is in render/app/inspect/inspection.cpp.
+// The verb `inspect`: its options for questions about a moment of a run, and the printing of the answer. The
+// answer is found in render/app/inspect/inspection.cpp.
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
@@ -116,7 +116,7 @@ class Inspect final : public Verb {
     bool ends_in_good_order() const override { return false; }
 
   private:
-    // What would be accepted and do nothing.
+    // Refuses options that would be accepted but have no effect.
     void check_options() const {
         if (asks_.average && asks_.compare)
             throw UserError(
@@ -144,7 +144,7 @@ class Inspect final : public Verb {
                     fmt::format("{}: says how a picture is drawn; add --png or --pixel", set.place()));
     }
 
-    // A table has no room for words.
+    // Tells the moment and the notes on stderr, since a CSV table has no room for words.
     static void tell_beside(const Answer& answer, Reporter& reporter) {
         if (const std::string line = moment_line(answer); !line.empty()) reporter.info(line);
         for (const std::string& note : answer.notes) reporter.info(note);

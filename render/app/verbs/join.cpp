@@ -1,4 +1,4 @@
-// The verb `join`: the parts of a film that render --part has drawn become one film.
+// The verb `join` joins the parts of a film that render --part has drawn into one film.
 #include <fmt/format.h>
 
 #include "render/app/messages/result.hpp"

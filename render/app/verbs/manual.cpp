@@ -1,4 +1,4 @@
-// The verb `manual`: man pages, written from what --help knows. grainreel.1 lists the verbs; each verb has
+// The verb `manual` writes man pages from the data of --help. grainreel.1 lists the verbs; each verb has
 // grainreel-VERB.1.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,8 +22,8 @@ namespace grainreel {
 
 namespace {
 
-// roff reads a backslash anywhere, and a dot or an apostrophe at the start of a line. A plain "-" becomes a
-// hyphen, which cannot be pasted into a shell.
+// Escapes a text for roff, which interprets a backslash anywhere, and a dot or an apostrophe at the start of
+// a line. A plain "-" would become a hyphen, which cannot be pasted into a shell.
 std::string roff(const std::string& text) {
     std::string safe;
     for (const char letter : text) {
@@ -82,7 +82,7 @@ std::string synopsis(const CommandVerb& verb) {
     return line + "\n";
 }
 
-// Lines that --help sets beside each other keep their form.
+// The notes below the options. Lines that --help aligns keep their form.
 std::string notes(const std::vector<std::string>& lines) {
     if (lines.empty()) return "";
     std::string text = ".SH NOTES\n.nf\n";

@@ -1,4 +1,4 @@
-// The verb `movie`: one scene becomes a film and the files beside it.
+// The verb `movie` runs a scene and makes its film and the files beside it.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -34,29 +34,30 @@ namespace grainreel {
 
 namespace {
 
-// The live page of a run that this process computes, shown by a process of its own. So visitors slow the run
-// no more than another program would, and its files are read as anybody reads them.
+// Shows the live page of a run that this process computes, by a process of its own. So visitors slow the run
+// no more than another program would, and the page needs nothing but the run's files.
 class WatchChild {
   public:
     // Throws RunError when no process can be made.
     WatchChild(const std::filesystem::path& run, const std::string& host, Listening listening,
                const ReporterOptions& report);
-    // The run is over: waits until the visitors have heard it, which takes some seconds at most.
+    // To be destroyed when the run is over. Waits until the visitors have been told, which takes some seconds
+    // at most.
     ~WatchChild();
     WatchChild(const WatchChild&) = delete;
     WatchChild& operator=(const WatchChild&) = delete;
 
   private:
     pid_t process_ = -1;
-    int alive_ = -1;  // our end of a pipe, which closes with us
+    int alive_ = -1;  // our end of a pipe, which closes when we end
 };
 
-// In the new process, before the program is another one: nothing but system calls. It has a process group of
-// its own, so that Ctrl-C comes to the run alone.
+// Runs in the new process until the other program replaces it. It may make system calls only. The process
+// gets a group of its own, so that Ctrl-C reaches only the run.
 [[noreturn]] void become(char* const* words, int nothing, int socket, int alive, pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != parent) ::_exit(1);  // it has died already
+    if (::getppid() != parent) ::_exit(1);  // the parent has died already
     ::dup2(nothing, STDIN_FILENO);
     ::dup2(nothing, STDOUT_FILENO);
     ::fcntl(socket, F_SETFD, 0);

@@ -1,4 +1,4 @@
-// The verb `new`: a scene file to start from.
+// The verb `new` writes a scene file to start from.
 #include <filesystem>
 #include <string>
 

@@ -13,12 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Its frames come with the contacts that the run kept.
+// Settings with which frames come with the contacts that the run kept.
 Assignments with_contacts() {
     return {{"film.force_chains=true", "report"}};
 }
 
-// What is damaged counts as kept: whoever reads it says what is wrong.
+// Whether the run kept moments. A damaged file counts as kept: reading it tells what is wrong.
 bool kept_moments(const fs::path& folder) {
     if (!is_there(folder / "trajectory.nc")) return false;
     try {
@@ -37,7 +37,7 @@ std::optional<PlannedScene> planned_scene(const FilmedScene& scene) {
         PlanWords words = plan_words(scene, plan);
         return PlannedScene{std::move(plan), std::move(words.lines), std::move(words.contacts)};
     } catch (const UserError&) {
-        return std::nullopt;  // a scene of an earlier version, which this one would not run
+        return std::nullopt;  // the scene is of an earlier version, and this version would not run it
     }
 }
 

@@ -1,4 +1,4 @@
-// A run's page, for the verbs that leave one.
+// Makes a run's page, for the verbs that leave one.
 #pragma once
 
 #include <filesystem>
@@ -14,15 +14,15 @@ namespace grainreel {
 
 inline constexpr const char* kPageName = "report.html";
 
-// Makes the page of the runs in these folders, side by side where there are several. out: its file; empty:
-// report.html in the first run's folder. checked: this program has just written them, so that their frames
-// need not be looked at for damage first. Nothing when `progress` stopped it. Throws UserError for what is no
-// run, RunError.
+// Makes the page of the runs in these folders, side by side where there are several. out: the page's file;
+// empty: report.html in the first run's folder. checked: this program has just written the runs, so their
+// frames need no check for damage. Returns none when `progress` stopped it. Throws UserError for a folder
+// that is no run, and RunError.
 std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>& runs,
                                        const std::filesystem::path& out, bool checked,
                                        const PageProgress& progress);
 
-// None where this version of the program would not run the scene.
+// The plan of a scene; none when this version of the program would not run the scene.
 std::optional<PlannedScene> planned_scene(const FilmedScene& scene);
 
 // Makes report.html in the folder of a run that has just ended, however it ended.

@@ -1,5 +1,5 @@
-// The verb `render`: a finished run is drawn again, as a film or as one picture. What it did not keep is
-// brought back from its checkpoints; the run itself stays as it is.
+// The verb `render` draws a finished run again, as a film or as one picture. Moments that the run did not
+// keep are brought back from its checkpoints; the run itself is not changed.
 #include <chrono>
 #include <thread>
 #include <tuple>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr int signal_base = 128;
 
-// Frames of the trajectory have a pace of their own.
+// Refuses segments for frames of the trajectory, which have a pace of their own.
 void check_no_segments(const Assignments& sets) {
     for (const Assignment& set : sets)
         if (set.key().rfind("film.segment", 0) == 0)
@@ -128,8 +128,8 @@ class Render final : public Verb {
   private:
     bool is_still() const { return request_.at || request_.frame; }
 
-    // Waits while a job that a scene was handed over to still writes. It has ended once its last moment is
-    // there, or nothing new has come for a while.
+    // Waits while the job to which a scene was handed over still writes. The job has ended when its last
+    // moment is there, or when nothing new has come for a while.
     void wait_for_job(Reporter& reporter) const {
         const HandoverFacts facts = read_handover(request_.run);
         DumpTail dump(facts.dump);
@@ -168,7 +168,7 @@ class Render final : public Verb {
         return 0;
     }
 
-    // What each part would be refused for is refused here.
+    // Prints the script for Slurm. Mistakes for which every part would be refused are found here.
     int tell_script(Reporter& reporter, RevisitedRun& source) {
         if (!film_.out) throw UserError("--slurm: the film needs a name; add --out film.mp4");
         if (!film_.film) throw UserError("--slurm: joins films; leave out --no-film");
@@ -184,7 +184,7 @@ class Render final : public Verb {
     }
 
     RenderRequest request_;
-    int slurm_ = 0;  // parts of a script
+    int slurm_ = 0;  // number of parts of a Slurm script; 0: no script
     ReadingOptions reading_;
     CameraFiles camera_;
     bool follow_ = false;

@@ -1,4 +1,4 @@
-// The verb `report`: a finished run as one page for a browser.
+// The verb `report` makes one page for a browser from finished runs.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -97,7 +97,7 @@ class Report final : public Verb {
         return 0;
     }
 
-    // A page that is no page of ours is not written over.
+    // Refuses to overwrite a file that is no page of ours.
     static void check_out(const fs::path& out) {
         check_typed("--out", out.string());
         std::error_code ignored;

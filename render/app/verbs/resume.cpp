@@ -1,4 +1,4 @@
-// The verb `resume`: a run that was broken off, or is to be longer, goes on in its folder.
+// The verb `resume` continues a run that was broken off, or that should be longer, in its folder.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -123,7 +123,7 @@ class Resume final : public Verb {
             "go on");
     }
 
-    // A run of `--engine`: its engine goes on from its own restart file.
+    // Continues a run of `--engine`: its engine goes on from its own restart file.
     int go_on_elsewhere(const fs::path& folder, std::shared_ptr<FolderLock> lock, Reporter& reporter) {
         if (until_ || more_ || !accept_.empty())
             throw UserError(fmt::format(
@@ -142,7 +142,7 @@ class Resume final : public Verb {
         return tell_folder(run.run(), film_);
     }
 
-    // From here on nobody else changes the run.
+    // Locks the folder, so that from here on no other process changes the run.
     std::shared_ptr<FolderLock> locked(const fs::path& folder) const {
         if (std::optional<FolderLock> lock = FolderLock::take(folder, command))
             return std::make_shared<FolderLock>(std::move(*lock));
@@ -158,8 +158,8 @@ class Resume final : public Verb {
             folder.string()));
     }
 
-    // Whether a run has come to its end, is not to be longer, and lacks its page alone. Older versions did
-    // not note it.
+    // Whether a run has come to its end, should not be longer, and lacks nothing but its page. Older versions
+    // did not note that.
     bool is_only_page_missing(const fs::path& folder) const {
         if (until_ || more_ || !accept_.empty()) return false;
         const fs::path record = folder / "run.json";
@@ -187,7 +187,8 @@ class Resume final : public Verb {
         return keys;
     }
 
-    // "contact.friction=0.2" stands for the friction of each pair, which the scene of a run has one by one.
+    // "contact.friction=0.2" stands for the friction of each pair; the scene of a run has a key for each of
+    // them.
     static Assignments spelled_out(const std::string& one, const fs::path& file) {
         const std::size_t equals = one.find('=');
         const std::string key = one.substr(0, equals), value = one.substr(equals);
@@ -202,8 +203,8 @@ class Resume final : public Verb {
         return all;
     }
 
-    // The run is another one from the checkpoint on, which is saved again with what it is now, so that later
-    // moments come back from it as they were.
+    // Applies changes of the scene from the checkpoint on. The checkpoint is saved again with the changed
+    // scene, so that later moments are brought back as they were.
     void take_up(const std::vector<AcceptedChange>& changes, const fs::path& folder, FilmedScene& scene,
                  Plan& plan, ResumePoint& point, int threads) const {
         const double time = plan.clock.time(point.simulation.step());
@@ -226,7 +227,8 @@ class Resume final : public Verb {
         return with_film_warnings(scene, plan_of_run(scene, folder));
     }
 
-    // With the end that is asked for, and values that were given with --accept; `undone` goes before those.
+    // The scene with the end that is asked for and the values given with --accept. The values of `undone` are
+    // set before those.
     FilmedScene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
         const fs::path file = scene_file(folder);
         Assignments sets;
@@ -245,7 +247,7 @@ class Resume final : public Verb {
         const Plan plan = plan_of_run(before, folder);
         const double reached = plan.clock.time(reached_step(folder, kept.back().step));
         const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
-        // One that was killed while its film was finished has come to its end and is not complete.
+        // A run that was killed while its film was being finished has come to its end but is not complete.
         const bool complete = status_in_run_json(folder / "run.json") == to_string(RunStatus::complete);
         if (end < reached + (complete ? 0.5 : -0.5) * plan.clock.step)
             throw UserError(
@@ -256,7 +258,8 @@ class Resume final : public Verb {
         return read_filmed_scene(file, sets, measurable_in);
     }
 
-    // run.json and the pictures name the scene that the run was made of.
+    // Gives the scene its former name, since run.json and the pictures name the scene from which the run was
+    // made.
     static void name_as_before(FilmedScene& scene, const fs::path& folder) {
         const std::string file = scene_in_run_json(folder / "run.json");
         if (file.empty()) return;

@@ -1,4 +1,4 @@
-// The verb `study`: one scene is run with many values of its keys, measured, and drawn in charts.
+// The verb `study` runs one scene with many values of its keys, measures the runs, and draws charts.
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
@@ -86,7 +86,7 @@ class StudyVerb final : public Verb {
         check_paper(paper_);
         const Study study = read_study(file_);
         count_members(study, yes_);
-        // What the environment says, members hear too.
+        // Members get the environment too, so its setting counts here.
         const char* const said = std::getenv("GRAINREEL_PACKINGS");
         request_.cache = shortest_packing_ || (said != nullptr && std::string_view(said) == "off");
         std::vector<std::vector<ReferencePoint>> references;
@@ -125,7 +125,7 @@ class StudyVerb final : public Verb {
         print->excludes(collect);
     }
 
-    // Members of other variants than those of --variant are left as they are.
+    // Chooses the members of the variants in --variant; members of other variants are left as they are.
     void choose_members(const Study& study) {
         if (variants_.empty()) return;
         if (!study.has_variants())
@@ -150,7 +150,7 @@ class StudyVerb final : public Verb {
         return fmt::format("{}", fmt::join(names, ", "));
     }
 
-    // A folder of anything else is left alone.
+    // Throws when the folder holds anything but a study.
     void check_folder() const {
         std::error_code none;
         const bool fresh =
@@ -171,7 +171,7 @@ class StudyVerb final : public Verb {
         const std::vector<const Member*> left = pending();
         std::size_t settings = 0;
         for (const Member& member : members_) settings = std::max(settings, member.setting + 1);
-        // Variants may have seeds of their own, and then there is no product.
+        // Variants may have seeds of their own; then the number of members is no product.
         std::string reckoned = fmt::format("{} settings with their seeds", settings);
         if (!study.has_variants())
             reckoned = fmt::format("{} settings x {} seeds", settings, study.seed_count({}));
@@ -276,7 +276,7 @@ class StudyVerb final : public Verb {
         return failed > 0 ? 1 : 0;
     }
 
-    // Numbers that are not there are left out of means, which then tell of the others alone.
+    // Warns of missing numbers: they are left out of means, which then describe the other members only.
     void tell_gaps(const Study& study, Reporter& reporter) const {
         for (std::size_t i = 0; i < study.measures.size(); ++i) {
             const auto gaps = std::count_if(results_.begin(), results_.end(), [&](const MemberResult& r) {
@@ -294,8 +294,8 @@ class StudyVerb final : public Verb {
     std::filesystem::path file_;
     std::optional<std::filesystem::path> out_;
     StudyRunRequest request_;
-    std::vector<std::string> variants_;       // of --variant; empty: all
-    std::optional<double> shortest_packing_;  // s, that the cache keeps
+    std::vector<std::string> variants_;       // names given with --variant; empty: all
+    std::optional<double> shortest_packing_;  // s, shortest packing that the cache keeps
     PackingSharing sharing_;
     bool yes_ = false, dry_ = false, print_commands_ = false;
     PaperOptions paper_;

@@ -1,4 +1,4 @@
-// All verbs of the command line.
+// The verbs of the command line and their common class.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -11,12 +11,12 @@
 
 namespace grainreel {
 
-// A verb of the command line: its name, its options, and what it does. Each is one file of this folder and
-// one word of the table in verbs.cpp.
+// A verb of the command line: its name, its options, and what it does. Each verb is one file of this folder
+// and one word of the table in verbs.cpp.
 
 class Verb {
   public:
-    // about: a line for --help; footer: what stands below the options in the verb's own help.
+    // about: a line for --help. footer: the text below the options in the verb's own help.
     Verb(std::string name, std::string about, std::string footer)
         : name_(std::move(name)), about_(std::move(about)), footer_(std::move(footer)) {}
     virtual ~Verb() = default;
@@ -27,25 +27,25 @@ class Verb {
     const std::string& about() const { return about_; }
     const std::string& footer() const { return footer_; }
 
-    // Adds the verb's options to its parser, which writes into this object what they say. Of groups of
-    // options that verbs share (options/option_groups.hpp), and its own.
+    // Adds the verb's options to its parser, which writes their values into this object. Groups of options
+    // that verbs share are in options/option_groups.hpp.
     virtual void add_options(CLI::App& parser) = 0;
-    // Does what the options ask for and returns the exit status: 0; 1 when it failed on its way (what it had
-    // is kept); 129, 130 or 143 when it was asked to stop. Throws UserError before anything is written, and
-    // RunError.
+    // Does what the options ask for and returns the exit status: 0; 1 when it failed on its way (what was
+    // made so far is kept); 129, 130 or 143 when it was asked to stop. Throws UserError before anything is
+    // written, and RunError.
     virtual int run(Reporter& reporter) = 0;
     // Whether run() looks at stop_signal(); otherwise the first signal ends the program.
     virtual bool ends_in_good_order() const { return true; }
 
-    ReporterOptions report;                // what add_reporting() fills, for verbs with that group
-    std::string command;                   // as typed, for run.json
-    std::vector<std::string> typed_words;  // the same word by word, the program first
+    ReporterOptions report;                // filled by add_reporting(), for verbs with that group
+    std::string command;                   // the command as typed, for run.json
+    std::vector<std::string> typed_words;  // the words of the command, the program first
 
   private:
     const std::string name_, about_, footer_;
 };
 
-// In the order of --help.
+// Makes all verbs, in the order of --help.
 std::vector<std::unique_ptr<Verb>> all_verbs();
 
 }  // namespace grainreel

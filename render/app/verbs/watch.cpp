@@ -1,4 +1,4 @@
-// The verb `watch`: a run as a page while it goes.
+// The verb `watch` shows a run as a page in a browser while it is computed.
 #include <filesystem>
 #include <optional>
 
@@ -31,7 +31,7 @@ class WatchVerb final : public Verb {
             ->type_name("DIR");
         add_watch_port(parser, place_);
         add_watch_host(parser, place_);
-        // A run that shows itself passes a socket that listens, and a pipe that closes when the run ends.
+        // A run started with --watch passes a listening socket, and a pipe that closes when the run ends.
         parser.add_option("--socket", socket_)->group("");
         parser.add_option("--until", until_)->group("");
         add_reporting(parser, report);
@@ -42,7 +42,7 @@ class WatchVerb final : public Verb {
         std::error_code ignored;
         if (!fs::is_directory(run_, ignored))
             throw UserError(fmt::format("{}: no such folder; give the folder of a run", run_.string()));
-        const bool begins = socket_.has_value();  // its files are yet to come
+        const bool begins = socket_.has_value();  // the run's files are still to come
         if (!begins && !fs::exists(run_ / "run.json", ignored))
             throw UserError(
                 fmt::format("{}: holds no run (no run.json); give the folder of a run", run_.string()));

@@ -29,7 +29,7 @@ std::vector<std::size_t> place_in_grid(const Study& study, std::size_t setting) 
     return at;
 }
 
-// All that decides the numbers of a run.
+// A hash of everything on which the numbers of a run depend.
 std::uint64_t hash_of(FilmedScene scene, const Plan& plan, std::optional<std::uint64_t> seed) {
     scene.film = Film();
     scene.title.clear();
@@ -64,7 +64,7 @@ std::vector<MemberFile> files_of(const Scene& scene) {
     return files;
 }
 
-// Two members that are the same run, at the first value in which they differ.
+// Throws for two members that are the same run. The error names the first value in which they differ.
 [[noreturn]] void fail_for_twins(const Study& study, const Member& one, const Member& other) {
     std::string place = study.file.string();
     for (std::size_t i = other.at.size(); i-- > 0;)
@@ -80,7 +80,7 @@ std::size_t count_members(const Study& study, bool many_are_meant) {
     const Variation* longest = nullptr;
     if (!study.has_variants()) count = static_cast<double>(std::max<std::size_t>(1, study.seeds.size()));
     for (const Variation& variation : study.variations) {
-        double values = 0;  // for variants, the members of all of them
+        double values = 0;  // number of values; for variants, the number of their members
         for (std::size_t i = 0; i < variation.values.size(); ++i)
             values += variation.key == variant_axis ? static_cast<double>(study.seed_count({i})) : 1;
         count *= values;
@@ -96,11 +96,11 @@ std::size_t count_members(const Study& study, bool many_are_meant) {
 }
 
 std::vector<Member> make_members(const Study& study, const AcceptSetting& accept) {
-    count_members(study, true);  // which throws when there are too many
+    count_members(study, true);  // throws when there are too many
     std::size_t settings = 1;
     for (const Variation& variation : study.variations) settings *= variation.values.size();
     std::vector<Member> members;
-    std::map<std::uint64_t, std::size_t> known;  // which member has this hash
+    std::map<std::uint64_t, std::size_t> known;  // the member with each hash
     for (std::size_t setting = 0; setting < settings; ++setting) {
         Member member;
         member.setting = setting;
@@ -114,7 +114,7 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             read_filmed_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
         const Plan plan = plan_with_film(scene);
         accept(scene, plan);
-        // Members read a copy of the scene, from whose folder other paths would count.
+        // Members read a copy of the scene, and relative paths would count from the folder of the copy.
         if (scene.start.method == Start::Method::file)
             member.sets.push_back("start.file=" +
                                   quoted(std::filesystem::absolute(scene.start.file).string()));

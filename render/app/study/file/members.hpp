@@ -1,4 +1,4 @@
-// The members of a study: its runs.
+// Makes the members of a study, which are its runs.
 #pragma once
 
 #include <cstdint>
@@ -16,37 +16,38 @@ namespace grainreel {
 constexpr std::size_t most_members_unasked = 10'000;
 constexpr std::size_t most_members = 1'000'000;  // about a gigabyte of lists
 
-// A file of a mesh or of a path, which the study keeps.
+// A file of a mesh or of a path, of which the study keeps a copy.
 struct MemberFile {
-    std::string key;         // of the scene, "mesh[0].file"
-    std::string from, hash;  // where it is, and what is in it
+    std::string key;         // key of the scene, "mesh[0].file"
+    std::string from, hash;  // its path, and a hash of its contents
 };
 
 struct Member {
-    std::size_t setting = 0;      // of the grid; all its seeds have it
-    std::vector<std::size_t> at;  // of each variation, which value
+    std::size_t setting = 0;      // number of its setting in the grid, which all seeds share
+    std::vector<std::size_t> at;  // for each variation, the index of the value
     std::size_t seed_index = 0;
     std::optional<std::uint64_t> seed;
-    Assignments sets;  // the study's, the values, where it starts from, the seed
+    Assignments sets;  // in this order: the study's own, the values, the start file, the seed
     std::vector<MemberFile> files;
-    // Name of its folder: what it is in short, and a hash of its scene with every value as resolved, so that
-    // a study that has changed finds the members that have not. The film is left out.
+    // Name of its folder: a short description, and a hash of its scene with all values resolved. So a study
+    // that was changed finds the members that are still the same. The film does not count.
     std::string name;
 };
 
-// How many there are. Throws UserError when there are more than `most_members_unasked` and `many_are_meant`
+// Counts the members. Throws UserError when there are more than `most_members_unasked` and `many_are_meant`
 // is not set, or more than `most_members`.
 std::size_t count_members(const Study& study, bool many_are_meant);
 
-// All of them, the seeds of a setting one after another. Each setting's scene is read and planned, and given
-// to `accept`. Throws UserError at the first that cannot be run, and for two that are the same.
+// Makes all members; the seeds of a setting come one after another. Each setting's scene is read, planned,
+// and given to `accept`. Throws UserError at the first member that cannot be run, and for two members that
+// are the same.
 using AcceptSetting = std::function<void(const FilmedScene& scene, const Plan& plan)>;
 std::vector<Member> make_members(const Study& study, const AcceptSetting& accept);
 
-// "drive.g_level = 3, species.nut.diameter = 9 mm"; empty where nothing but seeds is varied. `without`: a
-// variation that is left out.
+// The setting in words: "drive.g_level = 3, species.nut.diameter = 9 mm"; empty when only seeds are varied.
+// without: a variation that is left out.
 std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without = {});
-// That with the seed.
+// The setting with the seed.
 std::string member_text(const Study& study, const Member& member);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// What a study draws: [[chart]].
+// Reads what a study draws: [[chart]].
 #include <algorithm>
 
 #include <fmt/format.h>

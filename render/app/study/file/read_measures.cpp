@@ -1,4 +1,4 @@
-// What a study measures: [[measure]].
+// Reads what a study measures: [[measure]].
 #include <optional>
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
     reduction.threshold = *document.quantity(path, column.dimension);
 }
 
-// "kinetic energy, slope (J/s)".
+// The label on paper: "kinetic energy, slope (J/s)".
 std::string printed_label(const MeasureColumn& column, const std::string& how, Reduction::Kind kind) {
     const std::string of_column = text_of(column.dimension).unit;
     const bool is_time = kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage;

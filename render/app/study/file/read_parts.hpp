@@ -1,5 +1,5 @@
-// The parts of a study file, in the order in which they are read. Internal to read_study. Each throws
-// UserError with the place of the mistake.
+// Functions that read the parts of a study file, in the order in which they are called. They are internal to
+// read_study. Each throws UserError with the place of the mistake.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace grainreel {
 
-// The seeds at that path, so many or a list; none where it is absent.
+// Reads the seeds at that path, given as a number of seeds or a list; none when the key is absent.
 Seeds read_seeds(Document& document, const std::string& path);
-// All [[variant]] become the first variation. To be read before the others.
+// Makes all [[variant]] the first variation. To be called before the others are read.
 void read_variants(Document& document, Study& study);
-// One element of a list of tables, "vary[0]"; it is added to the study.
+// Reads one element of a list of tables, "vary[0]", and adds it to the study.
 void read_variation(Document& document, const std::string& table, Study& study);
-// scene: of the variant that runs longest; the species, and so the columns, are those of all members.
+// scene: that of the variant that runs longest. All members have its species and so its columns.
 void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study);
 void read_chart(Document& document, const std::string& table, Study& study);
-// One for each measure, where the file asks for none.
+// Adds a chart for each measure when the file asks for none.
 void add_usual_charts(Study& study);
 
-// A path that counts from the study's folder.
+// The path of a file that is given relative to the study's folder.
 inline std::filesystem::path beside_study(const Study& study, const std::string& path) {
     return (study.file.parent_path() / path).lexically_normal();
 }

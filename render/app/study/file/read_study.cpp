@@ -14,7 +14,7 @@
 namespace grainreel {
 namespace {
 
-// The scene of the first value of each key, and of the variant that runs longest.
+// The scene with the first value of each key, for the variant that runs longest.
 FilmedScene longest_scene(const Study& study) {
     std::optional<FilmedScene> longest;
     const std::size_t variants = study.has_variants() ? study.variations.front().values.size() : 1;

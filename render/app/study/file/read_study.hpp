@@ -1,4 +1,4 @@
-// From a study file to a Study.
+// Reads a study file.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace grainreel {
 
 // Throws UserError at the first mistake, "file:line:column: ...": a key that is unknown here or in the scene,
-// a column that no run would have, a range that is none. The values of the scene's keys are looked at when
+// a column that no run would have, a range without values. The values of the scene's keys are checked when
 // members are made of them (members.hpp).
 Study read_study(const std::filesystem::path& file);
 

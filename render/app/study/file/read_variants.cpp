@@ -1,4 +1,4 @@
-// What a study has beside its grid: seeds, and [[variant]].
+// Reads what a study has besides its grid: seeds, and [[variant]].
 #include <set>
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a study varies: [[vary]].
+// Reads what a study varies: [[vary]].
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
@@ -10,21 +10,21 @@
 namespace grainreel {
 namespace {
 
-// "9 mm" of "\"9 mm\"".
+// The words of a TOML value: "9 mm" for "\"9 mm\"".
 std::string words_of(const std::string& toml) {
     const toml::table parsed = toml::parse("value = " + toml);
     return parsed["value"].value_exact<std::string>().value_or(toml);
 }
 
-// The key behind the path of a variation ("species.big.diameter"). Throws UserError that begins with `place`
-// when the scene has none.
+// The key behind the path of a variation ("species.big.diameter"). Throws UserError, which begins with
+// `place`, when the scene has no such key.
 const Key& key_of_scene(const std::string& scene_text, const std::filesystem::path& scene,
                         const std::string& path, const std::string& place) {
     const std::vector<Key>& keys = filmed_scene_keys();
     Document probe(scene_text, scene.string(), keys);
     probe.set({path + "=0", place});
     probe.check_keys();
-    // What was set is what the place names; the tables around it have shorter paths.
+    // The key that was set is the one with that place; the tables around it have shorter paths.
     const Key* key = nullptr;
     for (const auto& [written, where] : probe.written())
         if (where.file == place && find_key(written, keys) != nullptr) key = find_key(written, keys);

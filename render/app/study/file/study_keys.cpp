@@ -8,7 +8,7 @@ namespace {
 
 using namespace keys;
 
-constexpr double largest_seed = 9007199254740992.0;  // that of run.seed
+constexpr double largest_seed = 9007199254740992.0;  // the largest one that run.seed takes
 
 Keys top_level() {
     return {

@@ -7,7 +7,7 @@
 
 namespace grainreel {
 
-// With the meanings that docs/reference/studies.md lists.
+// Gives the keys with their meanings, which docs/reference/studies.md lists.
 const std::vector<Key>& study_keys();
 
 }  // namespace grainreel

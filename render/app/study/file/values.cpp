@@ -38,7 +38,7 @@ std::vector<std::string> spaced(double first, double last, std::size_t count, co
 }
 
 std::vector<std::string> stepped(double first, double last, double by, const std::string& unit) {
-    constexpr double rounding = 1e-9;  // of a step: 0.1 + 0.1 + 0.1 counts as 0.3
+    constexpr double rounding = 1e-9;  // share of a step: 0.1 + 0.1 + 0.1 counts as 0.3
     const double steps = std::floor((last - first) / by + rounding);
     if (!(by != 0 && steps >= 0))
         throw UserError(
@@ -74,14 +74,14 @@ std::optional<WrittenNumber> written_number(const std::string& toml) {
     value.unit.assign(read.ptr, end);
     value.unit.erase(0, value.unit.find_first_not_of(' '));
     value.unit.erase(value.unit.find_last_not_of(' ') + 1);
-    if (!is_quoted(toml) && !value.unit.empty()) return std::nullopt;  // a date
+    if (!is_quoted(toml) && !value.unit.empty()) return std::nullopt;  // the value is a date
     return value;
 }
 
 std::string toml_of(const WrittenNumber& value) {
     constexpr double most_whole = 1e15;
     const bool whole = value.number == std::round(value.number) && std::abs(value.number) < most_whole;
-    // Twelve digits: 0.1 + 0.2 is 0.3.
+    // Twelve digits are written, so that 0.1 + 0.2 gives 0.3.
     const std::string number = whole ? fmt::format("{:.0f}", value.number == 0 ? 0.0 : value.number)
                                      : fmt::format("{:.12g}", value.number);
     return value.unit.empty() ? number : quoted(number + " " + value.unit);

@@ -10,31 +10,31 @@
 
 namespace grainreel {
 
-constexpr std::size_t most_values = 100'000;  // of one key
+constexpr std::size_t most_values = 100'000;  // limit for one key
 
-// A number with the unit that stands after it: "9 mm" is 9 and "mm".
+// A number with the unit that follows it: "9 mm" is 9 and "mm".
 struct WrittenNumber {
     double number = 0;
     std::string unit;  // empty for none
 };
-// The number in a value as TOML writes it; none where it is no number, nor text that begins with one.
+// The number in a value written as TOML; none when it is neither a number nor text that begins with one.
 std::optional<WrittenNumber> written_number(const std::string& toml);
 
-// As TOML: whole numbers without a point, so that they suit counts too.
+// Writes the value as TOML. Whole numbers have no decimal point, so that they can be counts too.
 std::string toml_of(const WrittenNumber& value);
 
 struct ValueRange {
     std::string from, to;              // as TOML
-    std::optional<std::size_t> count;  // of values, both ends included ...
+    std::optional<std::size_t> count;  // number of values, both ends included ......
     std::string by;                    // ... or the distance between them; empty for none
     bool logarithmic = false;          // equal ratios in place of equal distances
 };
-// Each as TOML. Throws UserError, whose line lacks the place and the names of the keys: what is wrong with
-// the range, and what to write.
+// The values of a range, each as TOML. Throws UserError, which says what is wrong with the range and what to
+// write. The caller adds the place and the names of the keys.
 std::vector<std::string> range_values(const ValueRange& range);
 
-// Whether all values are numbers, in which unit, and which; all from what is written and from the dimension
-// of the key. Values in one unit stay in it; others are all taken in SI.
+// Finds out whether all values are numbers, and their unit, from what is written and from the dimension of
+// the key. If all values have the same unit they stay in it; otherwise all are converted to SI units.
 void make_numeric(Variation& variation, const Key& key);
 
 }  // namespace grainreel

@@ -18,17 +18,17 @@
 namespace grainreel {
 namespace {
 
-constexpr std::size_t most_of_a_line = 1 << 16;  // characters kept
+constexpr std::size_t most_of_a_line = 1 << 16;  // characters of a line that are kept
 
-// In the new process, before the program is another one: nothing but system calls.
+// Runs in the new process until the other program replaces it. It may make system calls only.
 [[noreturn]] void become(char* const* words, int nothing, int errors, pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != parent) ::_exit(1);  // it has died already
+    if (::getppid() != parent) ::_exit(1);  // the parent has died already
     ::dup2(nothing, STDIN_FILENO);
     ::dup2(nothing, STDOUT_FILENO);
     ::dup2(errors, STDERR_FILENO);
-    // The file that runs, whatever has become of its name.
+    // This starts the file that is running, whatever has become of its name.
     ::execv("/proc/self/exe", words);
     ::_exit(127);
 }

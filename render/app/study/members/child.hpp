@@ -1,4 +1,4 @@
-// This program once more, as a process of its own, and what it says on stderr.
+// Runs this program once more, as a process of its own, and reads what it says on stderr.
 #pragma once
 
 #include <sys/types.h>
@@ -10,20 +10,20 @@ namespace grainreel {
 
 class Child {
   public:
-    // words: those after the program's name. Its stdin and stdout are /dev/null. It has a process group of
-    // its own, so that Ctrl-C comes to us alone, and gets SIGTERM when we are killed. Throws RunError when no
-    // process can be made.
+    // words: the arguments after the program's name. The child's stdin and stdout are /dev/null. It has a
+    // process group of its own, so that Ctrl-C reaches only us, and gets SIGTERM when we are killed. Throws
+    // RunError when no process can be made.
     explicit Child(const std::vector<std::string>& words);
-    ~Child();  // kills it when it still runs
+    ~Child();  // kills the child if it still runs
     Child(Child&& other) noexcept;
     Child& operator=(Child&& other) noexcept;
 
-    int file() const { return pipe_; }  // to poll; -1 once it has ended
-    // The lines that have come since, without their ends. Ends the child's life here once it has closed its
-    // stderr: ended() holds then.
+    int file() const { return pipe_; }  // file descriptor to poll; -1 once the child has ended
+    // Gives the lines that have come since the last call, without their ends. When the child has closed its
+    // stderr this waits for its end; ended() is true then.
     std::vector<std::string> read();
     bool ended() const { return process_ < 0; }
-    int status() const { return status_; }  // exit status; 128 + signal when one ended it
+    int status() const { return status_; }  // exit status; 128 + the signal's number when a signal ended it
     void send(int signal) const;
 
   private:
@@ -31,7 +31,7 @@ class Child {
 
     pid_t process_ = -1;
     int pipe_ = -1, status_ = -1;
-    std::string rest_;  // of a line that has not ended
+    std::string rest_;  // beginning of a line that has not ended yet
 };
 
 // The path of this program.

@@ -56,7 +56,8 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
                                    "1",       "--no-report"};
     if (!film) words.push_back("--no-film");
     if (!cache) words.push_back("--no-cache");
-    // Members are run again rather than looked into; a value of the study's own comes later and counts.
+    // Members get no checkpoints, since they are run again rather than brought back. A value that the study
+    // sets comes later and overrides this.
     for (const char* word : {"--set", "output.checkpoints=none"}) words.emplace_back(word);
     for (const Assignment& assignment : member.sets) {
         words.push_back("--set");

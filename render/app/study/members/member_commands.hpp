@@ -1,4 +1,5 @@
-// The commands that run the members of a study, words after the program's name.
+// Makes the commands that run the members of a study. A command is the list of words after the program's
+// name.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +12,14 @@
 namespace grainreel {
 
 struct StudyFolder {
-    std::filesystem::path path;  // absolute
+    std::filesystem::path path;  // the folder's absolute path
 
-    // Where the members' copy of the scene is, so that who edits the scene does not change members that are
-    // still to be run.
+    // The path of the members' copy of the scene. They read a copy, so that editing the scene does not change
+    // members that are still to be run.
     std::filesystem::path scene(const Study& study) const;
 
-    // Where the members' copy of a mesh or a path is. Two files of one name may lie beside each other.
+    // The path of the members' copy of a mesh or a path. Two files with the same name can lie beside each
+    // other.
     std::filesystem::path copy_of(const MemberFile& file) const {
         return path / "meshes" / file.hash / std::filesystem::path(file.from).filename();
     }
@@ -32,11 +34,11 @@ struct StudyFolder {
 // Makes the folder with all that the commands need. Throws UserError when that cannot be done.
 void make_study_folder(const Study& study, const std::vector<Member>& members, const StudyFolder& folder);
 
-// Runs it on one thread: what was there of it before is replaced.
+// The command that runs a member on one thread. Earlier files of the member are replaced.
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
                                      bool film, bool cache);
 
-// Draws the last frame of a complete member as its poster.
+// The command that draws the last frame of a complete member as its poster.
 std::vector<std::string> poster_command(const Member& member, const MemberResult& result,
                                         const StudyFolder& folder);
 

@@ -21,7 +21,7 @@ using State = MemberResult::State;
 using Json = nlohmann::json;
 
 constexpr int poll_interval = 200;     // ms
-constexpr double packing_share = 0.1;  // of a member's cost, as far as the progress goes
+constexpr double packing_share = 0.1;  // share of a member's cost that the progress line assumes for packing
 
 struct Job {
     std::size_t member = 0;
@@ -32,7 +32,7 @@ struct Running {
     Job job;
     Child child;
     double done = 0;         // 0 to 1
-    std::string last_error;  // that it has told
+    std::string last_error;  // the last error that it has told
 };
 
 class Runner {
@@ -72,7 +72,7 @@ class Runner {
                std::filesystem::exists(folder_.member(members_[member]) / "trajectory.nc");
     }
 
-    // All settings once before the second seed: the charts have their shape early.
+    // Puts the first seed of all settings before the second seeds, so that the charts have their shape early.
     void plan_jobs() {
         std::vector<std::size_t> order(members_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -125,7 +125,7 @@ class Runner {
         }
     }
 
-    // An event of --progress json. Whatever else it says is no error of ours.
+    // Takes an event of --progress json. Other lines are no errors.
     static void listen(Running& one, const std::string& line) {
         const Json event = Json::parse(line, nullptr, false);
         if (!event.is_object()) {
@@ -182,7 +182,7 @@ class Runner {
         if (const auto failed = in(State::failed); failed > 0)
             progress.what += fmt::format(", {} failed", failed);
         progress.elapsed = watch_.seconds();
-        constexpr double soon = 0.02;  // of the work: what the time left can be reckoned by
+        constexpr double soon = 0.02;  // share of the work from which the time left can be estimated
         if (progress.done > soon) progress.remaining = progress.elapsed * (1 - progress.done) / progress.done;
         listener_.progress(progress);
     }

@@ -1,9 +1,9 @@
 // Runs the members of a study side by side, each as a process of its own on one thread.
 //
 // Why processes and not threads of this one: a member that runs out of memory or meets a bug ends alone; the
-// NetCDF library, which writes the trajectories, is not made for several threads; and what --print-commands
-// gives to a cluster is then the same thing that runs here. A process costs a tenth of a second, and a
-// member takes seconds at least. Both ways reach the same speed (docs/notes/performance.md#studies).
+// NetCDF library, which writes the trajectories, is not made for several threads; and --print-commands then
+// gives a cluster the same commands that run here. A process costs a tenth of a second, and a member takes
+// seconds at least. Both ways reach the same speed (docs/notes/performance.md#studies).
 #pragma once
 
 #include <functional>
@@ -21,17 +21,17 @@ struct StudyRunRequest {
     bool films = false;
     bool cache = true;          // members take packings from the user's cache folder, and keep theirs
     bool retry = false;         // run failed members again
-    bool posters = true;        // of the first seed of each setting
-    bool collect_only = false;  // run none; posters alone
-    std::vector<bool> wanted;   // of each member: whether it may be run; empty: all may
-    std::vector<double> cost;   // of each member, in any unit: what the time left is reckoned by
+    bool posters = true;        // make posters of the first seed of each setting
+    bool collect_only = false;  // run no members; make posters only
+    std::vector<bool> wanted;   // for each member, whether it may be run; empty: all may
+    std::vector<double> cost;  // for each member, its cost in any unit, from which the time left is estimated
 };
 
-// Whether the member of that number is still to be run.
+// Whether the member with that number is still to be run.
 bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request);
 
 // Runs what is pending of `members`, the first seed of all settings first, and fills in `results`, which hold
-// what is on disk already. `gained` is called after each member. Returns when all is done, or once the
+// what is on disk already. `gained` is called after each member. Returns when all are done, or once the
 // listener has a stop signal and the running members have ended in good order.
 void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
                  const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,

@@ -15,16 +15,16 @@
 namespace grainreel {
 namespace {
 
-// Okabe and Ito (2008): told apart by those who do not see all colours.
+// Colours of Okabe and Ito (2008), which colour-blind people can tell apart.
 constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#000000"};
 constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
 
-// What a drawing's size decides.
+// Settings that depend on a drawing's size.
 struct Look {
     PaperLines lines;
     double pen;    // width of curves
-    bool printed;  // with units
+    bool printed;  // for print, with units
 };
 const Look screen{{80, 55, 60, 2}, 2, false};
 
@@ -32,7 +32,8 @@ Look look_on(const Paper& paper) {
     return {lines_on(paper), 1, true};
 }
 
-// Lines of the longest name in the key. gnuplot lets names overlap unless they are set so far apart.
+// Number of lines of the longest name in the key. gnuplot lets names overlap unless they are set that far
+// apart.
 std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference,
                             std::size_t letters) {
     const auto lines = [&](const std::string& name) { return std::ssize(wrapped(name, letters)); };
@@ -45,14 +46,14 @@ std::string gnuplot_number(double value) {
     return std::isnan(value) ? "NaN" : fmt::format("{}", value);
 }
 
-// gnuplot ends a row at each line break, between quotes too.
+// Replaces line breaks: gnuplot ends a row at each of them, even between quotes.
 std::string on_one_line(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
     return text;
 }
 
-// Words in place of numbers along x. `across` letters have room there.
+// Commands for words in place of numbers along x. across: number of letters that have room there.
 std::string word_ticks(const Variation& axis, std::size_t across) {
     const std::size_t letters = std::max<std::size_t>(8, across / axis.values.size());
     std::string ticks;
@@ -68,7 +69,7 @@ std::string reference_table(const std::vector<ReferencePoint>& points) {
     return text;
 }
 
-// A series: its line and points, and over them the bars of those that have some.
+// Plots a series: its line and points, and over them the error bars of points that have them.
 std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number,
                         const Look& look) {
     const std::string style = fmt::format("lc rgb '{}' lw {}", colours[number % colours.size()], look.pen);

@@ -1,4 +1,4 @@
-// A study's charts on disk: a table each, the commands for gnuplot that draw it, and what it makes of them.
+// Draws a study's charts: for each one it writes a table and commands, from which gnuplot makes the pictures.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,12 @@ namespace grainreel {
 // The stem of the chart's files, NAME.csv, NAME.gp, NAME.svg and NAME.png.
 std::string chart_stem(const StudyChart& chart);
 
-// "series,x,mean,low,high,values,members": a row a point; low and high are the ends of the 95 % interval.
+// The table of a chart, "series,x,mean,low,high,values,members", with a row for each point. low and high are
+// the ends of the 95 % interval.
 std::string chart_table(const std::vector<ChartSeries>& series);
 
-// To be run in the folder of the table, with the reference beside it as NAME.reference.csv.
+// The commands for gnuplot. They run in the table's folder, with the reference beside it as
+// NAME.reference.csv.
 std::string chart_commands(const Study& study, const StudyChart& chart,
                            const std::vector<ChartSeries>& series, bool has_reference);
 
@@ -26,14 +28,14 @@ struct DrawnCharts {
     std::vector<std::string> stems;
 };
 // Writes tables and commands into `folder`, which it makes, and runs gnuplot. A chart without a single point
-// is left out. references: of each chart, empty for none.
+// is left out. references: for each chart its points from elsewhere; empty for none.
 DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
                         const std::vector<MemberResult>& results,
                         const std::vector<std::vector<ReferencePoint>>& references,
                         const std::filesystem::path& folder);
 
-// The same charts for print. Gives their files. Throws UserError where the folder cannot be made, RunError
-// without gnuplot.
+// Draws the same charts for print and returns their files. Throws UserError when the folder cannot be made,
+// RunError when there is no gnuplot.
 std::vector<std::filesystem::path> print_charts(const Study& study, const std::vector<Member>& members,
                                                 const std::vector<MemberResult>& results,
                                                 const std::vector<std::vector<ReferencePoint>>& references,

@@ -11,9 +11,9 @@
 namespace grainreel {
 
 struct ChartPoint {
-    double x = 0;  // in the axis' unit; of an axis of words the number of the word, from 0
+    double x = 0;  // in the axis' unit; for an axis of words the number of the word, from 0
     MeanInterval y;
-    std::size_t members = 0;  // complete ones; y.count of them have a value
+    std::size_t members = 0;  // number of complete members; y.count of them have a value
 };
 
 // One line of a chart: all settings that differ in x alone.
@@ -24,11 +24,12 @@ struct ChartSeries {
 std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Member>& members,
                                       const std::vector<MemberResult>& results, const StudyChart& chart);
 
-// A measure of one setting over its seeds. Members as make_members gives them.
+// The interval of a measure over the seeds of a setting. members: in the order of make_members().
 MeanInterval setting_interval(const std::vector<Member>& members, const std::vector<MemberResult>& results,
                               std::size_t setting, std::size_t measure);
 
-// "0.412 ± 0.031", the mean and half of its 95 % interval; of one value the value, of none a dash.
+// The interval as text: "0.412 ± 0.031", the mean and half of its 95 % interval. For one value it is the
+// value alone, for none a dash.
 std::string interval_text(const MeanInterval& interval);
 
 }  // namespace grainreel

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Where the straight line from row i - 1 to row i comes to the threshold.
+// The time at which the straight line from row i - 1 to row i reaches the threshold.
 double time_between(double threshold, const std::vector<double>& times, const std::vector<double>& values,
                     std::size_t i) {
     const double share = (threshold - values[i - 1]) / (values[i] - values[i - 1]);
@@ -20,9 +20,9 @@ struct Rows {
     std::vector<double> times, values;
 };
 
-// A row at the window's end counts although its time is rounded.
+// The rows within the window. A row at the window's end counts although its time is rounded.
 Rows rows_within(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
-    constexpr double rounding = 1e-9;  // of a time
+    constexpr double rounding = 1e-9;  // relative rounding of a time
     Rows rows;
     for (std::size_t i = 0; i < times.size(); ++i) {
         const double slack = rounding * std::abs(times[i]);

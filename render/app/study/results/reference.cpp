@@ -15,7 +15,7 @@ namespace {
 
 struct Cell {
     std::string text;
-    std::size_t column = 0;  // of its first character, from 1
+    std::size_t column = 0;  // column of its first character, from 1
 };
 
 std::vector<Cell> cells_of(const std::string& line) {

@@ -1,4 +1,4 @@
-// What became of a member: read from its folder.
+// Reads from a member's folder what became of it.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +17,9 @@ struct MemberResult {
         complete,
     };
     State state = State::missing;
-    std::string error;  // of a failed one
+    std::string error;  // error of a failed member
     std::vector<std::string> warnings;
-    std::vector<double> values;  // one a measure; NaN where there is nothing to tell. Of complete ones
+    std::vector<double> values;  // for complete members, one for each measure; NaN where there is no value
     double simulated = 0;        // s
     double particle_steps_per_second = 0;
     bool has_film = false;
@@ -27,7 +27,7 @@ struct MemberResult {
 
 std::string to_string(MemberResult::State state);
 
-// From run.json and measures.csv in the member's folder. What is damaged counts as incomplete.
+// Reads run.json and measures.csv in the member's folder. A member with damaged files counts as incomplete.
 MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// study.csv: a row a member.
+// Writes study.csv, which has a row for each member.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace grainreel {
 
-// A cell after RFC 4180: in quotes where it has a comma, a quote or a line's end.
+// A cell as RFC 4180 asks: in quotes when it has a comma, a quote or a line break.
 std::string csv_cell(const std::string& text);
-// Shortest decimals that read back to the same bits; empty for NaN.
+// The shortest decimal number that reads back to the same bits; empty for NaN.
 std::string csv_number(double value);
 
-// The members in their order: keys (with their unit), seed, state, measures, error, folder.
+// The table of members in their order, with the columns keys (with their units), seed, state, measures,
+// error, folder.
 std::string study_table(const Study& study, const std::vector<Member>& members,
                         const std::vector<MemberResult>& results);
 
