@@ -1,4 +1,5 @@
-// Values exactly at a bound, as decimals in units that differ: what is meant to be equal is.
+// Tests of values exactly at a bound, written as decimals in different units: numbers that are meant to be
+// equal count as equal.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ TEST(Decimals, AreTheSameUpToRounding) {
     EXPECT_TRUE(clearly_more(0, -1e-20));
 }
 
-// 2.5 diameters, at every diameter of three digits.
+// The period is 2.5 diameters, for every diameter of three digits.
 TEST(Bounds, APeriodOfTwoAndAHalfDiameters) {
     for (int hundredths = 100; hundredths < 400; ++hundredths) {
         const Assignments sets{
@@ -59,7 +60,7 @@ TEST(Bounds, OfTheWedge) {
                             {fmt::format("container.height={} cm", high),
                              fmt::format("container.slant_height={}e-2", high), "species.small.count=10"}),
                   "");
-    // Slants that meet at the floor: 45 degrees over as much as the half-width.
+    // The slants meet at the floor: 45 degrees over a height equal to the half-width.
     EXPECT_EQ(complaint(wedge_text, {"container.half_angle=45 deg", "container.slant_height=5.5 cm"}), "");
     EXPECT_THAT(complaint(wedge_text, {"container.half_angle=45 deg", "container.slant_height=5.51 cm"}),
                 testing::HasSubstr("would cross"));
@@ -70,7 +71,7 @@ TEST(Bounds, OfOutletAndTray) {
         return Assignments{"container.outlet=" + table, "species.small.count=50"};
     };
     EXPECT_EQ(complaint(wedge_text, out("{ width = \"0.01 m\" }")), "") << "as wide as the largest";
-    // Twice the stroke's amplitude and a radius.
+    // The least is twice the stroke's amplitude plus a radius.
     const double least = 2 * read_text(wedge_text).drive.amplitude + 0.005;
     EXPECT_EQ(complaint(wedge_text,
                         out(fmt::format("{{ width = 0.02, exit_depth = {:.17g} }}", least * (1 - 1e-15)))),
@@ -97,7 +98,7 @@ TEST(Bounds, OfFeeds) {
     const std::string fed =
         wedge_text + "[[feed]]\nrate = 10\nlow = [0, 0, \"160.3 mm\"]\nhigh = [0, 0, 0.1603]\n";
     EXPECT_EQ(complaint(fed), "");
-    // The only place is as high as a radius under the lid.
+    // The only place is a radius below the lid.
     EXPECT_EQ(complaint(wedge_text +
                         "[[feed]]\nrate = 10\nlow = [0, 0, \"177.5 mm\"]\nhigh = [0, 0, \"0.1775 m\"]\n"),
               "");

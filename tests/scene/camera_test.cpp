@@ -1,4 +1,5 @@
-// Keys of the camera's way and of what is made visible of the walls' motion: read, refused, written back.
+// Tests of keys for the camera's way and for what makes the walls' motion visible: they are read, refused and
+// written back.
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
@@ -103,7 +104,7 @@ TEST(CameraKeys, AreRefusedWhereTheyMeanNothing) {
               "order");
 }
 
-// These ended in a crash of the renderer.
+// These scenes once crashed the renderer.
 TEST(CameraKeys, ACameraHasADirectionAndAnAngle) {
     EXPECT_EQ(
         about_camera("field_of_view = 1e-300\n"),

@@ -1,4 +1,4 @@
-// [[film.caption]]: what is read and written, and what is refused.
+// Tests of [[film.caption]]: what is read and written, and what is refused.
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"

@@ -1,4 +1,4 @@
-// [[drive.stage]]: what is read and written, what the plan makes of it, and what is refused.
+// Tests of [[drive.stage]]: what is read and written, what the plan makes of it, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::string staged(const std::string& stages) {
     return wedge_text + stages;
 }
 
-// 20 Hz with Gamma 3 at first; gravity is 10 m/s2.
+// The drive begins with 20 Hz and Gamma 3; gravity is 10 m/s2.
 const std::string four_stages = R"([[drive.stage]]
 from = "0.5 s"
 frequency = "40 Hz"
@@ -51,7 +51,7 @@ TEST(DriveStageKeys, TakeWhatIsNotSaidFromTheStageBefore) {
     EXPECT_NEAR(level(drive.stages[0].amplitude, 40), 3, 1e-12);
     EXPECT_EQ(drive.stages[1].kind, Kind::rest);
     EXPECT_EQ(drive.stages[1].amplitude, 0);
-    EXPECT_EQ(drive.stages[2].frequency, 40);  // of the last that was not at rest
+    EXPECT_EQ(drive.stages[2].frequency, 40);  // the frequency of the last stage that was not at rest
     EXPECT_EQ(drive.stages[2].amplitude, 0.002);
     EXPECT_NEAR(level(drive.stages[3].amplitude, 10), 5, 1e-12);
     EXPECT_EQ(drive.highest_frequency(), 40);
@@ -64,12 +64,12 @@ TEST(DriveStageKeys, AResolvedSceneReadsBackAsItWas) {
     const Plan plan = make_plan(scene);
     const FilmedScene back = read_filmed_scene_text(resolved_scene(scene, plan), "scene.toml");
     EXPECT_EQ(back.drive, scene.drive);
-    EXPECT_EQ(back.output, scene.output);  // by periods, as it was
+    EXPECT_EQ(back.output, scene.output);  // the rhythm by periods is kept
     EXPECT_EQ(make_plan(back).clock.step, plan.clock.step);
     EXPECT_EQ(make_plan(back).steps, plan.steps);
 }
 
-// Each begins with the first whole period at its time or later, and changes over whole periods.
+// Each stage begins with the first whole period at its time or later, and changes over whole periods.
 TEST(DriveSchedule, BeginsWithWholePeriods) {
     const DriveSchedule schedule(read_text(staged(four_stages)).drive);
     EXPECT_DOUBLE_EQ(schedule.begins(1), 0.5);

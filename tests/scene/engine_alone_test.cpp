@@ -1,4 +1,4 @@
-// The engine's reader takes a scene with a film and keeps the film as text.
+// Tests of the engine's reader, which takes a scene with a film and keeps the film as text.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ std::string message_of(const std::string& text, const Assignments& sets = {}) {
     return "";
 }
 
-// Whoever reads what the engine wrote finds the film that stood in the scene, and the engine's part as it
-// was.
+// A scene that the engine wrote still has the film of the scene that it read, and the engine's part is
+// unchanged.
 TEST(EngineAlone, KeepsTheFilmOfEveryShippedScene) {
     int read = 0;
     for (const auto& file : std::filesystem::directory_iterator(GRAINREEL_SOURCE "/scenes")) {
@@ -40,7 +40,7 @@ TEST(EngineAlone, KeepsTheFilmOfEveryShippedScene) {
         EXPECT_EQ(back.container, filmed.container);
         EXPECT_EQ(back.drive, filmed.drive);
         EXPECT_EQ(make_plan(back).clock.step, plan.clock.step);
-        // Once more, and nothing changes.
+        // Reading and writing once more changes nothing.
         EXPECT_EQ(read_scene_text(written, file.path(), {}, measurable_in).film_text, alone.film_text);
         ++read;
     }

@@ -1,4 +1,4 @@
-// What [[feed]] and a start by rain say, how they are written back, and what is wrong with them.
+// Tests of [[feed]] and of a start by rain: what they mean, how they are written back, and what is refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ TEST(FeedKeys, CountAndUntilMakeARate) {
     EXPECT_EQ(scene.grains_at_start(), 110);
 }
 
-// All across, from three diameters below the top.
+// The box is as wide as the container, and begins three diameters below the top.
 TEST(FeedKeys, TheBoxIsBelowTheTop) {
     const Feed feed = read_text(fed("rate = 1\n")).feeds.at(0);
     EXPECT_TRUE(feed.low.isApprox(Vec3(-0.0225, -0.055, 0.18 - 0.015)));
@@ -69,13 +69,13 @@ TEST(FeedKeys, AFedSpeciesNeedsNoCount) {
     EXPECT_EQ(again.species, scene.species);
 }
 
-// Impacts are those of a fall from the highest place to the floor, and of a floor that comes up.
+// Expected impacts are those of a fall from the highest place to the floor, and of a floor that comes up.
 TEST(FeedKeys, AFallDecidesTheStiffness) {
     const FilmedScene scene = read_text(fed("rate = 1\nvelocity = [0, 0, \"-3 m/s\"]\n"));
     EXPECT_DOUBLE_EQ(make_plan(scene).impact_speed, std::sqrt(9 + 2 * 10 * 0.18) + scene.drive.speed());
 }
 
-// As many as fill a twentieth of the layer in the time that a grain falls through it: solid volume per area
+// The rate fills a twentieth of the layer in the time that a grain falls through it: solid volume per area
 // and time = 0.05 x depth of the layer / time.
 TEST(RainKeys, TheRateIsThatOfAThinRain) {
     const FilmedScene scene = read_text(with(wedge_text, "[run]", "[start]\nmethod = \"rain\"\n[run]"));

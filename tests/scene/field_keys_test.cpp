@@ -1,4 +1,4 @@
-// [output.fields]: defaults, and what is refused.
+// Tests of [output.fields]: defaults, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ TEST(FieldKeys, OneLineIsEnough) {
     EXPECT_FALSE(read_text(wedge_text).output.fields.wanted());
 }
 
-// 110 grains at the start, and big ones that come, 100 a second: however long the run is. Then those alone.
+// There are 110 grains at the start, and big ones come at 100 a second; the length of the run does not
+// matter. In the second scene there are only those that come.
 TEST(FieldKeys, TheMeanDiameterCountsGrainsThatCome) {
     std::string text = wedge_text + "[[feed]]\nspecies = \"big\"\nrate = 100\n";
     const double width = read_text(text, {"output.fields.grid=yz"}).output.fields.width;

@@ -47,7 +47,7 @@ TEST(Keys, DocsTellWhatTheReaderKnows) {
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=Keys.DocsTellWhatTheReaderKnows";
 }
 
-// Writing a documented default into a scene changes nothing.
+// A documented default that is written into a scene changes nothing.
 TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string locked = wedge_text + "[[film.segment]]\nkind = \"locked\"\n";
     const std::string motion = wedge_text + "[[film.segment]]\nduration = 2\nexposure = 0.01\n";
@@ -95,8 +95,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
         for (const std::string& text : cases) {
             const auto dot = path.rfind('.');
             const std::string name = path.substr(dot == std::string::npos ? 0 : dot + 1);
-            if (text.find("\n" + name + " =") != std::string::npos)
-                continue;  // the scene says something else
+            if (text.find("\n" + name + " =") != std::string::npos) continue;  // the scene has another value
             if (path.rfind("film.segment", 0) == 0 && text.find("[[film.segment]]") == std::string::npos)
                 continue;
             std::string with_default;
@@ -104,7 +103,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
                 const FilmedScene scene = read_text(text, {path + "=" + key.fallback});
                 with_default = resolved_scene(scene, make_plan(scene));
             } catch (const UserError&) {
-                continue;  // of no use in this one
+                continue;  // the key is of no use in this scene
             }
             const FilmedScene plain = read_text(text);
             EXPECT_EQ(with_default, resolved_scene(plain, make_plan(plain))) << key.path;
@@ -114,7 +113,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     }
 }
 
-// An advice that is refused in its turn is none.
+// Advice is useless if its example is refused too.
 TEST(Keys, ExamplesAreInsideTheirBounds) {
     for (const Key& key : filmed_scene_keys()) {
         if (key.kind != KeyKind::quantity && key.kind != KeyKind::integer) continue;

@@ -27,7 +27,8 @@ TEST(LiveText, ShowsValuesInTheirUnits) {
     EXPECT_EQ(shown("{height_difference}", -0.25), "−0.25");
     EXPECT_EQ(shown("{{lacey} {lacey}", 0.5), "{lacey} 0.5");
     EXPECT_EQ(shown("{kinetic}", std::nullopt), "– J");
-    EXPECT_EQ(shown("{lacey} {unlike_neighbours}", std::nan("")), "– –");  // not defined for this bed
+    EXPECT_EQ(shown("{lacey} {unlike_neighbours}", std::nan("")),
+              "– –");  // the measure is not defined for this bed
     EXPECT_EQ(shown("{big_above_small} {big_in_top_quarter}", 0.5), "0.5 0.5");
 }
 

@@ -1,4 +1,4 @@
-// What a scene says of colours and marks.
+// Tests of what a scene says about colours and marks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,8 +34,7 @@ void expect_complaint(const std::vector<std::string>& set, const std::string& wo
 TEST(Look, UsualRangesComeFromTheDrive) {
     const FilmedScene scene = read_text(wedge_text);
     const double omega = 2 * std::numbers::pi * 20, plate = 3 * 10.0 / omega;  // a w = Gamma g / w
-    // From n layers, a blow comes back with e to the power of 2 n - 1 of its speed (the film's v,
-    // colours.md).
+    // A blow comes back from n layers with e to the power of 2 n - 1 of its speed (the film's v, colours.md).
     double restitution = 0;
     for (const PairContact& pair : scene.contact.grain) restitution = std::max(restitution, pair.restitution);
     for (const PairContact& pair : scene.contact.wall) restitution = std::max(restitution, pair.restitution);
@@ -48,13 +47,13 @@ TEST(Look, UsualRangesComeFromTheDrive) {
     EXPECT_EQ(upward.map, ColourMap::vik);
     EXPECT_NEAR(upward.range[0], -speed, 1e-12);
     EXPECT_NEAR(upward.range[1], speed, 1e-12);
-    // Four amplitudes, or a diameter where that is more.
+    // The range is four amplitudes, or a diameter if that is more.
     EXPECT_NEAR(colour_of({"film.colour.by=displacement"}).range[1], std::max(0.005, 4 * plate / omega),
                 1e-12);
     EXPECT_NEAR(colour_of({"film.colour.by=displacement", "drive.g_level=0.01"}).range[1], 0.005, 1e-12);
 }
 
-// Few lively layers are thrown faster than a deep bed, and grains that leave fall faster than they are
+// A few lively layers are thrown faster than a deep bed, and grains that leave fall faster than they are
 // thrown.
 TEST(Look, UsualSpeedsFollowTheBed) {
     const auto speed = [](const std::vector<std::string>& set) {
@@ -69,7 +68,8 @@ TEST(Look, UsualSpeedsFollowTheBed) {
     EXPECT_NEAR(speed(outlet), std::sqrt(2 * 10.0 * 1), 1e-9);
 }
 
-// Where 1 grain in 100 is faster than v, exp(-ln 100 E / (m v2 / 2)) of those of a mass have more than E.
+// If 1 grain in 100 is faster than v, the share exp(-ln 100 E / (m v2 / 2)) of the grains with the mass m has
+// an energy above E.
 TEST(Look, UsualEnergiesHoldNinetyNineOfAHundred) {
     const FilmedScene scene = read_text(wedge_text, {"film.colour.by=kinetic-energy"});
     const double energy = scene.film.shows.colour.range[1];

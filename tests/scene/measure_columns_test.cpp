@@ -33,7 +33,7 @@ TEST(MeasureColumns, DocsTellWhatTheObserversSay) {
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=MeasureColumns.DocsTellWhatTheObserversSay";
 }
 
-// A column with a unit ends in it, so that live words and plots find it with and without.
+// The name of a column with a unit ends in the unit, and live words and plots find it with and without.
 TEST(MeasureColumns, UnitsEndTheNames) {
     std::set<std::string> names;
     for (const MeasureColumn& column : measure_columns(read_text(wedge_text))) {

@@ -1,4 +1,4 @@
-// Scenes with meshes: what is read, what it is when nothing is said, and what is refused.
+// Tests of scenes with meshes: what is read, the defaults, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class MeshScene : public testing::Test {
         files.put("tank.stl", box_of_sheets(0.1, 0.08));
         files.put("path.csv", path_text);
     }
-    // The mesh of a ball on a plate, with these keys more.
+    // The mesh of a ball on a plate, with these additional keys.
     SceneMesh mesh(const std::string& keys, const std::string& more = "") const {
         return files
             .read(with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\n" + keys) + more)
@@ -177,7 +177,7 @@ TEST_F(MeshScene, ExitsTakeWhatIsInThemOrOutside) {
     EXPECT_TRUE(scene.exits[1].holds({0, 2, 0}));
 }
 
-// The box that a mesh sweeps is what is looked at.
+// The extent includes the box that a moving mesh sweeps.
 TEST_F(MeshScene, ExtentsHoldMeshesAsTheyMove) {
     const Extent still = extent_of(files.read(ball_on_plate));
     EXPECT_LE(still.low.x(), -0.1);
@@ -189,7 +189,7 @@ TEST_F(MeshScene, ExtentsHoldMeshesAsTheyMove) {
     const Scene going = files.read(
         with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\nvelocity = [0, 1, 0]\n"));
     EXPECT_NEAR(extent_of(going).high.y(), 0.1 + 0.2, 1e-9);
-    // A ground of 200 m is not looked at as a whole.
+    // A ground of 200 m does not count as a whole.
     files.put("plate.stl", plate(200));
     EXPECT_LT(extent_of(files.read(ball_on_plate)).size().x(), 1);
 }
@@ -226,7 +226,7 @@ TEST_F(MeshScene, ScenesReadBackAsTheyWere) {
     EXPECT_EQ(files.read(written_scene(turning)).container, turning.container);
 }
 
-// As a run's folder has it: the files beside the scene, their hashes in it.
+// This is the form in a run's folder: the files are beside the scene, and their hashes are in it.
 TEST_F(MeshScene, RunsNameTheirCopies) {
     const MeshScenes other;
     const Scene scene = files.read(
@@ -248,13 +248,13 @@ TEST_F(MeshScene, RunsNameTheirCopies) {
     EXPECT_EQ(there.meshes, scene.meshes);
     EXPECT_EQ(written_scene(naming_kept_files(there)), text);
 
-    // Checkpoints lie in the folder or one below it.
+    // Checkpoints are in the folder or in one below it.
     std::filesystem::create_directories(other.path() / "checkpoints");
     EXPECT_EQ(read_scene_text(text, other.path() / "checkpoints" / "0001.grs").meshes, scene.meshes);
     EXPECT_EQ(read_scene_text(text, other.path() / "checkpoint.grs").meshes, scene.meshes);
     EXPECT_THAT(files.complaint(text), HasSubstr("meshes/plate.stl, which does not exist"));
 
-    // Another file in the place of what was kept.
+    // Another file takes the place of the copy.
     other.put("meshes/plate.stl", plate(0.21));
     const std::string wrong = other.complaint(text);
     EXPECT_THAT(wrong, HasSubstr("scene.toml:"));

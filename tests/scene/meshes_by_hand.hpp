@@ -1,4 +1,4 @@
-// Meshes and files for the tests of scenes that have some.
+// Meshes and files for tests of scenes with meshes.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace grainreel {
 using TriangleByHand = std::array<Vec3, 3>;
 using MeshByHand = std::vector<TriangleByHand>;
 
-// Two triangles; counter-clockwise for an eye on the side of the normal.
+// Adds two triangles. Corners go counter-clockwise for an eye on the side of the normal.
 inline void add_quad(MeshByHand& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     mesh.push_back({a, b, c});
     mesh.push_back({a, c, d});
@@ -32,8 +32,8 @@ inline MeshByHand plate(double side) {
     return mesh;
 }
 
-// Sheets around a box that stands on z = 0, open above unless there is a lid. hole: m, the side of a square
-// hole in the middle of the floor, 0 for none.
+// Sheets around a box that stands on z = 0 and is open above unless there is a lid. hole: m, side of a square
+// hole in the middle of the floor; 0 for none.
 inline MeshByHand box_of_sheets(double side, double height, bool lid = false, double hole = 0) {
     const double h = 0.5 * side, o = 0.5 * hole;
     const std::array<Vec3, 4> low{Vec3(-h, -h, 0), Vec3(h, -h, 0), Vec3(h, h, 0), Vec3(-h, h, 0)};
@@ -60,7 +60,7 @@ inline std::string stl_text(const MeshByHand& mesh) {
     return text + "endsolid\n";
 }
 
-// A folder with scenes and meshes, gone in the end.
+// A folder with scenes and meshes, which is removed at the end.
 class MeshScenes {
   public:
     MeshScenes() {
@@ -87,7 +87,7 @@ class MeshScenes {
     Scene read(const std::string& text, const Assignments& sets = {}) const {
         return read_scene_text(text, path_ / "scene.toml", sets);
     }
-    // What the reader says of it; "none" where it is right. Its own folder is left out.
+    // The reader's message for a scene, without the test's folder; "none" if the scene is right.
     std::string complaint(const std::string& text, const Assignments& sets = {}) const {
         try {
             read(text, sets);
@@ -105,7 +105,7 @@ class MeshScenes {
     std::filesystem::path path_;
 };
 
-// A ball above a plate from a file, as small as a scene with a mesh can be.
+// A ball above a plate from a file, in the smallest scene that has a mesh.
 inline const std::string ball_on_plate = R"([[species]]
 name = "ball"
 diameter = "10 mm"

@@ -1,4 +1,4 @@
-// Every complaint of the reader, word for word.
+// Tests of every message of the reader, word for word.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -265,7 +265,8 @@ TEST(Messages, NothingToChooseTheStiffnessBy) {
 }
 
 TEST(Messages, DampingBeyondTheCritical) {
-    // critical: 2 sqrt(k / m) of the pair of the largest effective mass, half a 1 mm grain's for a-a
+    // The critical damping is 2 sqrt(k / m) for the pair of the largest effective mass; for a-a that is half
+    // the mass of a 1 mm grain.
     EXPECT_EQ(complaint(box_text, {"contact.normal_damping=1e5", "contact.attraction=true"}),
               "--set contact.normal_damping: 'normal_damping' of 100000 1/s between \"a\" and \"a\" is not "
               "below the "
@@ -380,8 +381,8 @@ TEST(Messages, EchoNoMoreThanSixtyCharacters) {
               1000u);
 }
 
-// What nobody can mean ends where it is read: further on products of such values overflow, and the message
-// would blame the duration.
+// Absurd values are refused where they are read. Later, products of such values would overflow, and the
+// message would name the duration.
 TEST(Messages, AbsurdSizesAreRefusedAtTheirKey) {
     const auto of = [](const std::string& set) { return complaint(wedge_text, {Assignment(set)}); };
     EXPECT_EQ(

@@ -1,4 +1,4 @@
-// Motions from files, and turns: positions and velocities against closed forms.
+// Tests of motions from files and of turns: positions and velocities against closed forms.
 #include "engine/scene/motion.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,8 @@ using testing::HasSubstr;
 
 constexpr double amplitude = 0.01, period = 0.5, swing = 0.3;  // m, s, rad
 
-// Two periods of x = a sin, z = 2 a sin, whose second derivative is zero at both ends, and a swing about y.
+// A file of two periods of x = a sin, z = 2 a sin, whose second derivative is zero at both ends, and of a
+// swing about y.
 std::string sines(int rows, bool turns) {
     std::string text = turns ? "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n" : "time_s,x_m,y_m,z_m\n";
     for (int i = 0; i <= rows; ++i) {
@@ -39,12 +40,12 @@ double worst_place(const MotionPath& path) {
     return worst;
 }
 
-// The error of a cubic spline falls with the fourth power of the distance of its points.
+// The error of a cubic spline falls with the fourth power of the distance between its points.
 TEST(MotionPath, FollowsASineToTheFourthPowerOfItsSteps) {
     const MeshScenes files;
     const double coarse = worst_place(*MotionPath::read(files.put("coarse.csv", sines(40, false))));
     const double fine = worst_place(*MotionPath::read(files.put("fine.csv", sines(80, false))));
-    // 5/384 h^4 |f''''|, the bound of de Boor, ch. V.
+    // 5/384 h^4 |f''''| is the bound of de Boor, ch. V.
     const double h = 2 * period / 80,
                  bound = 5.0 / 384 * std::pow(2 * pi * h / period, 4) * std::sqrt(5.0) * amplitude;
     EXPECT_LT(fine, bound);
@@ -65,7 +66,7 @@ TEST(MotionPath, VelocityAndSpinAreTheDerivatives) {
         const Eigen::AngleAxisd turned(after.rotation * before.rotation.conjugate());
         EXPECT_LT((now.spin - turned.angle() / (2 * dt) * turned.axis()).norm(), 1e-7);
         EXPECT_NEAR(now.rotation.norm(), 1, 1e-15);
-        // The pivot itself goes along the path.
+        // The pivot itself moves along the path.
         const double s = std::sin(2 * pi * t / period);
         EXPECT_LT((now.place + now.rotation * pivot - pivot - amplitude * s * Vec3(1, 0, 2)).norm(), 1e-6);
     }
@@ -161,8 +162,8 @@ TEST(MotionPath, BeginsWhereTheMeshRests) {
                 HasSubstr("m, turned, but places count"));
 }
 
-// A jump is one step that is much faster than those around it, or one row that lies apart. Motions that rest
-// and begin smoothly are none.
+// A jump is one step that is much faster than those around it, or one row that lies apart. A motion that
+// begins smoothly after a rest has no jump.
 TEST(MotionPath, SaysWhereAPathJumps) {
     const MeshScenes files;
     const auto path_of = [&](const auto& place) {
@@ -182,7 +183,7 @@ TEST(MotionPath, SaysWhereAPathJumps) {
                 HasSubstr("path.csv:42: the path jumps by 0.5"));
 }
 
-// Rates and angles by the integral of 10u^3 - 15u^4 + 6u^5, which is 1/2 over the rise.
+// Rates and angles follow from the integral of 10u^3 - 15u^4 + 6u^5, which is 1/2 over the rise.
 TEST(BodyTurn, TurnsByTheIntegralOfItsRate) {
     BodyTurn turn;
     turn.rate = 3, turn.from = 0.5, turn.over = 0.4, turn.until = 2;

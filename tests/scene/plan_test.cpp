@@ -1,4 +1,4 @@
-// The plan against formulas worked out by hand, one condition at a time.
+// Tests of the plan against formulas worked out by hand, one condition at a time.
 #include "engine/plan/plan.hpp"
 
 #include <fmt/format.h>
@@ -32,12 +32,12 @@ TEST(Bed, FillHeightFollowsTheWedge) {
     const Container& c = scene.container;
     const double area_above = c.depth * 2 * c.half_width;
     const double volume_slanted = c.depth * c.slant_height * (c.floor_half_width() + c.half_width);
-    // a bed that ends 10 mm above the slanted part
+    // The bed ends 10 mm above the slanted part.
     const double grain = pi / 6 * std::pow(0.005, 3);
     scene.species.resize(1);
     scene.species[0].count = static_cast<std::int64_t>((volume_slanted + 0.01 * area_above) * 0.6 / grain);
     EXPECT_NEAR(fill_height(scene, 0.6), c.slant_height + 0.01, grain / 0.6 / area_above);
-    // and one that ends within it: the volume below that height is the bed's
+    // This bed ends within the slanted part: the volume below its height is that of the bed.
     scene.species[0].count /= 3;
     const double h = fill_height(scene, 0.6);
     const double width = c.floor_half_width() + c.half_width_at(h);
@@ -49,7 +49,7 @@ TEST(Bed, MeanCubeOfSpreads) {
     SizeSpread uniform{SizeSpread::Kind::uniform, 1, 3, 2, 0};
     EXPECT_DOUBLE_EQ(mean_cube(uniform), (81.0 - 1.0) / 4 / 2);  // integral of x^3 from 1 to 3, over 2
     SizeSpread normal{SizeSpread::Kind::normal, 1.4, 2.6, 2, 0.3};
-    double weight = 0, sum = 0;  // by quadrature
+    double weight = 0, sum = 0;  // by numerical integration
     for (int i = 0; i < 200000; ++i) {
         const double z = -2 + 4 * (i + 0.5) / 200000;
         const double density = std::exp(-z * z / 2);
@@ -63,7 +63,7 @@ TEST(Bed, MeanCubeOfSpreads) {
 
 const std::string drive_text = "[drive]\nfrequency = \"20 Hz\"\ng_level = 3\n";
 
-// A deep bed, driven hard: the plate meets a plastic block at 2.2 a omega.
+// The bed is deep and driven hard: the plate meets a plastic block at 2.2 a omega.
 const std::vector<std::string> deep_and_hard = {"contact.restitution=0.5", "run.duration=0.5",
                                                 "drive.g_level=20", "species.small.count=1500",
                                                 "contact.friction=0"};
@@ -77,17 +77,18 @@ TEST(PlanStiffness, ImpactBinds) {
     EXPECT_DOUBLE_EQ(plan.between(0, 0).loading_stiffness,
                      m / 2 * std::pow(plan.impact_speed / (0.01 * 0.005), 2));
     EXPECT_EQ(plan.between(0, 0).stiffness_reason, "impact");
-    // small on big: the smaller diameter, the effective mass of 1 and 8 parts
+    // A small grain meets a big one: the smaller diameter counts, and the effective mass of 1 and 8 parts.
     EXPECT_DOUBLE_EQ(plan.between(0, 1).loading_stiffness,
                      m * 8 / 9 * std::pow(plan.impact_speed / (0.01 * 0.005), 2));
     EXPECT_DOUBLE_EQ(plan.wall[0].loading_stiffness, m * std::pow(plan.impact_speed / (0.01 * 0.005), 2));
     EXPECT_EQ(plan.between(1, 0).loading_stiffness, plan.between(0, 1).loading_stiffness);
-    // a big grain's mass on three small ones, where the softest contact is made for half a small one's
+    // A big grain's mass lies on three small ones, while the softest contact is made for half a small one's
+    // mass.
     EXPECT_NEAR(plan.expected_overlap, 0.01 * std::sqrt(8.0 / 3 / 0.5), 1e-12);
 }
 
 TEST(PlanStiffness, StaticLoadBindsUnderADeepHeavyBed) {
-    // no drive, and a tight overlap: the fall while settling may go to 0.05 all the same
+    // There is no drive and the overlap is small; the fall while settling may still reach 0.05.
     const FilmedScene scene =
         read_text(with(wedge_text, drive_text, ""), {"species.small.count=2000", "run.overlap=0.002"});
     const Plan plan = make_plan(scene);
@@ -106,7 +107,7 @@ TEST(PlanStiffness, WaveBindsWithManyLayersAndAHighFrequency) {
 }
 
 TEST(PlanStiffness, SettlingMayBeSofter) {
-    // no drive: only the fall, at the looser limit of 0.05
+    // Without a drive only the fall counts, at the looser limit of 0.05.
     const FilmedScene scene = read_text(with(wedge_text, drive_text, ""));
     const Plan plan = make_plan(scene);
     EXPECT_DOUBLE_EQ(plan.impact_speed, std::sqrt(2 * 10 * (0.18 - plan.bed_height)) * 0.01 / 0.05);
@@ -128,7 +129,7 @@ TEST(PlanStiffness, TheSceneHasTheLastWord) {
     EXPECT_EQ(plan.wall[0].loading_stiffness, 3e5);
 }
 
-// The scene may give it in general, of a pair, or for both kinds of contact in one.
+// The scene may give the stiffness in general, for a pair, or for both kinds of contact in one.
 TEST(PlanStiffness, OfGluedGrains) {
     const std::string rough =
         with(wedge_text, "height = \"180 mm\"\n",
@@ -164,7 +165,8 @@ TEST(PlanStiffness, WaltonBraunBranches) {
     EXPECT_EQ(pair.normal_damping, 0);
 }
 
-// e(v) = sqrt(w0 / (w0 + S v)): what the scene says of one speed, at that speed; and at v* in the step.
+// e(v) = sqrt(w0 / (w0 + S v)). The scene's value holds at the speed that it names, and the step uses the
+// value at v*.
 TEST(PlanContact, HardeningFollowsFromTheRestitutionAtOneSpeed) {
     const FilmedScene scene =
         read_text(wedge_text, {"contact.stiffness=1e4", "contact.restitution_speed=\"20 cm/s\""});
@@ -179,7 +181,7 @@ TEST(PlanContact, HardeningFollowsFromTheRestitutionAtOneSpeed) {
     EXPECT_EQ(make_plan(read_text(wedge_text)).grain[0].model.normal, NormalForce::walton_braun_corrected);
 }
 
-// What the corrections gain counts where an impact loses next to nothing: then the spring goes without them.
+// What the corrections gain matters where an impact loses almost nothing; there the spring runs without them.
 TEST(PlanContact, NearlyElasticContactsAreNotCorrected) {
     const auto law = [](double e) {
         return make_plan(read_text(wedge_text, {fmt::format("contact.restitution={}", e)}))
@@ -195,7 +197,7 @@ TEST(PlanContact, NearlyElasticContactsAreNotCorrected) {
 // ---- the spring-dashpot ----
 
 TEST(PlanDamping, RestitutionFollowsFromDamping) {
-    // the bed that other engines are measured with: kn 1000 N/m, 2634 1/s, 1 mm and 2 mm grains
+    // This is the bed with which other engines are measured: kn 1000 N/m, 2634 1/s, 1 mm and 2 mm grains.
     const Plan plan = make_plan(read_text(box_text, {"contact.attraction=true"}));
     const double m = sphere_mass(0.001, 2500);
     const auto restitution = [](double effective_mass) {
@@ -227,7 +229,8 @@ TEST(PlanDamping, DampingFollowsFromRestitution) {
 
 // ---- the step ----
 
-// Restitution of Walton-Braun's spring by plain velocity Verlet, n steps a contact, the worst of 200 onsets.
+// The error of the restitution of Walton-Braun's spring by plain velocity Verlet with n steps a contact; the
+// worst of 200 onsets.
 double worst_restitution_error(double restitution, int steps) {
     const double stiffness = 1, mass = 1;
     const double unloading = stiffness / (restitution * restitution);
@@ -256,7 +259,7 @@ TEST(PlanStep, StepsPerContactKeepTheRestitution) {
     EXPECT_EQ(steps_per_contact(NormalForce::walton_braun, 0.9), 12);
     EXPECT_EQ(steps_per_contact(NormalForce::walton_braun, 1),
               steps_per_contact(NormalForce::spring_dashpot, 1));
-    EXPECT_GT(worst_restitution_error(0.3, 12), 0.005);  // one number for all would not do
+    EXPECT_GT(worst_restitution_error(0.3, 12), 0.005);  // one number of steps for all would not do
 }
 
 TEST(PlanStep, ContactTimeBindsForSmoothGrains) {
@@ -266,7 +269,8 @@ TEST(PlanStep, ContactTimeBindsForSmoothGrains) {
     EXPECT_EQ(plan.step_reason, "12 steps in a contact small-small");
     const double wanted = pair.contact_time / 12;
     EXPECT_LE(plan.clock.step, wanted);
-    EXPECT_GT(plan.clock.step, wanted / (1 + 8 * 20 * wanted));  // rounded by less than 8 steps a period
+    EXPECT_GT(plan.clock.step,
+              wanted / (1 + 8 * 20 * wanted));  // rounding changes the count by less than 8 steps a period
 }
 
 TEST(PlanStep, TheDenseBedBindsForStiffTangentialSprings) {
@@ -357,7 +361,7 @@ TEST(PlanWarnings, WordForWord) {
                 HasSubstr("the largest grain is 11.1 times the smallest"));
 }
 
-// Failures that no health check sees (docs/reference/stability.md).
+// These failures are not seen by any health check (docs/reference/stability.md).
 TEST(PlanWarnings, OfSilentFailures) {
     const auto of = [&](std::vector<std::string> sets) {
         sets.insert(sets.begin(), "species.small.count=1000");
@@ -377,7 +381,7 @@ TEST(PlanWarnings, OfSilentFailures) {
 
     const Plan soft = make_plan(read_text(wedge_text, {"contact.stiffness=20"}));
     const std::string said = of({"contact.stiffness=20"});
-    // Most contacts with walls: a species has as many as its surface.
+    // The largest number of wall contacts: a species has as many as its surface has room for.
     const double small = 1000 * 25.0, big = 10 * 100.0;
     const double lasts =
         20 * (small * soft.wall[0].contact_time + big * soft.wall[1].contact_time) / (small + big);
@@ -392,7 +396,8 @@ TEST(PlanWarnings, OfSilentFailures) {
 
 TEST(PlanWarnings, TheStableStepIsThatOfTheIntegrator) {
     const double fastest = std::sqrt(8 * 1000 / sphere_mass(0.001, 2500));
-    const std::string between = fmt::format("run.step={}", 1.6 / fastest);  // of Gear's 1.41 and Verlet's 2
+    const std::string between =
+        fmt::format("run.step={}", 1.6 / fastest);  // lies between the limits 1.41 of Gear and 2 of Verlet
     const auto of = [&](const char* integrator) {
         return warnings(box_text, {std::string("run.integrator=") + integrator, between, "contact.friction=0",
                                    "contact.normal_damping=0"});

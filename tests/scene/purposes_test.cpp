@@ -59,7 +59,7 @@ TEST(Purposes, SetDefaultsAlone) {
     EXPECT_THAT(own.notes, ElementsAre(HasSubstr("size 640x360 (1280x720), rate 30 (25)")));
 }
 
-// All that a purpose says can be set over a scene that names everything.
+// All values that a purpose gives can be set over a scene that has every key.
 TEST(Purposes, AsAssignmentsTheyOverrideAScene) {
     const std::string all =
         wedge_text +
@@ -90,7 +90,7 @@ TEST(FilmFile, SizesAreReadInTheirUnits) {
         EXPECT_FALSE(parse_data_size(wrong)) << wrong;
 }
 
-// 100/n frames a second, n from 2: 30 lies 3.33 from 33.3 and 5 from 25.
+// The possible rates are 100/n frames a second, n from 2: 30 is 3.33 away from 33.3 and 5 away from 25.
 TEST(FilmFile, AGifGetsTheNearestRateThatItCanHave) {
     const std::vector<std::pair<double, double>> cases{
         {30, 100 / 3.0}, {25, 25},        {24, 25},   {50, 50}, {60, 50},

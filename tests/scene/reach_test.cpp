@@ -1,4 +1,4 @@
-// How high the grains get, by formula.
+// Tests of how high the grains get, by formula.
 #include "engine/plan/reach.hpp"
 
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ double bed() {
     return 500 * pi / 6 * std::pow(0.004, 3) / 0.55 / (0.04 * 0.02);
 }
 
-// The flight of a ball that lies on a plate which moves as a sin(w t), step by step: it leaves where the
-// plate falls faster than it would.
+// The flight of a ball on a plate that moves as a sin(w t), computed step by step. The ball leaves where the
+// plate falls faster than the ball would.
 double highest_of_a_ball(double amplitude, double w) {
     const double g = 9.81, step = 1e-6 / w;
     double highest = 0, height = 0, speed = 0;
@@ -61,7 +61,7 @@ TEST(Reach, IsTheBedAtRestItsStrokeAndTheFlightOfATop) {
     EXPECT_NEAR(*resting_top(scene), bed(), 1e-12);
     const double speed = 1.6 * 0.004 * 2 * pi * 15;
     EXPECT_NEAR(*estimated_reach(scene), bed() + 0.004 + speed * speed / (2 * 9.81), 1e-12);
-    // The bed's lowest grains, which the plate throws but once, get less far.
+    // The lowest grains of the bed, which the plate throws only once, do not get as high.
     EXPECT_GT(*estimated_reach(scene), bed() + highest_of_a_ball(0.004, 2 * pi * 15));
 }
 

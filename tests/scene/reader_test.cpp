@@ -130,7 +130,7 @@ TEST(Reader, AnotherColouringTakesBackWhatBelongedToTheOldOne) {
         const std::string set = std::string("film.colour.by=") + by;
         EXPECT_EQ(of({Assignment(set)}), read_text(wedge_text, {Assignment(set)}).film.shows.colour) << by;
     }
-    EXPECT_EQ(of({"film.colour.by=speed"}), of({}));  // the same again
+    EXPECT_EQ(of({"film.colour.by=speed"}), of({}));  // the film that is the default anyway
     const GrainColouring both = of({"film.colour.range=[0, 3]", "film.colour.by=vertical-velocity"});
     EXPECT_EQ(both.range[1], 3);
     EXPECT_EQ(both.map, ColourMap::vik);
@@ -159,11 +159,12 @@ TEST(Reader, KnowsWhereEveryValueStands) {
     EXPECT_EQ(scene.where("species[1].count"), "test.toml:10:1");
     EXPECT_EQ(scene.where("drive.frequency"), "test.toml:24:1");
     EXPECT_EQ(scene.where("run.duration"), "--set run.duration");
-    EXPECT_EQ(scene.where("drive.phase"), "test.toml:23:2");  // not written: its table
+    EXPECT_EQ(scene.where("drive.phase"),
+              "test.toml:23:2");  // the key is not in the text, so its table is named
     EXPECT_EQ(scene.where("start.method"), "test.toml:1:1");
 }
 
-// n more species, without colours.
+// The text of n more species without colours.
 std::string species_text(std::size_t n) {
     std::string text;
     for (std::size_t i = 0; i < n; ++i)
@@ -216,9 +217,10 @@ TEST(Reader, DefaultFilmIsSlowAtBothEndsAndLockedBetween) {
     EXPECT_EQ(scene.film.segments[1].kind, FilmSegment::Kind::locked);
     EXPECT_FALSE(scene.film.segments[1].duration);
     EXPECT_EQ(scene.film.segments[2], scene.film.segments[0]);
-    // a tenth of a short run; 8 frames a period of a fast drive; real time without a drive
+    // A slow motion lasts a tenth of a short run; a fast drive has 8 frames a period; without a drive the
+    // film plays in real time.
     EXPECT_DOUBLE_EQ(*read_text(wedge_text).film.segments[0].duration, 0.2);
-    // Three periods a second of film, or 8 frames a period.
+    // The film has three periods a second, or 8 frames a period.
     EXPECT_EQ(read_text(wedge_text, {"drive.frequency=100"}).film.segments[0].playback, 3.0 / 100);
     EXPECT_EQ(read_text(wedge_text, {"drive.frequency=100", "film.rate=16"}).film.segments[0].playback,
               16.0 / 800);
@@ -270,7 +272,7 @@ TEST(Reader, AnOutletIsSetByItsWidthWhateverTheSceneSays) {
                      .container.outlet);
 }
 
-// A species may be there for the walls alone.
+// A species may exist only for grains glued to walls.
 TEST(Reader, ASpeciesOfGluedGrainsNeedsNoCount) {
     std::string text = wedge_text;
     text.insert(text.find("[contact]"), "[[species]]\nname = \"rough\"\ndiameter = \"4 mm\"\ndensity = 1\n");

@@ -37,7 +37,7 @@ g_level = 3
 duration = "2 s"
 )";
 
-// No drive, no gravity: two kinds of grains in a box, of law and stiffness given.
+// A scene without drive and gravity: two kinds of grains are in a box, and law and stiffness are given.
 inline const std::string box_text = R"(gravity = 0
 [[species]]
 name = "a"
@@ -75,7 +75,7 @@ inline FilmedScene read_text(const std::string& text, const Assignments& sets = 
     return read_filmed_scene_text(text, "test.toml", sets, measurable_in);
 }
 
-// Two grains by hand in empty space, with a plane that comes nearer.
+// A scene with two grains placed by hand in empty space, and a plane that comes nearer.
 inline const std::string exact_text = R"(gravity = 0
 [[species]]
 name = "ball"

@@ -1,4 +1,5 @@
-// A run that the command line ends early goes without what its scene has later, in one line.
+// Tests of a run that the command line ends early: parts of the scene that lie later are left out, with a
+// message in one line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ Assignments until(const std::string& duration) {
     return {outlet, {"run.duration=" + duration, "--duration"}};
 }
 
-// A species whose grains all come by feeds may lose the later ones, but not all of them.
+// If all grains of a species come by feeds, the later ones may be left out, but not all of them.
 TEST(Shorten, LeavesOutALaterFeedOfASpeciesThatAnotherOneGives) {
     const std::string poured = R"(
 [[species]]
@@ -93,7 +94,7 @@ TEST(Shorten, LeavesOutWhatComesLaterAndSaysSoInOneLine) {
     EXPECT_TRUE(read_text(later_text, until("1.9 s")).notes.empty());
 }
 
-// What is written reads back, and needs nothing of the command line then.
+// The scene that is written can be read again, and then needs nothing of the command line.
 TEST(Shorten, AShortenedSceneReadsBack) {
     const FilmedScene scene = read_text(later_text, until("1 s"));
     const FilmedScene again =
@@ -104,7 +105,7 @@ TEST(Shorten, AShortenedSceneReadsBack) {
     EXPECT_TRUE(again.notes.empty());
 }
 
-// 20 Hz to rest takes three periods, until 1.15 s.
+// The change from 20 Hz to rest takes three periods, until 1.15 s.
 TEST(Shorten, LeavesOutAStageThatWouldNotComeToItsEnd) {
     EXPECT_EQ(read_text(later_text, until("1.07 s")).drive.stages.size(), 1u);
     EXPECT_EQ(read_text(later_text, until("1.2 s")).drive.stages.size(), 2u);

@@ -1,4 +1,5 @@
-// Values that nobody means: a warning with the figure and the likely slip, or a refusal.
+// Tests of values that nobody means: they give a warning with the number and the likely mistake, or a
+// refusal.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

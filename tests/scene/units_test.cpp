@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
             "must be a frequency, but \"2 mm\" is a length; write for example \"25 Hz\""},
         Bad{"20 Hz", Dimension::angle,
             "must be an angle, but \"20 Hz\" is a frequency; write for example \"20 deg\""},
-        // udunits itself takes the radian for 1 and would let these pass, wrong by 2 pi
+        // The library udunits takes the radian for 1 and would accept these, wrong by 2 pi.
         Bad{"25 rad/s", Dimension::frequency,
             "must be a frequency, but \"25 rad/s\" is an angular velocity; write for example \"25 Hz\""},
         Bad{"150 rpm", Dimension::frequency,
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
             "must be a length, but \"nan mm\" does not begin with a number; write for example \"5 mm\""},
         Bad{"0.5 m", Dimension::number,
             "must be a plain number, but \"0.5 m\" has a unit; write for example 0.5"},
-        // udunits would read 1 times 000 mm, a comma as nothing, and offsets
+        // udunits would read 1 times 000 mm, a comma as nothing, and offsets.
         Bad{"1 000 mm", Dimension::length,
             "must be a length, but \"1 000 mm\" has the unknown unit \"000 mm\"; write for example \"5 mm\""},
         Bad{"1,5 mm", Dimension::length,

@@ -1,4 +1,4 @@
-// Text from outside: what is UTF-8, and that a scene with any text in it can be read again.
+// Tests of text from outside: what is UTF-8, and that a scene with any text in it can be read again.
 #include "engine/base/text.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ std::string complaint(const std::string& text, const Assignments& sets, const ch
     return "none";
 }
 
-// RFC 3629, section 4: what is allowed, and its neighbours that are not.
+// RFC 3629, section 4 lists what is allowed; tested are also neighbours that are not.
 TEST(Utf8, KnowsWhatItIs) {
     for (const char* good : {"", "plain", "Γ = 3", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80",
                              "\xed\x9f\xbf", "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
@@ -46,11 +46,11 @@ TEST(Utf8, AnExcerptIsShortAndPrintable) {
 TEST(Utf8, ATerminalObeysNothingOfWhatIsShown) {
     EXPECT_EQ(visible("\x1b[31mΓ\n\tend\r\xc2\x9b\xff", "\n\t"), "\\u001b[31mΓ\n\tend\\u000d\\u009b\\xff");
     EXPECT_EQ(message_text("a\nb \x1b c"), "a\\u000ab \\u001b c");
-    EXPECT_EQ(first_control_character("Γ\xc2\xa0"), std::nullopt);  // a space that holds words together
+    EXPECT_EQ(first_control_character("Γ\xc2\xa0"), std::nullopt);  // a space at which lines do not break
     EXPECT_EQ(first_control_character("Γ\xc2\x85"), 0x85u);
 }
 
-// A path stays whole; what nobody reads to its end loses its middle, and says so.
+// A path stays whole. Longer words lose their middle, and the message shows it.
 TEST(Utf8, AMessageHasNoEndlessWords) {
     const std::string path(200, 'p'), argument(100000, 'x');
     EXPECT_EQ(message_text(path + ": is missing"), path + ": is missing");
@@ -83,12 +83,12 @@ TEST(Utf8, TextThatIsNotIsRefusedAtTheStartAndTheByteNamed) {
                 HasSubstr("'file' lies at \"/nowhere/Gr\\xf6sse/final.csv\" is not UTF-8"));
 }
 
-// The run's own scene.toml is what `render` reads.
+// `render` reads the run's own scene.toml.
 TEST(Utf8, AnyTextThatIsTakenCanBeReadAgain) {
     std::string all = "Γ \"'\\ ";
     for (char c = 1; c < 0x20; ++c) all += c;
     all += "\x7f\u0080\u2028\U0001F4A5";
-    const std::string name = "xΓ \"'\\ \U0001F4A5";  // a name holds no control characters
+    const std::string name = "xΓ \"'\\ \U0001F4A5";  // a name has no control characters
     FilmedScene scene =
         read_text(wedge_text, {Assignment("film.title=" + all), Assignment("species.big.name=" + name)});
     scene.film.shows.text = all;

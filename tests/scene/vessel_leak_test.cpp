@@ -1,4 +1,4 @@
-// Vessels that hold their grains, and such that do not.
+// Tests of vessels that hold their grains, and of vessels that do not.
 #include "engine/scene/free_space.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void add(MeshByHand& mesh, const MeshByHand& more) {
     mesh.insert(mesh.end(), more.begin(), more.end());
 }
 
-// A cone of sheets, round by `facets`, from one radius at a height to another.
+// A cone of sheets with so many facets, from one radius and height to another.
 MeshByHand cone(double low, double low_z, double high, double high_z, int facets = 24) {
     MeshByHand mesh;
     const auto at = [&](double r, double z, int k) {
@@ -39,7 +39,8 @@ MeshByHand cone(double low, double low_z, double high, double high_z, int facets
     return mesh;
 }
 
-// A cup with thick walls: outer and inner box, joined at the rim; `hole` m wide through its floor.
+// A cup with thick walls: an outer and an inner box are joined at the rim, and a hole of so many m goes
+// through its floor.
 MeshByHand cup(double hole) {
     const double out = 0.05, in = 0.04, top = 0.08, floor = 0.01, h = 0.5 * hole;
     const auto ring = [](MeshByHand& mesh, double a, double az, double b, double bz) {
@@ -81,13 +82,13 @@ TEST(VesselLeak, HolesAreFoundInSheetsAndInThickWalls) {
     EXPECT_TRUE(leak_in(cone(0.01, 0, 0.05, 0.08)));
 }
 
-// No grain gets through these.
+// No grain gets through these holes.
 TEST(VesselLeak, HolesSmallerThanAGrainAreNone) {
     EXPECT_FALSE(leak_in(box_of_sheets(0.1, 0.08, false, 0.0015)));
     EXPECT_FALSE(leak_in(box_of_sheets(0.1, 0.08, false, 0.01), 0.03));
 }
 
-// A sheet that stands in the room has open edges, and so has a rim.
+// A sheet in the middle of the room has open edges, which are a rim.
 TEST(VesselLeak, SheetsInTheRoomAreNoHoles) {
     MeshByHand mesh = box_of_sheets(0.1, 0.08, true);
     MeshByHand lifter;
@@ -96,7 +97,7 @@ TEST(VesselLeak, SheetsInTheRoomAreNoHoles) {
     EXPECT_FALSE(leak_in(mesh));
 }
 
-// Where a triangle's corner lies on another's edge, the mesh has open edges and no hole.
+// Where a triangle's corner lies on another one's edge, the mesh has open edges but no hole.
 TEST(VesselLeak, SeamsWhoseVerticesDoNotMeetAreNoHoles) {
     const double h = 0.05;
     MeshByHand mesh = box_of_sheets(2 * h, 0.08);
@@ -107,7 +108,7 @@ TEST(VesselLeak, SeamsWhoseVerticesDoNotMeetAreNoHoles) {
     EXPECT_FALSE(leak_in(mesh));
 }
 
-// The rim of a vessel that was cut aslant is one, and nothing is lost below its lowest place.
+// The rim of a vessel that is cut obliquely is a rim too, and nothing is lost below its lowest place.
 TEST(VesselLeak, ARimMayBeAslant) {
     MeshByHand mesh = box_of_sheets(0.1, 0.08);
     for (TriangleByHand& triangle : mesh)

@@ -1,4 +1,4 @@
-// Each warning of the plan in a scene in which it must speak, and beside it in one like it in which it must
+// Tests of each warning of the plan, in a scene in which it must appear and in a similar one in which it must
 // not.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ std::string warnings(const std::string& text, Assignments sets = {}) {
     return all;
 }
 
-// 1,500 beads that are shaken, and one intruder of three diameters.
+// A bed of 1,500 beads that are shaken, and one intruder of three diameters.
 const std::string nut_text = R"([[species]]
 name = "bead"
 count = 1500
@@ -53,12 +53,12 @@ duration = "2 s"
 TEST(Warnings, OfASoftBedIsNotSetOffByOneIntruder) {
     const auto soft = HasSubstr("behaves like a soft body");
     EXPECT_EQ(warnings(nut_text), "");
-    // One stiffness for all: the intruder's contacts, of which there is one at a time, are the slowest.
+    // With one stiffness for all, the slowest contacts are those of the intruder, which has one at a time.
     const Plan plan = make_plan(read_text(nut_text));
     const double chosen = plan.between(0, 0).loading_stiffness;
     EXPECT_THAT(warnings(nut_text, {fmt::format("contact.stiffness={}", chosen)}), Not(soft));
     EXPECT_THAT(warnings(nut_text, {fmt::format("contact.stiffness={}", 5 * chosen)}), Not(soft));
-    // t ~ K^(-1/2): so soft, waves take twenty times as long.
+    // t ~ K^(-1/2): in contacts as soft as this, waves take twenty times as long.
     EXPECT_THAT(warnings(nut_text, {fmt::format("contact.stiffness={}", chosen / 400)}),
                 testing::AllOf(soft, HasSubstr("between \"bead\" and \"nut\"")));
 }
@@ -66,7 +66,7 @@ TEST(Warnings, OfASoftBedIsNotSetOffByOneIntruder) {
 TEST(Warnings, OfContactsThatLastLongGoByMostOfThem) {
     const Plan plan = make_plan(read_text(nut_text));
     const auto turned = HasSubstr("so that rebounds are off");
-    // A single grain alone has a wall that is soft for it.
+    // For a single grain without others the wall is too soft.
     const std::string nut_at_wall =
         "[[contact.pair]]\nbetween = [\"nut\", \"wall\"]\nstiffness = 30\n[container]";
     EXPECT_THAT(warnings(with(nut_text, "[container]", nut_at_wall)), Not(turned));
@@ -86,7 +86,7 @@ TEST(Warnings, OfOverlapsNameThePairThatHasThem) {
     EXPECT_EQ(plan.deepest, "\"bead\" and \"bead\" under \"nut\"");
 }
 
-// A lone grain never meets its like, and where there are no walls nothing meets one.
+// A lone grain never meets another of its species, and without walls no grain meets a wall.
 TEST(Warnings, LeaveOutPairsThatCannotMeet) {
     const FilmedScene nut = read_text(nut_text);
     const Plan plan = make_plan(nut);
@@ -120,7 +120,7 @@ TEST(Warnings, OfAWeakDriveOnlyWhereNothingElseMoves) {
     EXPECT_THAT(warnings(nut_text, {"drive.g_level=0.5", "drive.direction=[1, 0, 0]"}), Not(still));
 }
 
-// A stage that begins at 0 takes the drive's place: what the drive would do is of no matter.
+// A stage that begins at 0 replaces the drive, so what the drive would do does not matter.
 TEST(Warnings, OfADriveThatIsReplacedAtOnceAreNotGiven) {
     const std::string stage = nut_text + "[[drive.stage]]\nfrom = 0\nfrequency = \"20 Hz\"\ng_level = 3\n";
     for (const char* set : {"drive.ramp=0", "drive.ramp=100"}) {
@@ -168,7 +168,7 @@ TEST(Warnings, OfFewStepsNameTheContact) {
 }
 
 TEST(Warnings, OfGrainsThatCrossMuchInAStepGoByThoseThatMove) {
-    // A species that is only glued to the floor is never that fast.
+    // A species that only occurs glued to the floor is never that fast.
     const std::string glued = with(nut_text, "[contact]",
                                    "[[species]]\nname = \"dust\"\ndiameter = \"0.05 mm\"\ndensity = 2500\n"
                                    "[contact]");
@@ -204,7 +204,7 @@ TEST(PlanDamping, KeepsTheRestitutionThatIsAskedForAtEverySize) {
     EXPECT_NEAR(range.high, 0.5, 1e-12);
     const PairPlan& pair = plan.between(0, 0);
     EXPECT_DOUBLE_EQ(pair.tangential_damping_rate(1e-5), pair.damping_rate(1e-5) / 2);
-    // One size has one number, as before.
+    // If all grains have one size, there is one restitution, as before.
     EXPECT_EQ(plan.between(1, 1).damping_by_root, 0);
     EXPECT_GT(plan.between(1, 1).normal_damping, 0);
 }
@@ -242,7 +242,7 @@ TEST(PlanDamping, ARestitutionThatFallsWithSpeedHasARangeToo) {
     EXPECT_EQ(restitution_range(hertz, hertz.between(0, 0), scene.species[0], &scene.species[0]).low, 0.8);
 }
 
-// Strong dashpots act on a grain from all sides: the step follows them, where springs alone would allow more.
+// Strong dashpots act on a grain from all sides. They limit the step where springs alone would allow more.
 TEST(PlanStep, FollowsStrongDashpots) {
     const Assignments strong{"contact.law=spring-dashpot", "contact.friction=0", "contact.restitution=0.05"};
     const Plan plan = make_plan(read_text(nut_text, strong));

@@ -12,7 +12,7 @@
 namespace grainreel {
 namespace {
 
-// What the writer promises to keep: the scene with the plan's choices filled in.
+// The writer promises to keep this: the scene with the plan's choices filled in.
 FilmedScene filled_in(FilmedScene scene, const Plan& plan) {
     const std::size_t count = scene.species.size();
     const auto stiffness = [](const PairPlan& pair) {
@@ -31,7 +31,7 @@ FilmedScene filled_in(FilmedScene scene, const Plan& plan) {
     scene.run.step = plan.clock.step;
     scene.output.instruments = scene.instruments();
     scene.run.steps_per_contact.reset();
-    // A drive that changes has its records by periods, which no interval can say.
+    // If the drive changes, records follow its periods, which no interval can express.
     if (scene.output.trajectory && plan.trajectory_periods == 0)
         scene.output.trajectory_interval = static_cast<double>(plan.trajectory_every) * plan.clock.step;
     if (plan.measures_periods == 0)
@@ -47,7 +47,7 @@ std::string scene_without_remarks(const FilmedScene& scene, const Plan& plan) {
     return text;
 }
 
-// Bit by bit, but for the words about who chose the stiffness.
+// Compares bit by bit, except for the words about who chose the stiffness.
 void expect_equal(std::vector<PairPlan> again, std::vector<PairPlan> plan) {
     ASSERT_EQ(again.size(), plan.size());
     for (std::size_t i = 0; i < plan.size(); ++i) {
@@ -90,7 +90,8 @@ void expect_round_trip(const FilmedScene& original, const std::filesystem::path&
     EXPECT_EQ(scene_without_remarks(back, again), scene_without_remarks(original, plan));
 }
 
-// Keys of [film] that stood below [film.cut] belonged to that, and a run with a cut could not be drawn again.
+// Keys of [film] that stood after [film.cut] once belonged to that table, and a run with a cut could not be
+// drawn again.
 TEST(Writer, ACutAndWhatTheFilmShowsReadBack) {
     expect_round_trip(read_text(wedge_text +
                                 "[film]\nhide = [\"big\"]\nforce_chains = true\nhighlight = [3]\n" +
@@ -130,7 +131,7 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
                                              "faces=[\"left_slant\", \"floor\"], disorder=0.13}"}));
 }
 
-// In a folder that has the copies which the scene names.
+// The scenes are in a folder with the copies that they name.
 TEST(Writer, ScenesWithMeshesReadBackBitByBit) {
     const MeshScenes files;
     files.put("meshes/plate.stl", plate(0.2));
@@ -154,8 +155,8 @@ const std::string glued_text = with(wedge_text, "height = \"180 mm\"\n",
                                     "height = \"180 mm\"\n"
                                     "wall_grains = { species = \"small\", faces = [\"floor\"] }\n");
 
-// The plan chooses their stiffness beside that of the pair: an impact on a wall's mass has the effective mass
-// of the free grain, for equal grains twice that of the pair.
+// The plan chooses the stiffness of contacts with glued grains beside that of the pair. An impact on a wall's
+// mass has the effective mass of the free grain, which for equal grains is twice that of the pair.
 TEST(Writer, ContactsWithGluedGrainsKeepTheirStiffness) {
     const Plan plan = make_plan(read_text(glued_text));
     ASSERT_EQ(plan.between(0, 0).stiffness_reason, "impact");
