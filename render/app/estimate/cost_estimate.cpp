@@ -132,7 +132,7 @@ namespace {
 // Bytes for each grain and frame: id, type, radius, x in double, v, spin, contact number.
 constexpr double trajectory_bytes = 68;
 constexpr double orientation_bytes = 16;
-constexpr double measures_bytes = 400;     // a row
+constexpr double measures_bytes = 400;     // bytes of a row
 constexpr double checkpoint_bytes = 1300;  // bytes of a grain: lists and histories
 constexpr double end_state_bytes =
     1500;  // bytes of a grain: its row in final.csv, and lists and histories in the checkpoint

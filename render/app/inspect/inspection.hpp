@@ -30,7 +30,7 @@ struct InspectRequest {
     std::optional<double> average, every;  // periods; s
     bool over_time = false, no_replay = false;
 
-    std::optional<std::int64_t> grain;  // id
+    std::optional<std::int64_t> grain;  // id of a grain
     std::optional<std::string> wall, where, profile, slice, histogram;
     std::optional<std::string> steady;  // name of a column of measures.csv
     std::optional<double> compare;      // s, time of the earlier moment

@@ -49,7 +49,7 @@ class Reporter final : public RunListener {
     ReporterOptions options_;
     bool terminal_ = false, coloured_ = false;
     bool line_shown_ = false;
-    std::optional<Progress> last_;  // shown
+    std::optional<Progress> last_;  // the progress shown last
     Watch::time_point last_time_;
 };
 

@@ -28,7 +28,7 @@ class HeldSignals {
     ~HeldSignals();
     HeldSignals(const HeldSignals&) = delete;
     HeldSignals& operator=(const HeldSignals&) = delete;
-    bool waiting() const;  // one has come
+    bool waiting() const;  // whether a signal has come
 
   private:
     sigset_t before_{};

@@ -100,7 +100,7 @@ void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
 }
 
 CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest) {
-    constexpr double worth_a_file = 1;  // s
+    constexpr double worth_a_file = 1;  // s, shortest packing that is worth a file
     shortest = worth_a_file;
     if (const auto word = variable("GRAINREEL_PACKINGS")) {
         if (*word != "off" && *word != "all")

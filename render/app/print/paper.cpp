@@ -36,7 +36,7 @@ std::string terminal(const std::string& form, const Paper& paper) {
         return fmt::format("set terminal svg noenhanced size {},{} font '{}' background 'white'", wide, high,
                            font);
     if (form == "png") {
-        const double pixel = paper.dpi / points_an_inch;  // a point
+        const double pixel = paper.dpi / points_an_inch;  // pixels in a point
         return fmt::format(
             "set terminal pngcairo noenhanced size {:.0f},{:.0f} font '{}' fontscale {:.4f} linewidth {:.4f} "
             "pointscale {:.4f}",

@@ -52,7 +52,7 @@ struct StudyMeasure {
 struct StudyChart {
     std::string name;   // name of its files
     std::string title;  // may be empty
-    std::size_t x = 0;  // of the variations
+    std::size_t x = 0;  // index of the variation along x
     std::size_t y = 0;  // index of the measure along y
     bool log_x = false, log_y = false;
     std::optional<std::filesystem::path> reference;  // a CSV file of points from elsewhere

@@ -1,4 +1,4 @@
-// The verb `scenes` lists and prints the scenes that come with the program.
+// The verb `scenes` lists the scenes that come with the program.
 #include <algorithm>
 
 #include <fmt/format.h>

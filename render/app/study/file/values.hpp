@@ -26,7 +26,7 @@ std::string toml_of(const WrittenNumber& value);
 struct ValueRange {
     std::string from, to;              // as TOML
     std::optional<std::size_t> count;  // number of values, both ends included ......
-    std::string by;                    // ... or the distance between them; empty for none
+    std::string by;                    // ... or the distance between them; empty when there is none
     bool logarithmic = false;          // equal ratios in place of equal distances
 };
 // The values of a range, each as TOML. Throws UserError, which says what is wrong with the range and what to
