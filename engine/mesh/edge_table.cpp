@@ -10,7 +10,7 @@ bool before(const EdgeSide& a, const EdgeSide& b) {
     return a.high != b.high ? a.high < b.high : a.side < b.side;
 }
 
-// Few lie on one vertex as a rule.
+// Sorts the edges at one vertex. As a rule they are few.
 void sort_few(EdgeSide* first, EdgeSide* end) {
     constexpr std::ptrdiff_t few = 24;
     if (end - first > few) {
@@ -47,7 +47,7 @@ EdgeTable::EdgeTable(const TriangleMesh& mesh) : begins_(mesh.vertices.size() + 
 
 std::vector<char> in_closed_part(const TriangleMesh& mesh) {
     DisjointSets parts(mesh.triangles.size());
-    std::vector<std::int32_t> open;  // triangles on edges that are run through unevenly
+    std::vector<std::int32_t> open;  // triangles on edges that are not run through equally often both ways
     EdgeTable(mesh).each([&](std::int32_t low, std::span<const EdgeSide> sides) {
         int sum = 0;
         for (const EdgeSide& side : sides) {

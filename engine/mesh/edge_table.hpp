@@ -14,7 +14,7 @@ namespace grainreel {
 
 // Side e of triangle t runs from its corner e to its corner e + 1 and has the number 3 t + e.
 struct EdgeSide {
-    std::int32_t high;  // the vertex of the larger number
+    std::int32_t high;  // the vertex with the larger number
     std::int32_t side;
 };
 
@@ -22,7 +22,8 @@ class EdgeTable {
   public:
     explicit EdgeTable(const TriangleMesh& mesh);
 
-    // Calls f(low vertex, sides) for each edge, by rising numbers of its vertices; the sides rise too.
+    // Calls f(low vertex, sides) for each edge, by rising numbers of its vertices. The sides of an edge come
+    // by rising number.
     template <class F>
     void each(F&& f) const {
         const std::span<const EdgeSide> all(sides_);
@@ -39,7 +40,8 @@ class EdgeTable {
     }
 
   private:
-    std::vector<std::size_t> begins_;  // for each vertex, of the edges on which it is the lower one
+    std::vector<std::size_t>
+        begins_;  // for each vertex, where the edges begin on which it is the lower vertex
     std::vector<EdgeSide> sides_;
 };
 
@@ -66,7 +68,7 @@ class DisjointSets {
         }
         return i;
     }
-    // Whether they were apart.
+    // Joins the sets of a and b. Returns whether they were different sets.
     bool join(std::int32_t a, std::int32_t b) {
         a = root(a);
         b = root(b);
@@ -80,8 +82,8 @@ class DisjointSets {
 };
 
 // Whether the part of each triangle bounds a solid. A part hangs together by edges. It bounds a solid if it
-// is closed and consistently wound: each edge is run through as often one way as the other. Rays tell the
-// inside of such a part.
+// is closed and consistently wound: each edge is run through as often one way as the other. For such a part,
+// rays find out whether a place is inside.
 std::vector<char> in_closed_part(const TriangleMesh& mesh);
 
 }  // namespace grainreel

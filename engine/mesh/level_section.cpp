@@ -13,7 +13,7 @@ using Vec2 = Eigen::Vector2d;
 constexpr std::size_t most_borders = 512, most_bins = 1024;
 constexpr double same_border = 1e-9;  // of the section's width
 
-// The place on an edge; both triangles that share it get the same bits.
+// The place at which an edge crosses the level z. Both triangles that share the edge get the same bits.
 Vec2 crossing(const Vec3& from, const Vec3& to, double z) {
     const double t = (z - from.z()) / (to.z() - from.z());
     return from.head<2>() + t * (to.head<2>() - from.head<2>());
@@ -22,7 +22,7 @@ Vec2 crossing(const Vec3& from, const Vec3& to, double z) {
 }  // namespace
 
 Vec3 level_direction(int i) {
-    // Without roundings along the axes.
+    // The directions of a quarter turn, exact along the axes.
     static const std::array<Vec3, 4> quarter = [] {
         const double diagonal = std::numbers::sqrt2 / 2, far = std::cos(std::numbers::pi / 8),
                      near = std::sin(std::numbers::pi / 8);
@@ -42,8 +42,8 @@ LevelSection::LevelSection(const Surface& surface, const std::vector<char>& clos
     for (int i = 0; i < kLevelAxes; ++i) sort_across(axes_[static_cast<std::size_t>(i)], i);
 }
 
-// The triangle runs up through the level on one side and down on another. Seen from above, its normal is to
-// the right of the way from there to here.
+// One side of the triangle runs up through the level, and another runs down. Seen from above, the normal lies
+// to the right of the way from the second crossing to the first.
 void LevelSection::cut(const Surface& surface, std::int32_t triangle, bool closed, double z) {
     const TriangleMesh::Triangle& numbers = surface.mesh().triangles[static_cast<std::size_t>(triangle)];
     Segment segment{{}, {}, closed};
@@ -62,7 +62,7 @@ void LevelSection::sort_across(Axis& axis, int number) {
     axis.along = level_direction(number).head<2>();
     axis.across = Vec2(-axis.along.y(), axis.along.x());
     if (segments_.empty()) return;
-    std::vector<std::pair<double, double>> spans;  // of the segments
+    std::vector<std::pair<double, double>> spans;  // lowest and highest place of each segment across the axis
     spans.reserve(segments_.size());
     double low = axis.across.dot(segments_[0].a), high = low;
     for (const Segment& s : segments_) {
@@ -116,7 +116,7 @@ bool LevelSection::encloses(double x, double y) const {
     return true;
 }
 
-// All x at which the section has a corner; of very many a part, evenly taken.
+// All x at which the section has a corner. If there are more than most_borders, an even selection of them.
 std::vector<double> LevelSection::borders() const {
     std::vector<double> all;
     for (const Segment& s : segments_) {
@@ -163,7 +163,7 @@ void LevelSection::add_pieces(double x0, double x1, std::vector<const Segment*>&
         if (low.closed) winding += low.a.x() < low.b.x() ? 1 : -1;
         const double from = low.at(x), to = high.at(x);
         if (!(to > from) || !encloses(x, 0.5 * (from + to))) continue;
-        // Where borders were left out, a segment may end within the strip.
+        // If borders were left out, a segment may end within the strip.
         const auto side = [&](const Segment& s, double middle) {
             const double first = std::max(x0, std::min(s.a.x(), s.b.x()));
             const double slope = first < x ? (middle - s.at(first)) / (x - first) : 0;

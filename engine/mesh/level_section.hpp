@@ -10,16 +10,16 @@
 
 namespace grainreel {
 
-// Rays to all sides in a level: sixteen, the axes among them.
+// Sixteen level rays go to all sides, also along the axes x and y. These are the lines that they lie on.
 inline constexpr int kLevelAxes = 8;
 Vec3 level_direction(int i);  // unit; i from 0 to 2 kLevelAxes - 1
 
-// A strip between two segments of the section and two lines of constant x: a trapezoid.
+// A trapezoid between two segments of the section and two lines of constant x.
 struct LevelPiece {
     double x0, x1;              // m
     std::array<double, 2> low;  // m, y of its lower side at x0 and x1
     std::array<double, 2> high;
-    int winding;  // how many closed parts it is inside of; those that face inwards count -1
+    int winding;  // number of closed parts around it; a part that faces inwards counts -1
 
     double area() const { return 0.5 * (x1 - x0) * (high[0] - low[0] + high[1] - low[1]); }  // m2
     double x() const { return 0.5 * (x0 + x1); }
@@ -28,16 +28,17 @@ struct LevelPiece {
 
 class LevelSection {
   public:
-    // `closed`: for each triangle, whether its part has an inside.
+    // `closed` says for each triangle whether its part has an inside.
     LevelSection(const Surface& surface, const std::vector<char>& closed, double z);
 
     // Whether rays to all sides meet the section.
     bool encloses(double x, double y) const;
-    // All enclosed pieces, by rising x. Exact (but for roundings) where the section has up to 512 corners.
+    // All enclosed pieces, by rising x. They are exact, except for rounding, if the section has at most 512
+    // corners.
     std::vector<LevelPiece> enclosed_pieces() const;
 
   private:
-    // The inside of a closed part is to its left.
+    // A segment of the section. The inside of a closed part lies to its left.
     struct Segment {
         Eigen::Vector2d a, b;
         bool closed;

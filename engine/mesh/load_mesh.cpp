@@ -40,7 +40,8 @@ void place(TriangleMesh& mesh, const MeshPlacement& placement, const fs::path& f
 }
 
 constexpr double same_place = 1e-9;  // of the extent
-constexpr double crack = 1e-5;       // of the extent, between open edges; floats are exact to 6e-8
+constexpr double crack =
+    1e-5;  // of the extent, width of a crack between open edges; floats are exact to 6e-8
 constexpr double crack_room = 0.01;  // of the shortest open edge at a vertex
 constexpr double slender = 1e-3;     // height over longest edge
 
@@ -57,7 +58,7 @@ Box box_of(const TriangleMesh& mesh) {
     return box;
 }
 
-// Its largest size, m.
+// The largest size (m) of a box.
 double extent_of(const Box& box) {
     return box.isEmpty() ? 0 : box.sizes().maxCoeff();
 }
@@ -66,7 +67,7 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
     return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-// m, of a triangle.
+// Sizes of a triangle, in m.
 struct Size {
     double longest, height;
 };
@@ -84,7 +85,8 @@ std::int64_t drop_flat(TriangleMesh& mesh, double least_height) {
     }));
 }
 
-// A triangle's corners by number, so that equal triangles are alike whatever their order.
+// A triangle with its corners sorted by number, so that the order of the corners does not matter when
+// triangles are compared.
 struct Sorted {
     std::int32_t middle, high, triangle;
     bool operator<(const Sorted& o) const {
@@ -92,7 +94,7 @@ struct Sorted {
     }
 };
 
-// The first one of equal triangles stays.
+// Drops all but the first of equal triangles. Returns how many were dropped.
 std::int64_t drop_doubled(TriangleMesh& mesh) {
     std::vector<std::size_t> begins(mesh.vertices.size() + 1, 0);
     for (const TriangleMesh::Triangle& t : mesh.triangles)
@@ -119,12 +121,12 @@ std::int64_t drop_doubled(TriangleMesh& mesh) {
         std::erase_if(mesh.triangles, [&](const TriangleMesh::Triangle&) { return doubled[i++] != 0; }));
 }
 
-// Vertices that are to be joined: two of them are joined where they lie within `reach` (m) of each other, and
-// within the room that each of them has.
+// The vertices and the rule by which they are joined. Two vertices are joined if they lie within `reach` (m)
+// of each other and within the room of each of them.
 struct Welding {
     const std::vector<Vec3>& vertices;
     double reach = 0;
-    std::vector<double> room;  // m, one for each vertex; empty: only `reach` counts
+    std::vector<double> room;  // m, for each vertex; if empty, only `reach` counts
 };
 
 // Vertices in a hash table of cells. A cell is eight reaches wide, so that most vertices look into one or two
@@ -138,7 +140,7 @@ class Cells {
         heads_.assign(size, -1);
     }
 
-    // The first vertex that this one can be joined with; -1: none.
+    // The first vertex that this one can be joined with, or -1.
     std::int32_t match(std::int32_t vertex) const {
         const Vec3& place = welding_.vertices[static_cast<std::size_t>(vertex)];
         std::array<std::int64_t, 3> low{}, high{};
@@ -201,7 +203,7 @@ std::vector<std::int32_t> joined(const Welding& welding, const std::vector<std::
     return place;
 }
 
-// Gives the triangles the vertices that take the place of theirs. Returns how many vertices went.
+// Replaces the vertices of the triangles as `place_of` says. Returns how many vertices were replaced.
 std::int64_t replace_vertices(TriangleMesh& mesh, const std::vector<std::int32_t>& place_of) {
     std::int64_t gone = 0;
     for (std::size_t i = 0; i < place_of.size(); ++i) gone += place_of[i] != static_cast<std::int32_t>(i);
@@ -211,7 +213,7 @@ std::int64_t replace_vertices(TriangleMesh& mesh, const std::vector<std::int32_t
     return gone;
 }
 
-// Leaves out vertices that no triangle has. The others come in the order in which triangles name them.
+// Drops vertices that no triangle has. The others are put in the order in which triangles name them.
 void drop_unused_vertices(TriangleMesh& mesh) {
     std::vector<std::int32_t> number(mesh.vertices.size(), -1);
     std::vector<Vec3> vertices;
@@ -228,7 +230,7 @@ void drop_unused_vertices(TriangleMesh& mesh) {
     mesh.vertices = std::move(vertices);
 }
 
-// Joins vertices along open edges that rounding has set apart.
+// Joins vertices along open edges that rounding has moved apart.
 std::int64_t close_cracks(TriangleMesh& mesh, double extent) {
     std::vector<double> room(mesh.vertices.size(), 0);
     EdgeTable(mesh).each([&](std::int32_t low, std::span<const EdgeSide> sides) {

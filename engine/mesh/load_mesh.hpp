@@ -1,6 +1,6 @@
-// Makes a usable mesh of a file: it is read, placed and mended. STL (ASCII and binary), OBJ and PLY (ASCII
-// and binary, both byte orders) are known. The content decides which it is, never the suffix. These files
-// name no units: `scale` brings them to m.
+// Makes a usable mesh of a file by reading, placing and mending it. The formats are STL (ASCII and binary),
+// OBJ and PLY (ASCII and binary, both byte orders). The content decides the format, never the suffix. These
+// files name no units: `scale` brings them to m.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// How a mesh from a file stands in the scene: x = position + rotation (scale * x_file).
+// The place of a mesh in the scene: x = position + rotation (scale * x_file).
 struct MeshPlacement {
     double scale = 1;
     Vec3 position{0, 0, 0};  // m
@@ -25,18 +25,18 @@ struct LoadedMesh {
     std::string hash;  // of the file's bytes, XXH64 as 16 hexadecimal digits
 };
 
-// Throws UserError with file and line (text) or byte (binary): what is wrong and what to do. Nothing in the
-// file is trusted: a count is bounded by the file's size before memory is asked for, and every number must be
-// finite.
+// Throws UserError with file and line (text) or byte (binary), which says what is wrong and what to do.
+// Nothing in the file is trusted: counts are bounded by the file's size before memory is allocated, and every
+// number must be finite.
 LoadedMesh load_mesh(const std::filesystem::path& file, const MeshPlacement& placement = {});
 
-// The same hash, of any file. Throws UserError where it cannot be read.
+// The same hash for any file. Throws UserError if the file cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
-// Joins equal vertices, drops triangles without area and doubled ones, and gives each connected part one
-// orientation (winding.hpp). Vertices are equal that are closer than 1e-9 of the extent; along open edges,
-// closer than 1e-5 of it and than a hundredth of the shortest such edge. Sets all of `facts` but format and
-// read.
+// Joins equal vertices, drops doubled triangles and triangles without area, and gives each connected part one
+// orientation (winding.hpp). Vertices are equal if they are closer than 1e-9 of the extent. Along open edges
+// they are equal if they are closer than 1e-5 of the extent and a hundredth of the shortest open edge at
+// them. Sets all of `facts` but format and read.
 void mend(TriangleMesh& mesh, MeshFacts& facts);
 
 }  // namespace grainreel

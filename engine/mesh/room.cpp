@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-// Rays that are tried for the winding number; two that agree decide.
+// Rays that are tried for the winding number. The first two that agree decide.
 constexpr std::array<int, 5> tried{1, 7, 11, 5, 14};
 
 bool EnclosedRoom::holds(const Vec3& place) const {
@@ -51,7 +51,7 @@ const EnclosedRoom::Slice* EnclosedRoom::slice_at(double z) const {
     return above == slices_.begin() ? &slices_.front() : &above[-1];
 }
 
-// The two heights are those of Gauss's rule.
+// The value of the line at height z. It is known at the two heights of Gauss's rule.
 double EnclosedRoom::value_at(double z, Line Slice::*line) const {
     const Slice* const slice = slice_at(z);
     if (slice == nullptr) return 0;
@@ -66,7 +66,7 @@ double EnclosedRoom::volume_below(double z) const {
     if (slices_.empty() || z <= base_) return 0;
     if (z >= top_) return volume();
     const Slice& slice = *slice_at(z);
-    // The line's part, stretched so that a whole slice has its own volume.
+    // The integral of the line is scaled so that a whole slice has its exact volume.
     const double low = std::max(0.0, value_at(slice.low, &Slice::area)), here = value_at(z, &Slice::area);
     const double high = std::max(0.0, 2 * slice.volume / (slice.high - slice.low) - low);
     const double whole = 0.5 * (low + high) * (slice.high - slice.low);
@@ -88,7 +88,8 @@ double EnclosedRoom::half_depth_at(double z) const {
 
 namespace {
 
-// The level sections of a closed surface are closed lines: a region is inside or outside as a whole.
+// Places that are asked for in a region of cells. The level sections of a closed surface are closed lines, so
+// a region is inside or outside as a whole and few places are enough.
 constexpr std::size_t asked_of_closed = 2, asked_of_open = 32;
 
 std::size_t cells(int across) {
@@ -119,7 +120,7 @@ Vec3 RoomGrid::middle(const std::array<int, 3>& first, int size) const {
     return box_.min() + width_.cwiseProduct(Vec3(first[0], first[1], first[2]) + Vec3::Constant(0.5 * size));
 }
 
-// A block of cells without surface is free as a whole; any other one is halved.
+// Marks a block of cells as free if it has no surface. Otherwise the block is halved.
 void RoomGrid::mark_free(const Surface& surface, const std::array<int, 3>& first, int size) {
     const double radius = 0.5 * size * width_.norm() * (1 + 1e-9);
     if (surface.any_within(middle(first, size), radius)) {

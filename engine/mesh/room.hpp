@@ -1,15 +1,16 @@
-// The room that a surface encloses, where grains can be: in a closed vessel, in an open one, in a hopper
-// without a bottom, and in one whose walls have a thickness.
+// The room for grains that a surface encloses. The surface may be a closed vessel, an open one, a hopper
+// without a bottom, or a vessel whose walls have a thickness.
 //
-// A place is enclosed when rays to all sides (sixteen, level) meet the surface. What is enclosed is told
-// apart by how many closed parts of the surface are around it (its winding number): the room of a cup with
-// thick walls is inside none, the wall inside one; the room of a closed drum is inside one, a solid lifter in
-// it inside two. The room is what is inside the fewest, if that is a fifth of all that is enclosed; else what
-// has the largest volume. Parts that are not closed (sheets, open hoppers, baffles) enclose, but have no
-// inside.
+// A place is enclosed when rays to all sides (sixteen, level) meet the surface. Enclosed regions differ in
+// the number of closed parts of the surface around them (the winding number). The room of a cup with thick
+// walls is inside none, and the wall is inside one. The room of a closed drum is inside one, and a solid
+// lifter in it is inside two. The room is the region with the lowest winding number if it has at least a
+// fifth of the enclosed volume; otherwise it is the region with the largest volume. Parts that are not closed
+// (sheets, open hoppers, baffles) enclose, but have no inside.
 //
-// Sizes come from sections at 256 heights and more, each exact for its polygon: two in each slice, between
-// all heights at which the surface has level faces. Volumes of boxes and prisms are exact, of cones to 1e-4.
+// Sizes come from sections at 256 or more heights, each exact for its polygon. There are two sections in each
+// slice, and slices end at all heights at which the surface has level faces. Volumes of boxes and prisms are
+// exact, and volumes of cones are exact to 1e-4.
 #pragma once
 
 #include <array>
@@ -31,8 +32,8 @@ class RoomGrid {
     enum class Answer : std::uint8_t { unknown, inside, outside };
 
     RoomGrid() = default;
-    // `holds`: whether a place is in the room. It is asked for up to 64 places of each region of cells
-    // without surface; where they differ (near a hole in a wall), that region stays unknown.
+    // `holds` says whether a place is in the room. It is called for up to 64 places of each region of cells
+    // without surface. If its answers differ (near a hole in a wall), that region stays unknown.
     RoomGrid(const Surface& surface, const Eigen::AlignedBox3d& box,
              const std::function<bool(const Vec3&)>& holds);
 
@@ -54,8 +55,8 @@ class EnclosedRoom {
   public:
     explicit EnclosedRoom(std::shared_ptr<const Surface> surface);
 
-    bool holds(const Vec3& place) const;                 // lid or not; never below base() or above top()
-    bool holds(const Vec3& place, double margin) const;  // and at least so far (m) from the surface
+    bool holds(const Vec3& place) const;  // with or without a lid; never below base() or above top()
+    bool holds(const Vec3& place, double margin) const;  // also at least `margin` (m) from the surface
     bool encloses_anything() const { return volume() > 0; }
 
     double base() const { return base_; }  // m, z of the lowest enclosed place
@@ -63,21 +64,21 @@ class EnclosedRoom {
     double volume() const {
         return slices_.empty() ? 0 : slices_.back().volume_below + slices_.back().volume;
     }                                     // m3
-    double volume_below(double z) const;  // m3, of the room below z (m)
-    double area_at(double z) const;       // m2, of its level section
-    // m: half the width along y, and half the depth along x, of the room at that height.
+    double volume_below(double z) const;  // m3, volume of the room below z (m)
+    double area_at(double z) const;       // m2, area of its level section
+    // Half the width along y and half the depth along x of the room at that height, in m.
     double half_width_at(double z) const;
     double half_depth_at(double z) const;
     const std::string& hash() const { return surface_->hash(); }
-    // A ray upwards (downwards) from the widest place meets nothing.
+    // Whether a ray upwards (or downwards) from the widest place meets nothing.
     bool open_above() const { return open_above_; }
     bool open_below() const { return open_below_; }
-    // m, in it, and far from the surface.
+    // A place (m) in the room, far from the surface.
     const Vec3& widest_place() const { return widest_; }
 
   private:
-    // A number that is known at two heights of a slice, and on the straight line through them elsewhere in
-    // it.
+    // A number that is known at two heights of a slice, and follows the straight line through them in the
+    // rest of the slice.
     struct Line {
         double at_first = 0, at_second = 0;
     };
@@ -98,7 +99,7 @@ class EnclosedRoom {
     std::shared_ptr<const Surface> surface_;
     std::vector<char> closed_;  // for each triangle, whether its part has an inside
     bool any_closed_ = false;
-    int winding_ = 0;  // of the room
+    int winding_ = 0;  // winding number of the room
     double base_ = 0, top_ = 0;
     std::vector<Slice> slices_;  // rising, without gaps
     Vec3 widest_{0, 0, 0};

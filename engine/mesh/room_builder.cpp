@@ -13,12 +13,12 @@ namespace {
 constexpr double slices_over_all = 64;
 constexpr std::size_t most_borders = 64;
 constexpr double same_height = 1e-9;  // of the whole height
-constexpr double fair_part = 0.2;     // of what is enclosed
+constexpr double fair_part = 0.2;     // of the enclosed volume
 constexpr int bisections = 40;
 constexpr double wide_enough = 0.9;      // of the largest area
 constexpr std::size_t widest_tried = 8;  // levels, and places in each
 
-// What a level has of one winding number.
+// The part of a level section that has one winding number.
 struct Part {
     double area = 0;
     Eigen::AlignedBox2d box;
@@ -63,7 +63,8 @@ class EnclosedRoom::Builder {
     };
 
     // The area of a section is a polynomial of second order between the heights of two vertices, for which
-    // Gauss's rule is exact. Of very many heights those are taken at which the area jumps.
+    // Gauss's rule is exact. If there are very many heights, only those are taken at which the area jumps
+    // most.
     void find_borders() {
         const double low = surface_.facts().low.z(), high = surface_.facts().high.z();
         alike_ = same_height * (high - low);
@@ -96,7 +97,7 @@ class EnclosedRoom::Builder {
         return heights;
     }
 
-    // Areas (m2) of level triangles by height (m); heights that are alike are one.
+    // Areas (m2) of level triangles by height (m). Heights that are alike count as one.
     std::map<double, double> level_faces() const {
         std::map<double, double> areas;
         for (std::int32_t t = 0; t < surface_.size(); ++t) {
@@ -172,7 +173,7 @@ class EnclosedRoom::Builder {
         }
     }
 
-    // The middle of a piece, in one of the wide levels, that is farthest from the surface.
+    // Finds the place farthest from the surface among the middles of pieces in the wide levels.
     void find_widest() {
         std::vector<double> wide;
         double largest = 0;
@@ -199,7 +200,8 @@ class EnclosedRoom::Builder {
         room_.open_below_ = !surface_.meets(room_.widest_, Vec3(0, 0, -1));
     }
 
-    // `missing` below zero: where one height has no room, the number of the other one holds.
+    // Fills a line from the sections at two heights. `missing` is used for a height without room. If it is
+    // below zero, such a height takes the number of the other one.
     template <class Number>
     void fill(Line& line, const Pair& pair, Number&& number, double missing) const {
         const Part *const first = part_of(pair.first), *const second = part_of(pair.second);
@@ -218,8 +220,8 @@ class EnclosedRoom::Builder {
         }
     }
 
-    // The lowest and the highest level with room: at the border of a slice, unless the section without room
-    // beyond it lies in the same one.
+    // Finds the lowest and the highest level with room. They lie at the border of a slice, unless the nearest
+    // section without room is in the same slice.
     void find_ends() {
         const Slice &first = room_.slices_.front(), &last = room_.slices_.back();
         room_.base_ = first.low;

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double flat_angle = 1e-6;  // rad
 
-// The cross product of the two shorter edges keeps most digits where the triangle is slender.
+// The normal of a triangle. The cross product of the two shorter edges keeps most digits if the triangle is
+// slender.
 Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const double lab = ab.squaredNorm(), lbc = bc.squaredNorm(), lca = ca.squaredNorm();
@@ -87,7 +88,7 @@ double Surface::farthest_from(const Vec3& point) const {
     return std::sqrt(farthest);
 }
 
-// The tree of boxes of a surface, and what is near a point.
+// The tree of boxes of a surface, and the search for triangles near a point.
 
 namespace {
 
@@ -106,7 +107,7 @@ int longest_axis(const std::vector<Item>& items, std::int32_t first, std::int32_
     return axis;
 }
 
-// m2, of a point from a box; 0 in it.
+// Squared distance (m2) of a point from a box; 0 inside.
 double squared_to(const Eigen::AlignedBox3d& box, const Vec3& point) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
@@ -118,7 +119,8 @@ double squared_to(const Eigen::AlignedBox3d& box, const Vec3& point) {
 
 }  // namespace
 
-// Halves along the longest axis, at the middle triangle; boxes from the leaves upwards.
+// Builds the tree by halving along the longest axis, at the middle triangle. Boxes are computed from the
+// leaves upwards.
 void Surface::build_tree() {
     const std::int32_t count = size();
     if (count == 0) return;
@@ -127,7 +129,8 @@ void Surface::build_tree() {
         items[static_cast<std::size_t>(t)] = {(corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3, t};
     nodes_.reserve(mesh_.triangles.size());
     nodes_.push_back({{}, 0, count});
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {  // grows: parents stand before their children
+    for (std::size_t n = 0; n < nodes_.size();
+         ++n) {  // nodes_ grows meanwhile; parents stand before their children
         const std::int32_t first = nodes_[n].first, size = nodes_[n].count;
         if (size <= leaf_size) continue;
         const int axis = longest_axis(items, first, first + size);
@@ -154,8 +157,8 @@ void Surface::build_tree() {
     }
 }
 
-// Calls within(triangle, its nearest point) for all triangles not farther than the reach, which it may
-// shorten by what it returns: the new square of the reach (m2); below zero it ends.
+// Calls within(triangle, its nearest point) for all triangles within the reach. within() returns the new
+// square of the reach (m2); a number below zero ends the search.
 template <class Within>
 void Surface::visit(const Vec3& point, double squared_reach, Within&& within) const {
     if (nodes_.empty() || !(squared_to(nodes_[0].box, point) <= squared_reach)) return;

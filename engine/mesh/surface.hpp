@@ -1,5 +1,5 @@
-// A mesh that grains can touch: its triangles with their neighbours, and a tree of boxes to find those that
-// are near. It is made once and never changes. All lengths are in the body's frame, which is the scene at
+// A mesh that grains can touch: its triangles with their neighbours, and a tree of boxes to find triangles
+// near a place. It is made once and never changes. All lengths are in the body's frame, which is the scene at
 // rest.
 #pragma once
 
@@ -15,26 +15,26 @@
 
 namespace grainreel {
 
-// Where a point is nearest to a triangle: on its face, on one of its edges (edge e runs from corner e to
-// corner e + 1), or at a corner.
+// The part of a triangle that is nearest to a point: its face, one of its edges (edge e runs from corner e to
+// corner e + 1), or a corner.
 enum class Feature : std::uint8_t { face, edge0, edge1, edge2, corner0, corner1, corner2 };
 struct NearestPoint {
     Vec3 at;         // m
-    double squared;  // m2, from the point asked for
+    double squared;  // m2, squared distance from the given point
     Feature feature;
 };
 
-// What lies beyond one edge of a triangle.
+// The neighbour of a triangle beyond one of its edges.
 struct Neighbour {
     enum class Turn : std::uint8_t { flat, smooth, convex, concave };
-    std::int32_t triangle = -1;  // -1: an open edge, or an edge of more than two triangles
-    // flat: the planes differ by less than 1e-6 rad. smooth: by less than kSmoothAngle. Else seen from the
-    // side of the normal; a smooth edge says nothing of convex or concave. A sheet folded back is convex.
+    std::int32_t triangle = -1;  // -1 at an open edge, or at an edge of more than two triangles
+    // flat: the planes differ by less than 1e-6 rad. smooth: they differ by less than kSmoothAngle, either
+    // way. convex, concave: other edges, as seen from the side of the normal. A sheet folded back is convex.
     Turn turn = Turn::flat;
     bool flips = false;  // the neighbour's normal points to the other side (surfaces that cannot be oriented)
 };
 
-// rad; neighbours that turn less are one patch, so that a drum of 36 facets and more is round.
+// Angle in rad. Neighbours that turn less belong to one patch, so that a drum of 36 or more facets is round.
 inline constexpr double kSmoothAngle = 10.5 * 3.14159265358979323846 / 180;
 
 class Surface {
@@ -43,7 +43,9 @@ class Surface {
 
     const TriangleMesh& mesh() const { return mesh_; }
     const MeshFacts& facts() const { return facts_; }
-    const std::string& hash() const { return hash_; }  // of file and placement: equal surfaces are alike
+    const std::string& hash() const {
+        return hash_;
+    }  // hash of file and placement; equal surfaces have equal hashes
     std::int32_t size() const { return static_cast<std::int32_t>(mesh_.triangles.size()); }
 
     const Vec3& corner(std::int32_t triangle, int k) const {
@@ -56,47 +58,50 @@ class Surface {
         return neighbours_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(edge)];
     }
 
-    // On the face it is the foot of the perpendicular. On an edge that two triangles share both give the same
-    // bits, and a corner is the vertex itself. On a slender triangle it is right to within its height.
+    // The point of a triangle nearest to `point`. On the face it is the foot of the perpendicular. On a
+    // shared edge both triangles give the same bits, and at a corner it is the vertex itself. On a slender
+    // triangle it is right to within the triangle's height.
     NearestPoint nearest(std::int32_t triangle, const Vec3& point) const;
-    // The nearest point of all triangles within `reach` (m); of equal ones that with the lowest number.
+    // The nearest point of all triangles within `reach` (m). Among equally near triangles, the lowest number
+    // counts.
     struct Nearest {
         std::int32_t triangle;
         NearestPoint point;
     };
     std::optional<Nearest> nearest(const Vec3& point, double reach) const;
-    // m, how far a point may move, in any direction, while its nearest point stays on the triangle's face. A
-    // little less, for rounding; below 0 where it is not on the face.
+    // Distance (m) by which a point may move in any direction while its nearest point stays on the triangle's
+    // face. It is a little too small, for rounding, and below 0 if the nearest point is not on the face.
     double stays_on_face(std::int32_t triangle, const Vec3& point) const;
     // Appends all triangles within `reach` (m) of the point, by rising number.
     void near(const Vec3& point, double reach, std::vector<std::int32_t>& found) const;
     bool any_within(const Vec3& point, double reach) const;
 
-    // Where a ray crosses a triangle, and how far away (m); direction: unit. Crossings are decided by exact
-    // signs, and a ray through an edge or a vertex as one that passes it on a fixed side: through a closed
-    // surface none is lost and none doubled.
+    // A crossing of a ray and a triangle; `direction` is unit and `distance` is in m. Exact signs decide
+    // about crossings. A ray through an edge or a vertex counts as passing it on a fixed side, so with a
+    // closed surface no crossing is lost or doubled.
     struct Hit {
         std::int32_t triangle;
         double distance;
-        bool front = false;  // the ray comes from the side to which the normal points
+        bool front = false;  // true if the ray comes from the side to which the normal points
     };
     std::optional<Hit> first_hit(const Vec3& from, const Vec3& direction) const;
-    // All crossings, by rising distance; appended.
+    // Appends all crossings, by rising distance.
     void all_hits(const Vec3& from, const Vec3& direction, std::vector<Hit>& hits) const;
-    // Whether it crosses any, within `reach` (m).
+    // Whether the ray crosses any triangle within `reach` (m).
     bool meets(const Vec3& from, const Vec3& direction,
                double reach = std::numeric_limits<double>::infinity()) const;
 
-    // Appends the triangles that reach from below that height (m) to it or above.
+    // Appends the triangles that reach from below the height z (m) to this height or above it.
     void across_level(double z, std::vector<std::int32_t>& found) const;
 
-    // m, the largest distance of any vertex from an axis through a point, and from the point itself.
+    // The largest distance (m) of any vertex from an axis through a point, and from a point.
     double farthest_from_axis(const Vec3& through, const Vec3& axis) const;
     double farthest_from(const Vec3& point) const;
 
   private:
-    // A node of the tree, one line of the cache. count 0: a parent, with its two children at first and first
-    // + 1; else a leaf: order_[first] and those behind it.
+    // A node of the tree, which fills one line of the cache. A node with count 0 is a parent with two
+    // children, first and first + 1. Any other node is a leaf with the `count` triangles from order_[first]
+    // on.
     struct alignas(64) Node {
         Eigen::AlignedBox3d box;
         std::int32_t first = 0, count = 0;

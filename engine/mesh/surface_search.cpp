@@ -20,7 +20,8 @@ std::size_t after(std::size_t k) {
     return k == 2 ? 0 : k + 1;
 }
 
-// On edge e, worked out from the vertex of the lower number, so that both triangles find the same.
+// The nearest point on edge e. It is computed from the vertex with the lower number, so that both triangles
+// find the same point.
 NearestPoint nearest_on_edge(const Corners& corners, std::size_t e, const Vec3& point) {
     const std::size_t f = after(e);
     const bool back = corners.numbers[e] > corners.numbers[f];
@@ -41,10 +42,10 @@ NearestPoint nearest_on_edge(const Corners& corners, std::size_t e, const Vec3& 
 
 }  // namespace
 
-// Where the foot of the perpendicular is outside, the nearest point lies on an edge that the foot is outside
-// of. No quotient of areas is formed, as C. Ericson, Real-Time Collision Detection (2005), 5.1.5 does: on
-// slender triangles it says nothing. Of those the sides alone decide, and to within their height all is
-// right.
+// If the foot of the perpendicular is outside of the triangle, the nearest point lies on an edge that the
+// foot is outside of. C. Ericson, Real-Time Collision Detection (2005), 5.1.5, forms quotients of areas. This
+// code does not, because they mean nothing on slender triangles. There the sides of the edges decide, and the
+// result is right to within the triangle's height.
 NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     const TriangleMesh::Triangle& numbers = mesh_.triangles[static_cast<std::size_t>(triangle)];
     Corners corners{numbers, {}};
@@ -53,7 +54,7 @@ NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     const Vec3 to[3] = {point - *corners.at[0], point - *corners.at[1], point - *corners.at[2]};
     NearestPoint best{point, -1, Feature::face};
     for (std::size_t e = 0; e < 3; ++e) {
-        // n . (edge x way to the point), where the edge is the difference of two ways.
+        // This is n . (edge x way to the point), where the edge is the difference of two ways.
         if (!(n.dot(to[e].cross(to[after(e)])) < 0)) continue;
         const NearestPoint here = nearest_on_edge(corners, e, point);
         if (best.squared < 0 || here.squared < best.squared) best = here;
@@ -63,7 +64,7 @@ NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     return {point - distance * n, distance * distance, Feature::face};
 }
 
-// The edges' tests above are heights over the edges, times their lengths.
+// The tests of the edges in nearest() are heights over the edges, times the lengths of the edges.
 double Surface::stays_on_face(std::int32_t triangle, const Vec3& point) const {
     constexpr double kRounding = 1e-13, kLess = 1 - 1e-9;
     const Vec3& n = normal(triangle);
@@ -78,9 +79,9 @@ double Surface::stays_on_face(std::int32_t triangle, const Vec3& point) const {
     return kLess * least;
 }
 
-// Rays through a surface. The triangles are sheared so that the ray is the axis of z, as S. Woop, C. Benthin
-// and I. Wald, Watertight Ray/Triangle Intersection, J. Computer Graphics Techniques 2, 65 (2013) do; a
-// vertex has the same place then for all its triangles. On which side of an edge the axis passes is decided
+// Rays through a surface. The triangles are sheared so that the ray is the axis of z, as in S. Woop, C.
+// Benthin and I. Wald, Watertight Ray/Triangle Intersection, J. Computer Graphics Techniques 2, 65 (2013). A
+// vertex then has the same place for all its triangles. On which side of an edge the axis passes is decided
 // without rounding. On the edge itself it counts as passing at (d, d^2) for an endlessly small d (H.
 // Edelsbrunner and E. Muecke, Simulation of Simplicity, ACM Trans. Graphics 9, 66, 1990).
 
@@ -90,11 +91,12 @@ struct Sheared {
     double x, y, z;
 };
 
-// 1: the axis is left of the edge from a to b, -1: right of it. Of the edge from b to a it is the opposite.
+// Returns 1 if the axis is left of the edge from a to b, and -1 if it is right of it. For the edge from b to
+// a the result is the opposite.
 int side_of(const Sheared& a, const Sheared& b) {
     const double p = a.x * b.y, q = a.y * b.x;
     if (p != q) return p > q ? 1 : -1;
-    // What rounding took from each product; where these are alike, too, the axis is on the line.
+    // The rounding errors of the products. If these are equal too, the axis is on the line.
     const double rest_p = std::fma(a.x, b.y, -p), rest_q = std::fma(a.y, b.x, -q);
     if (rest_p != rest_q) return rest_p > rest_q ? 1 : -1;
     if (a.y != b.y) return a.y > b.y ? 1 : -1;
@@ -117,7 +119,7 @@ class Ray {
         pad_ = 1e-14 * ((from - all.center()).norm() + all.sizes().norm());
     }
 
-    // How far it is to the box; negative: it is missed.
+    // The distance to the box; negative if the ray misses it.
     double enters(const Eigen::AlignedBox3d& box) const {
         double near = 0, far = std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k) {
@@ -133,7 +135,8 @@ class Ray {
         return near <= far ? near : -1;
     }
 
-    // The distance (m) at which the triangle is crossed, and from which side; negative: it is not.
+    // The distance (m) at which the ray crosses the triangle; negative if it does not. `front` says
+    // whether the ray comes from the side to which the normal points.
     double meets(const Vec3& a, const Vec3& b, const Vec3& c, bool& front) const {
         const Sheared p = sheared(a), q = sheared(b), r = sheared(c);
         const int side = side_of(p, q);
@@ -158,8 +161,8 @@ class Ray {
 
 }  // namespace
 
-// Calls met(hit) for each crossing within `reach` (m), nearer boxes first; it returns how far the ray goes
-// on.
+// Calls met(hit) for each crossing within `reach` (m), nearer boxes first. met() returns the new reach of the
+// ray.
 template <class Met>
 void Surface::visit_ray(const Vec3& from, const Vec3& direction, double reach, Met&& met) const {
     if (nodes_.empty()) return;

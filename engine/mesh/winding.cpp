@@ -12,7 +12,7 @@ std::size_t index(std::int32_t i) {
     return static_cast<std::size_t>(i);
 }
 
-// A patch hangs together over edges of two triangles.
+// A patch is a set of triangles connected by edges that have exactly two triangles.
 struct Patch {
     std::vector<std::int32_t> triangles;
     std::int64_t turned = 0;
@@ -88,7 +88,8 @@ class Winder {
             }
     }
 
-    // Six times the volume inside, with the triangles turned as the flood says; negative: they face inwards.
+    // Six times the volume inside, with the triangles turned as the flood has found. It is negative if they
+    // face inwards.
     double six_volumes(const Patch& patch) const {
         const Vec3& origin = mesh_.vertices[index(mesh_.triangles[index(patch.triangles[0])][0])];
         double sum = 0;
@@ -115,9 +116,10 @@ class Winder {
 
     TriangleMesh& mesh_;
     Winding result_;
-    std::vector<std::int32_t> opposite_;  // by sides; -1 where an edge has not two triangles
+    std::vector<std::int32_t>
+        opposite_;  // the opposite side of each side; -1 if the edge does not have two triangles
     std::vector<std::int32_t> patch_of_;
-    std::vector<char> turned_;  // against the first triangle of its patch
+    std::vector<char> turned_;  // whether a triangle is turned against the first triangle of its patch
 };
 
 }  // namespace

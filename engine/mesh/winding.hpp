@@ -1,4 +1,4 @@
-// Which side of a surface is which: neighbours are brought to the same order of corners.
+// Gives a surface consistent sides by bringing neighbours to the same order of corners.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 namespace grainreel {
 
 struct Winding {
-    std::int64_t flipped = 0;  // triangles that were turned round
-    std::int64_t solids = 0;   // parts that hang together by edges
+    std::int64_t flipped = 0;  // triangles whose order was reversed
+    std::int64_t solids = 0;   // parts connected by edges
     std::int64_t open_edges = 0, crowded_edges = 0;
 };
 
-// Makes the order consistent over edges of two triangles. The order that most triangles of a part have stays:
-// it says more than whether the part is closed, for the inner side of a hollow wall is closed and rightly
-// faces inwards. Only where a closed part is so mixed that its order says nothing (more than a quarter must
-// be turned) it comes to face outwards. A part that cannot be oriented (a Moebius strip) stays as it is.
+// Makes the order consistent across edges of two triangles. The order that most triangles of a part have is
+// kept, even if a closed part then faces inwards: the inner side of a hollow wall rightly does so. A closed
+// part is made to face outwards only if its order is so mixed that more than a quarter of the triangles must
+// be turned. A part that cannot be oriented (a Moebius strip) stays as it is.
 Winding wind_alike(TriangleMesh& mesh);
 
 }  // namespace grainreel

@@ -1,5 +1,4 @@
-// Which format the bytes of a mesh file have: STL as text or as bytes, OBJ or PLY. The content decides, not
-// the name.
+// Finds the format of a mesh file by its content, not by its name: STL as text or as bytes, OBJ or PLY.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* known = "give an STL, OBJ or PLY file";
 
-// What a binary STL with that count would need; 0 for files that are too short for one.
+// The size of a binary STL with the count that stands in the file; 0 for files that are too short for one.
 struct BinaryStl {
     std::uint64_t triangles = 0, bytes = 0;
 };

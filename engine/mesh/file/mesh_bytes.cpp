@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_of_a_path = 400;  // characters, in a message
+constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
 constexpr const char* what_to_give = "give the path of an STL, OBJ or PLY file";
 
 std::string shown(const fs::path& file) {

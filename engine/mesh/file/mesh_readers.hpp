@@ -1,6 +1,7 @@
-// The readers of mesh files: each takes the bytes and gives vertices and triangles in the file's unit, with
-// polygons cut into triangles from their first corner. Normals, colours, texture and materials are left out:
-// the order of the corners gives the side. All throw UserError with file and line (text) or byte (binary).
+// The readers of mesh files. Each takes the bytes and gives vertices and triangles in the file's unit.
+// Polygons are cut into triangles from their first corner. Normals, colours, texture and materials are
+// ignored, because the order of the corners gives the side. All throw UserError with file and line (text) or
+// byte (binary).
 //
 // STL: 3D Systems, StereoLithography Interface Specification (1989). OBJ: Wavefront, Advanced Visualizer
 // manual, appendix B1 (1993). PLY: G. Turk, The PLY Polygon File Format (1994).
@@ -18,15 +19,15 @@ namespace grainreel {
 enum class MeshFormat { binary_stl, ascii_stl, obj, ply };
 const char* name_of(MeshFormat format);
 
-// By content. Throws UserError for what is none of them; a binary STL whose size does not fit its count of
-// triangles is none.
+// Finds the format by the content. Throws UserError for any other file. A binary STL whose size does not fit
+// its count of triangles is not accepted.
 MeshFormat format_of(const std::filesystem::path& file, std::string_view bytes);
 
 TriangleMesh read_binary_stl(const std::filesystem::path& file, std::string_view bytes);
 TriangleMesh read_ascii_stl(const std::filesystem::path& file, std::string_view bytes);
 TriangleMesh read_obj(const std::filesystem::path& file, std::string_view bytes);
 TriangleMesh read_ply(const std::filesystem::path& file, std::string_view bytes);
-// By the one of these that the format names.
+// Reads a mesh with the reader for this format.
 TriangleMesh read_mesh(MeshFormat format, const std::filesystem::path& file, std::string_view bytes);
 
 // The words with which a line of an OBJ file can begin.

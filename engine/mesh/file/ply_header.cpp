@@ -106,7 +106,7 @@ class Header {
         header_.elements.back().properties.push_back(property);
     }
 
-    // Each number of a text takes two bytes, but for the last.
+    // Each number of a text takes at least two bytes, except the last.
     void check_count(const PlyElement& element) const {
         std::size_t bytes = 0;
         for (const PlyProperty& property : element.properties)

@@ -1,4 +1,4 @@
-// What the header of a PLY file says of the numbers behind it.
+// The header of a PLY file, which describes the numbers behind it.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ struct PlyProperty {
     std::string name;
     PlyType type = PlyType::int8;
     bool list = false;
-    PlyType count_type = PlyType::uint8;  // of a list
+    PlyType count_type = PlyType::uint8;  // type of a list's count
 };
 
 struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
-    std::size_t place_of(std::string_view property) const;  // npos: it has none of that name
+    std::size_t place_of(std::string_view property) const;  // npos if there is no property with that name
     static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 };
 
@@ -31,8 +31,8 @@ struct PlyHeader {
     enum class Form { ascii, little_endian, big_endian };
     Form form = Form::ascii;
     std::vector<PlyElement> elements;
-    std::string_view body;       // what follows
-    std::int64_t body_line = 1;  // in which it begins
+    std::string_view body;       // the bytes behind the header
+    std::int64_t body_line = 1;  // number of the line in which the body begins
     const PlyElement* element(std::string_view name) const;
 };
 

@@ -35,12 +35,12 @@ class Obj {
     }
 
   private:
-    // A vertex that a face names before it stands in the file.
+    // A vertex that a face names before the vertex itself comes in the file.
     struct Later {
         std::int64_t index, line;
     };
 
-    // The next word of this line and of those that continue it; empty at their end and before a comment.
+    // The next word of this line and of the lines that continue it; empty at their end and before a comment.
     std::string_view next() {
         if (comment_) return {};
         std::string_view word;
@@ -60,7 +60,7 @@ class Obj {
         comment_ = continued_ = false;
     }
 
-    // x y z, then a weight, a colour, or both; they mean nothing here.
+    // Reads x y z. A weight, a colour or both may follow and are ignored.
     void vertex() {
         Vec3 place;
         for (int k = 0; k < 3; ++k) {
@@ -87,7 +87,8 @@ class Obj {
             refuse_line(file_, line, fmt::format("a face with {} corners; it must have three", corners));
     }
 
-    // "7", "7/2", "7//3", "7/2/3", "-1": from 1 on, or back from the last vertex so far.
+    // Reads a corner: "7", "7/2", "7//3", "7/2/3" or "-1". Vertices count from 1 on, or back from the last
+    // vertex so far.
     std::int32_t corner_in(std::string_view word) {
         const std::optional<std::int64_t> index = whole_in(word.substr(0, word.find('/')));
         if (!index || *index == 0)

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Numbers that are words.
+// The numbers of a text file, which are words.
 class AsciiBody {
   public:
     AsciiBody(const fs::path& file, const PlyHeader& header)
@@ -31,8 +31,8 @@ class AsciiBody {
             fail(fmt::format("\"{}\" is not a whole number", excerpt(word)));
         return *value;
     }
-    void skip(PlyType) { words_.next(); }  // a nan among normals and colours means nothing
-    // Values of a list that the rest of the file could hold.
+    void skip(PlyType) { words_.next(); }  // a nan among normals and colours does no harm
+    // Largest number of a list's values that the rest of the file could hold.
     double most(PlyType) const { return static_cast<double>(words_.left().size()); }
     [[noreturn]] void fail(const std::string& what) const {
         refuse_line(file_, before_ + words_.line(), what);
@@ -44,7 +44,7 @@ class AsciiBody {
     std::int64_t before_;
 };
 
-// Numbers of this machine's byte order, or of the other one.
+// The numbers of a binary file, in this machine's byte order or in the other one.
 class BinaryBody {
   public:
     BinaryBody(const fs::path& file, const PlyHeader& header, std::string_view all)
@@ -181,7 +181,7 @@ class Ply {
     }
 
     const PlyHeader& header_;
-    std::size_t corners_;  // which property of a face
+    std::size_t corners_;  // place of the list of corners among the properties of a face
     Body body_;
     TriangleMesh mesh_;
 };

@@ -18,11 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t head = 84, row = 50, first_corner = 12;  // bytes; 12: behind the normal
+constexpr std::size_t head = 84, row = 50,
+                      first_corner = 12;  // bytes; the first corner comes behind the normal
 
 static_assert(std::endian::native == std::endian::little);
 
-// Gives equal corners one number, because STL names the corners of each triangle anew.
+// Gives equal corners one number, because STL repeats the corners for each triangle.
 class VertexPool {
   public:
     explicit VertexPool(std::size_t triangles) {
@@ -68,7 +69,7 @@ class VertexPool {
     }
 
     std::vector<Vec3> vertices_;
-    std::vector<std::int32_t> table_;  // open addressing; -1: free
+    std::vector<std::int32_t> table_;  // open addressing; -1 marks a free place
 };
 
 // Reads the words of an ASCII STL.
@@ -93,7 +94,7 @@ class AsciiStl {
     }
 
   private:
-    static constexpr std::size_t fewest_bytes = 100;  // about, of a facet
+    static constexpr std::size_t fewest_bytes = 100;  // approximate least size of a facet
 
     [[noreturn]] void unexpected(std::string_view word, const char* wanted) {
         if (word.empty())
@@ -125,7 +126,7 @@ class AsciiStl {
         return triangle;
     }
 
-    // Whatever stands there; "nan" as a rule where the triangle has no area.
+    // Skips the normal, whatever stands there. If the triangle has no area, it is usually "nan".
     void skip_normal() {
         std::string_view word = words_.next();
         while (!same_word(word, "outer")) {

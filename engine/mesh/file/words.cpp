@@ -17,7 +17,7 @@ constexpr bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-// from_chars says of 1e-400 and of 1e400 alike that they are out of range.
+// Tells 1e-400 from 1e400, because from_chars() reports both as out of range.
 bool is_tiny(std::string_view word) {
     const std::size_t exponent = word.find_first_of("eE");
     if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');

@@ -13,11 +13,11 @@ class WordReader {
   public:
     explicit WordReader(std::string_view text) : left_(text) {}
 
-    // The next word, over the ends of lines too; empty at the end of the text.
+    // The next word, also across line ends; empty at the end of the text.
     std::string_view next();
     // The next word of this line; empty at its end.
     std::string_view next_in_line();
-    // The rest of this line; the next word is then the first one of the next line.
+    // Skips the rest of this line. The next word is then the first word of the next line.
     void skip_line();
     // The line of the last word.
     std::int64_t line() const { return line_; }
@@ -34,18 +34,19 @@ class WordReader {
 
 bool same_word(std::string_view word, std::string_view lower_case);
 
-// A finite number, all of the word. "+1.5" and 1e-400 are numbers; nan, inf, "-1.#IND" and 1e400 are none.
+// The finite number that the whole word stands for. "+1.5" and 1e-400 are numbers; nan, inf, "-1.#IND" and
+// 1e400 are not.
 std::optional<double> number_in(std::string_view word);
 std::optional<std::int64_t> whole_in(std::string_view word);
 
-// What a float of a binary file means: the shortest decimal that it is nearest to. A plate at 0.1 then stands
-// at the same place, to the last bit, in a binary file and in a text.
+// The meaning of a float in a binary file: the shortest decimal number that rounds to it. A plate at 0.1 then
+// stands at the same place, to the last bit, in a binary file and in a text file.
 double decimal_of(float value);
 
-// Why a word is no coordinate: "\"nan\" is not a finite number".
+// The reason why a word is no coordinate: "\"nan\" is not a finite number".
 std::string no_number(std::string_view word);
 
-// The largest coordinate that is taken, in the file's unit.
+// The largest coordinate that is accepted, in the file's unit.
 inline constexpr double largest_coordinate = 1e15;
 std::string too_far(double coordinate);
 
