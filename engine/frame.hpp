@@ -1,5 +1,6 @@
-// What leaves the engine: the state of every grain and of the container at one step, and contacts as files
-// keep them. It knows no laws and no step loop, so that frames are drawn and written without them.
+// The output of the engine: the state of every grain and of the container at one step, and contacts as files
+// keep them. This header does not need laws or the step loop, so frames can be drawn and written without
+// them.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +17,13 @@ namespace grainreel {
 class MeasureTable;  // engine/measure/measures.hpp
 struct MeshWear;     // engine/measure/walls/mesh_wear.hpp
 
-// Two bodies that push each other.
+// A contact of two bodies that push each other.
 struct Touch {
     std::int32_t first, second;  // ids; second is -1 - face for a wall
-    double force;                // N, normal
+    double force;                // N, normal force
 };
 
-// What has left a run.
+// Number and mass of the grains that have left a run.
 struct FlowedOut {
     std::int64_t grains = 0;
     double mass = 0;  // kg
@@ -34,16 +35,17 @@ struct Frame {
     double cycles = 0;  // periods since the drive started
     double phase = 0;   // turns in [0, 1)
 
-    // Where the bodies are, by their numbers (engine/state/body.hpp): container, floor, planes of the scene.
+    // Poses of the bodies by their numbers (engine/state/body.hpp): container, floor, planes and meshes of
+    // the scene.
     std::vector<BodyPose> bodies = std::vector<BodyPose>(kFirstPlaneBody);
     BodyPose& container() { return bodies[kContainerBody]; }
     const BodyPose& container() const { return bodies[kContainerBody]; }
     BodyPose& floor() { return bodies[kFloorBody]; }
     const BodyPose& floor() const { return bodies[kFloorBody]; }
-    // At rest where a frame that was made by hand does not say.
+    // The pose of a body. It is the pose at rest if the frame, made by hand, has none.
     BodyPose body(std::size_t number) const { return number < bodies.size() ? bodies[number] : BodyPose(); }
 
-    // One entry a grain, in order of id. SI units.
+    // One entry per grain, in order of id, in SI units.
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;
     std::vector<double> radius;
@@ -52,21 +54,22 @@ struct Frame {
     std::vector<Vec3> displacement;  // over the last period of the drive; empty before one has passed, and
                                      // unless the film asks for it
 
-    std::vector<Touch> touches;                // empty unless the film asks for them
-    std::vector<std::int32_t> contact_number;  // of contacts that carry force; empty where unknown
+    std::vector<Touch> touches;  // empty unless the film asks for them
+    std::vector<std::int32_t>
+        contact_number;  // number of contacts of a grain that carry force; empty where unknown
 
-    // Rows of measures.csv so far: the first `measure_rows` of a table that goes on growing. Null unless the
-    // film asks for it.
+    // The rows of measures.csv so far: the first `measure_rows` rows of a table that goes on growing. Null
+    // unless the film asks for it.
     std::shared_ptr<const MeasureTable> measures;
     std::size_t measure_rows = 0;
 
-    // What the grains do to the triangles of each mesh. Null unless the film asks for it.
+    // Pressure and wear on the triangles of each mesh. Null unless the film asks for it.
     std::shared_ptr<const std::vector<MeshWear>> worn;
 
     std::optional<FlowedOut> flowed_out;  // since the run began; empty unless the film asks for it
 
-    // Earlier moments over which the picture is exposed, besides this one; by rising time. Their own lists
-    // are empty.
+    // Earlier moments, by rising time, over which the picture is exposed, besides this one. Their own lists
+    // `exposed` are empty.
     std::vector<std::shared_ptr<const Frame>> exposed;
 
     std::size_t size() const { return id.size(); }
@@ -86,7 +89,7 @@ struct SavedContact {
     double normal;               // N, >= 0
     Vec3 tangential;             // N, on `second`
     Vec3 point;                  // m
-    std::int32_t triangle = -1;  // of a mesh: where it is touched
+    std::int32_t triangle = -1;  // triangle of a mesh that is touched; -1 for other bodies
     bool operator==(const SavedContact&) const = default;
 };
 
@@ -94,8 +97,8 @@ struct SavedContact {
 struct PointForce {
     Vec3 at;                       // m
     Vec3 force;                    // N
-    bool pulls = false;            // its arrow begins at the point; else it ends there
-    std::optional<Vec3> centre{};  // m, of the grain that it is a force of
+    bool pulls = false;            // true if its arrow begins at the point, false if it ends there
+    std::optional<Vec3> centre{};  // m, centre of the grain to which the force belongs
 };
 
 }  // namespace grainreel
