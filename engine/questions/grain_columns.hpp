@@ -73,14 +73,11 @@ std::vector<double> of_each(const Snapshot& snapshot, const GrainList& grains) {
     return values;
 }
 
-// The condition touches(...): whether a grain has a contact that carries force with what `who` names:
-// "wall" for any wall, a species, a wall or mesh as contacts name it ("left slant"), or a grain's id.
-// Returns the number of a column beyond grain_columns(), whose values are 1 and 0. Throws UserError where
-// the scene has nothing of this name, and where the snapshot's contacts are not known.
+// The condition touches(...): whether a grain has a contact that carries force with what is named.
 
-// `who`: "wall" for any wall, a species, a wall or mesh as contacts name it ("left slant"), or a grain's id.
-// Gives the number of a column beside grain_columns(), whose values are 1 and 0. Throws UserError for what is
-// nothing of the scene, and where the snapshot's contacts are not known.
+// `who` is "wall" for any wall, a species, a wall or mesh as contacts name it ("left slant"), or a grain's
+// id. Returns the number of a column beyond grain_columns(), whose values are 1 and 0. Throws UserError where
+// the scene has nothing of this name, and where the snapshot's contacts are not known.
 int touches_column(const Snapshot& snapshot, std::string_view who);
 
 bool is_touches_column(int number);
