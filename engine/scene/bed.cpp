@@ -16,7 +16,8 @@ double mean_cube(const SizeSpread& d) {
         case SizeSpread::Kind::normal:
             break;
     }
-    // Variance left of a normal distribution cut off at two deviations: 1 - 4 phi(2) / erf(sqrt 2).
+    // The variance that is left of a normal distribution cut off at two deviations: 1 - 4 phi(2) / erf(sqrt
+    // 2).
     const double density_at_cut = std::exp(-2.0) / std::sqrt(2 * std::numbers::pi);
     const double variance =
         d.deviation * d.deviation * (1 - 4 * density_at_cut / std::erf(std::numbers::sqrt2));
@@ -64,7 +65,7 @@ PairContact glued_contact(const Scene& scene, std::size_t species) {
 
 namespace {
 
-// m above its base.
+// Height (m) above the room's base to which this volume fills it.
 double filled_to(const EnclosedRoom& room, double volume) {
     double low = room.base(), high = room.top();
     for (int halving = 0; halving < 60; ++halving) {
@@ -85,7 +86,7 @@ double fill_height(const Scene& scene, double solid_fraction) {
     const double slope = std::tan(c.half_angle);
     const double slanted = c.depth * c.slant_height * (floor + c.half_width);
     if (volume > slanted) return c.slant_height + (volume - slanted) / (2 * c.depth * c.half_width);
-    // depth * (2 floor h + slope h^2) = volume, solved so that slope 0 needs no case of its own.
+    // Solves depth * (2 floor h + slope h^2) = volume, in a form that also holds for slope 0.
     const double area = volume / c.depth;
     return area / (floor + std::sqrt(floor * floor + slope * area));
 }
@@ -105,7 +106,7 @@ void take_meshes(const Scene& scene, double margin, double largest, Extent& exte
     }
 }
 
-// Its corners go round in circles.
+// Adds the circles in which the corners of the box turn.
 void take_turned(const BodyTurn& turn, Extent& extent) {
     const Vec3 reach = (Vec3::Ones() - turn.axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
     const Extent rest = extent;
@@ -131,8 +132,8 @@ Extent extent_of_container(const Scene& scene) {
     return extent;
 }
 
-// Listed grains and the ways they would fly undisturbed or thrown back by the first wall, as far as five
-// times their own extent; of a start from a file nothing is known but the size of its grains.
+// The box of listed grains and of the ways they would fly undisturbed or thrown back by the first wall, up
+// to five times their own extent. For a start from a file only the size of the grains is known.
 Extent extent_of_grains(const Scene& scene) {
     const Vec3 margin = largest_diameter(scene) * Vec3::Ones();
     if (scene.start.region) return {scene.start.region->low, scene.start.region->high};

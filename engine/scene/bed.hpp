@@ -7,29 +7,31 @@
 namespace grainreel {
 
 double mean_cube(const SizeSpread& diameter);  // m3, the mean of d^3
-double largest_diameter(const Scene& scene);   // m, that a grain of any species may have
-// Sums over all grains, those that come during the run among them.
+double largest_diameter(const Scene& scene);   // m, the largest that a grain of any species may have
+// Sums and means over all grains, including those that come during the run.
 double solid_volume(const Scene& scene);   // m3
 double mean_diameter(const Scene& scene);  // m
 double total_mass(const Scene& scene);     // kg
 
-// The species of the grains that are glued to walls, as heavy as these: of infinite density. Only where there
-// are some.
+// The species of the grains that are glued to walls. They are as heavy as walls, so its density is
+// infinite. Only for scenes with glued grains.
 Species glued_species(const Scene& scene);
-// The contact of grains of this species with these: that of the two species, but for a stiffness of its own.
+// The contact of grains of this species with glued grains: that of the two species, except for a stiffness
+// of its own.
 PairContact glued_contact(const Scene& scene, std::size_t species);
 
-// m, how high the container is filled above its base when the grains lie at this solid fraction; up to its
-// top at most.
+// Height (m) above the container's base to which grains fill it at this solid fraction; at most up to its
+// top.
 double fill_height(const Scene& scene, double solid_fraction);
 
-// m, what carries the bed sideways: the smaller of width and depth, the width alone when the depth is
-// periodic.
+// The width (m) of the walls that carry the bed sideways: the smaller of width and depth, or the width
+// alone when the depth is periodic.
 double bed_width(const Scene& scene);
 
-// The box that the container takes up, or in empty space the grains and their way, and meshes where they
-// move. Of meshes that reach far beyond only what is near: within the size of the container, or, where they
-// are more than thirty times as large as all that happens to the grains, within three times that.
+// The box that the container takes up; in empty space, the box of the grains and their way, and of meshes
+// where they move. Where meshes reach far beyond, only the near part counts: within the size of the
+// container or, where meshes are more than thirty times as large as all that happens to the grains, within
+// three times that.
 struct Extent {
     Vec3 low, high;  // m
     Vec3 size() const { return high - low; }
@@ -41,8 +43,9 @@ struct Extent {
 };
 Extent extent_of(const Scene& scene);
 
-// The tray below an outlet as a container, open above, whose floor lies that deep below that of the scene's
-// container at rest. Only where there is one. It ends where the container's floor comes at its lowest.
+// The tray below an outlet as a container. It is open above, and its floor lies the tray's depth below the
+// floor of the scene's container at rest. It ends where the container's floor comes at its lowest. Only for
+// scenes with a tray.
 Container tray_container(const Scene& scene);
 
 // Diameters drawn from a species' spread.

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = DriveStage::Kind;
 
-constexpr double hair = 1e-6;  // periods: a stage that comes later than a whole one by less begins with it
+constexpr double hair = 1e-6;  // in periods: a stage that comes later than a whole one by less begins with it
 constexpr int looks_at_change = 256;
 
 double acceleration_of(double amplitude, double frequency) {
@@ -25,7 +25,7 @@ double amplitude_of(double acceleration, double frequency) {
     return acceleration > 0 ? acceleration / (omega * omega) : 0;  // at rest there is no frequency either
 }
 
-// A stretch of vibration, or of taps.
+// The piece of a stage that vibrates, taps or rests without a change.
 DriveSchedule::Piece piece_of(std::size_t stage, Kind kind, double frequency, double amplitude,
                               double interval) {
     const double acceleration = acceleration_of(amplitude, frequency);
@@ -35,7 +35,7 @@ DriveSchedule::Piece piece_of(std::size_t stage, Kind kind, double frequency, do
 }  // namespace
 
 DriveSchedule::DriveSchedule(const Drive& drive) {
-    // A first stage that is on from the start leaves no time to what would be before it.
+    // A first stage that is on from the start leaves no time for the drive before it.
     const bool at_once = drive.changes() && drive.stages.front().from <= 0;
     add({0, 0, 1 / drive.frequency, 1 / drive.frequency},
         piece_of(0, at_once ? Kind::rest : Kind::vibrate, drive.frequency, at_once ? 0 : drive.amplitude, 0));
@@ -64,7 +64,7 @@ void DriveSchedule::begin(std::size_t stage, const DriveStage& next) {
         if (vibrated)
             change.frequency_before = before.frequency;
         else
-            stretch.period = 1 / after.frequency;  // from rest: nothing moves yet
+            stretch.period = 1 / after.frequency;  // nothing moves before, so the new period holds at once
         if (!vibrates) change.frequency = before.frequency;
         change.acceleration_before = vibrated ? before.acceleration : 0;
         change.acceleration = vibrates ? after.acceleration : 0;

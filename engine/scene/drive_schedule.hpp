@@ -1,8 +1,8 @@
-// What the drive does when: its stages one after the other, and the changes between them.
+// What the drive does at which time: its stages one after the other, and the changes between them.
 //
 // A stage begins with the first whole period that starts at its `from` or later, and its change takes whole
-// periods. So each stretch begins at the drive's first phase, and the count of periods goes on without a
-// jump. A period of taps lasts from one tap to the next; at rest the periods of before go on.
+// periods. So each stretch begins at the drive's first phase, and the count of periods has no jump. A
+// period of taps lasts from one tap to the next; at rest the periods of the stage before go on.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@
 
 namespace grainreel {
 
-// How a vibration turns into another one: frequency and acceleration go smoothly from one value to the other.
-// u = time since the start over `duration`, from 0 to 1, and s(u) as in smooth_step.hpp:
+// The change from one vibration to another: frequency and acceleration go smoothly from one value to the
+// other. With u = time since the start over `duration`, from 0 to 1, and s(u) as in smooth_step.hpp:
 //   f = f0 + (f1 - f0) s,   A = A0 + (A1 - A0) s,   a = A / (2 pi f)^2,   z = a sin(2 pi integral of f dt).
 // Place, velocity and acceleration are continuous at both ends.
 struct DriveChange {
@@ -22,7 +22,7 @@ struct DriveChange {
     double acceleration_before = 0, acceleration = 0;  // m/s2: amplitude of the acceleration, a (2 pi f)^2
     double duration = 0;                               // s
 
-    // The sine's values and their rates at u.
+    // Angular frequency and amplitude at u, and their rates of change.
     struct Values {
         double omega, omega_rate;                           // 1/s, 1/s2
         double amplitude, amplitude_rate, amplitude_rate2;  // m, m/s, m/s2
@@ -30,8 +30,8 @@ struct DriveChange {
     Values at(double u) const;
 };
 
-// The largest that place, velocity and acceleration can be for any phase of a sine with these values: m, m/s,
-// m/s2.
+// The largest place (m), velocity (m/s) and acceleration (m/s2) of a sine with these values, over all
+// phases.
 struct Envelope {
     double offset, speed, acceleration;
 };
@@ -39,13 +39,14 @@ Envelope envelope_of(const DriveChange::Values& values);
 
 class DriveSchedule {
   public:
-    // The drive oscillates, and its stages have passed check_stages().
+    // The drive must oscillate, and its stages must have passed check_stages().
     explicit DriveSchedule(const Drive& drive);
 
     // What the drive does in each stretch of times().
     struct Piece {
-        std::size_t stage = 0;  // the one that is on, or that it changes to; 0: before the first, k: the k-th
-        DriveStage::Kind kind = DriveStage::Kind::vibrate;  // of what it does; a change vibrates
+        std::size_t stage =
+            0;  // the stage that is on or begins; 0: the drive before the first stage, k: the k-th stage
+        DriveStage::Kind kind = DriveStage::Kind::vibrate;  // what the stretch does; a change vibrates
         double frequency_before = 0, frequency = 0;         // Hz, of the vibration or of a tap
         double acceleration_before = 0, acceleration = 0;   // m/s2, a (2 pi f)^2
         double interval = 0;                                // s, between taps
@@ -54,7 +55,7 @@ class DriveSchedule {
     const std::vector<Piece>& pieces() const { return pieces_; }
     DriveChange change(std::size_t piece) const;
 
-    // s: when the change to a stage begins, and when it is over; stages count from 1.
+    // Time (s) when the change to a stage begins, and when it is over; stages count from 1.
     double begins(std::size_t stage) const;
     double settled(std::size_t stage) const;
 
@@ -79,7 +80,7 @@ class DriveSchedule {
 // What is on after so many periods, for a drive with stages or without.
 DriveSchedule::Now drive_now(const Drive& drive, double cycles);
 
-// The most that the drive does in all its course, changes included. Without stages what the drive has.
+// The largest values that the drive reaches in all its stages, changes included.
 struct DrivePeaks {
     double frequency = 0;     // Hz, of vibrations and taps
     double offset = 0;        // m, from rest; a tap's is twice its amplitude
@@ -87,12 +88,13 @@ struct DrivePeaks {
     double acceleration = 0;  // m/s2
 };
 DrivePeaks drive_peaks(const Drive& drive);
-// m/s2, the most in the change to a stage; 0 where nothing has to change.
+// Largest acceleration (m/s2) in the change to a stage; 0 where nothing has to change.
 double peak_acceleration_of_change(const DriveSchedule& schedule, std::size_t stage);
 
-// How much of its amplitude a drive has while it grows.
+// The share of its amplitude that a drive has while it grows.
 
-// After so many periods: it grows over the ramp, and before 0 there is none. 1 from the first stage on.
+// The share after so many periods: it grows over the ramp, is 0 before the start, and is 1 from the first
+// stage on.
 inline double grown_share(const Drive& drive, double cycles) {
     if (cycles < 0) return 0;
     if (cycles >= drive.ramp || drive_now(drive, cycles).stage > 0) return 1;

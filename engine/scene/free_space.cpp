@@ -23,15 +23,15 @@ bool in_container(const Container& c, const Vec3& place, double margin) {
     return c.periodic_depth || std::abs(place.x()) <= c.depth / 2 - margin;
 }
 
-// Numbers in [0, 1) that fill a cube evenly (the additive recurrence R3, after M. Roberts 2018: powers of
-// 1/g, g^4 = g + 1).
+// The k-th of numbers in [0, 1)^3 that fill a cube evenly (the additive recurrence R3, after M. Roberts
+// 2018: powers of 1/g, g^4 = g + 1).
 Vec3 evenly(int k) {
     constexpr double g = 1.2207440846057596;
     const auto part = [&](double step) { return std::fmod(0.5 + step * k, 1.0); };
     return {part(1 / g), part(1 / (g * g)), part(1 / (g * g * g))};
 }
 
-// Whether a level ray leaves the closed surface an odd number of times.
+// Whether a place is inside a closed surface: a level ray leaves it an odd number of times.
 bool is_inside(const Surface& surface, const Vec3& place) {
     std::vector<Surface::Hit> hits;
     surface.all_hits(place, Vec3(1, 0, 0), hits);
@@ -87,7 +87,8 @@ void FreeSpace::set_box(const Scene& scene) {
 }
 
 void FreeSpace::measure() {
-    // A place in a mesh's room costs sixteen rays, and one beside a solid a ray.
+    // These places are costly to test: one in a mesh's room takes sixteen rays, one beside a solid takes a
+    // ray.
     const bool dear = container_.shape == Container::Shape::mesh ||
                       std::any_of(meshes_.begin(), meshes_.end(),
                                   [](const Shared<Surface>& mesh) { return mesh->facts().closed(); });
@@ -98,7 +99,7 @@ void FreeSpace::measure() {
         const Vec3 place = low_ + evenly(k).cwiseProduct(high_ - low_);
         const bool there = in_room(place, 0);
         if (!there && !region_) continue;
-        ++inside;  // in the container, or in the box, whose volume is known
+        ++inside;  // in the container or in the box, whose volume is known
         if (there && before_planes(place, 0) && off_meshes(place, 0)) heights_.push_back(place.z());
     }
     std::sort(heights_.begin(), heights_.end());
@@ -129,7 +130,7 @@ bool is_free(const Surface& surface, const Vec3& from, const Vec3& to) {
     return !surface.meets(from, way / length, length);
 }
 
-// That way for a grain and not for a point alone: on its axis and at four sides of it.
+// The same for a grain of this radius: tested on the axis of the way and at four sides of it.
 bool is_free(const Surface& surface, const Vec3& from, const Vec3& to, double radius) {
     if (!is_free(surface, from, to)) return false;
     const Vec3 along = (to - from).normalized();
@@ -139,7 +140,7 @@ bool is_free(const Surface& surface, const Vec3& from, const Vec3& to, double ra
     return true;
 }
 
-// Places in steps over the box around a vessel and a step beyond it.
+// Searches for a leak from place to place, on a grid over the box around a vessel and one step beyond it.
 class Flood {
   public:
     Flood(const Surface& surface, const EnclosedRoom& room, double radius)
@@ -148,7 +149,7 @@ class Flood {
         low_ = facts.low, high_ = facts.high;
         if (room.open_above()) high_.z() = room.top();
         step_ = (high_ - low_) / kSteps;
-        // A level vessel has no depth of its own along some axis.
+        // A flat vessel has no extent along some axis.
         const double least = 1e-6 * step_.maxCoeff();
         step_ = step_.cwiseMax(least);
         from_.assign(static_cast<std::size_t>(kWide) * kWide * kWide, kUnseen);
@@ -172,7 +173,7 @@ class Flood {
     }
 
   private:
-    static constexpr int kSteps = 32, kWide = kSteps + 2;  // one more on each side
+    static constexpr int kSteps = 32, kWide = kSteps + 2;  // one more place on each side
     static constexpr int kUnseen = -2, kSeed = -1;
     using Node = std::array<int, 3>;
 
@@ -180,7 +181,7 @@ class Flood {
     static Node node_of(int number) {
         return {number % kWide, number / kWide % kWide, number / kWide / kWide};
     }
-    // Off the middle of a step, so that no way lies in a plane of the vessel.
+    // Places are off the middle of a step, so that no way lies in a plane of the vessel.
     Vec3 place_of(const Node& n) const {
         constexpr double off[3] = {0.4873, 0.5171, 0.5067};
         Vec3 place;
@@ -203,7 +204,7 @@ class Flood {
                *std::max_element(n.begin(), n.end()) == kWide - 1;
     }
 
-    // Some that lie in the room.
+    // Some places in the room, where the search begins.
     std::vector<int> seeds() {
         constexpr int apart = 37;  // shares no factor with kSteps
         constexpr std::size_t enough = 8;
@@ -217,7 +218,7 @@ class Flood {
         return found;
     }
 
-    // The first place out of the room on the way to there.
+    // The first place outside the room, on the way to this one.
     Vec3 place_left(int number) const {
         int outside = number;
         for (int at = number; at != kSeed; at = from_[static_cast<std::size_t>(at)]) {
@@ -231,7 +232,7 @@ class Flood {
     const EnclosedRoom& room_;
     const double radius_;
     Vec3 low_, high_, step_;
-    std::vector<int> from_;  // by number: the node before, on the way from a seed
+    std::vector<int> from_;  // by number: the place before, on the way from a seed
 };
 
 bool opens(const Surface& surface, const EnclosedRoom& room, const Vec3& beyond, const Vec3& normal,
@@ -251,7 +252,7 @@ std::optional<Vec3> hole_at_edges(const Surface& surface, const EnclosedRoom& ro
             if (surface.neighbour(t, e).triangle >= 0) continue;
             if (++looked > most) return std::nullopt;
             const Vec3 &a = surface.corner(t, e), &b = surface.corner(t, (e + 1) % 3);
-            // Corners run counter-clockwise about the normal, so this points away from the third.
+            // Corners run counter-clockwise about the normal, so `out` points away from the third corner.
             const Vec3 out = (b - a).normalized().cross(surface.normal(t));
             const Vec3 beyond = 0.5 * (a + b) + nearly * diameter * out;
             if (opens(surface, room, beyond, surface.normal(t), diameter)) return beyond;
@@ -264,7 +265,7 @@ std::optional<Vec3> hole_at_edges(const Surface& surface, const EnclosedRoom& ro
 
 std::optional<Vec3> leak_of(const Surface& surface, const EnclosedRoom& room, double diameter) {
     const double radius = 0.5 * diameter;
-    // Most vessels hold points already.
+    // The first search is for a mere point, which is quick; most vessels hold even points.
     if (Flood(surface, room, 0).leak())
         if (const auto leak = Flood(surface, room, 0.7 * radius).leak()) return leak;
     if (surface.facts().open_edges == 0) return std::nullopt;

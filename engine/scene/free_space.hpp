@@ -1,5 +1,5 @@
-// The room that a scene gives to the grains it packs: that of its container or the box that start.region
-// says, before its planes and outside its meshes.
+// The room that a scene has for the grains it packs: that of its container or of the box start.region,
+// before its planes and outside its meshes.
 #pragma once
 
 #include <optional>
@@ -12,22 +12,22 @@ namespace grainreel {
 
 class FreeSpace {
   public:
-    // With planes, meshes beside the container or a box of its own the scene's room is measured at 100,000
-    // evenly spread places: volumes are then good to some 0.1 % of the container's. Closed meshes in a
-    // container are solid; a box of its own may lie inside a mesh.
+    // The room is measured at 100,000 evenly spread places where the scene has planes, meshes beside the
+    // container, or a region: volumes are then good to some 0.1 % of the container's. Closed meshes in a
+    // container are solid; a region may lie inside a mesh.
     explicit FreeSpace(const Scene& scene);
 
     double volume() const { return volume_; }  // m3
-    // m, corners of a box around the room, to draw places from.
+    // Corners (m) of a box around the room, from which to draw places.
     const Vec3& low() const { return low_; }
     const Vec3& high() const { return high_; }
-    // m: z below which the share of the volume lies; share in [0, 1].
+    // The height z (m) below which this share of the volume lies; share in [0, 1].
     double height_of_share(double share) const;
     // Whether the place lies at least `margin` (m) from floor, lid, walls, planes and meshes.
     bool holds(const Vec3& place, double margin) const;
 
   private:
-    bool in_room(const Vec3& place, double margin) const;  // of container and box
+    bool in_room(const Vec3& place, double margin) const;  // in the room of container and region
     bool before_planes(const Vec3& place, double margin) const;
     bool off_meshes(const Vec3& place, double margin) const;
     void set_box(const Scene& scene);
@@ -36,19 +36,20 @@ class FreeSpace {
     const Container container_;
     const std::optional<Region> region_;
     const std::vector<FreeWall> planes_;
-    std::vector<Shared<Surface>> meshes_;  // but for the container's
+    std::vector<Shared<Surface>> meshes_;  // all but the container's mesh
     Vec3 low_{0, 0, 0}, high_{0, 0, 0};
     double volume_ = 0;
     bool measured_ = false;
-    std::vector<double> heights_;  // of the places with room, rising; only where measured
+    std::vector<double> heights_;  // of the places with room, rising; only where the room is measured
 };
 
-// A place (m) where a vessel leaks: a grain of this diameter (m) gets out near it. Empty where none is found.
-// Holes above the rim of an open vessel do not count; a closed vessel must be closed on all sides. There are
-// two searches. The first walks from the room to the box around the vessel, in steps of a 32nd of its size,
-// and finds every wider hole in walls of any kind. The second looks at each open edge: it tells whether a
-// diameter beyond the edge the room meets space outside of it. Sheets in the room, seams whose vertices do
-// not meet, and thick walls disturb neither search.
+// A place (m) where a vessel leaks: a grain of this diameter (m) gets out near it. Empty where none is
+// found. Holes above the rim of an open vessel do not count; a closed vessel must be closed on all sides.
+//
+// There are two searches. The first walks from the room to the box around the vessel, in steps of a 32nd of
+// its size, and finds every wider hole in walls of any kind. The second looks at each open edge: it finds
+// edges where, a diameter beyond the edge, the room meets the space outside. Sheets in the room, seams
+// whose vertices do not meet, and thick walls disturb neither search.
 std::optional<Vec3> leak_of(const Surface& surface, const EnclosedRoom& room, double diameter);
 
 }  // namespace grainreel

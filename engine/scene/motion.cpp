@@ -24,8 +24,8 @@ Quaternion quaternion_of(const Eigen::Vector4d& w_first) {
     return {w_first[0], w_first[1], w_first[2], w_first[3]};
 }
 
-// The quaternion p of the spline is scaled to length 1. With n = norm(p): q = p / n, q' = (p' - q (q.p')) /
-// n, and the spin is 2 q' q*.
+// The spin of the spline's quaternion p, scaled to length 1. With n = norm(p): q = p / n, q' = (p' - q
+// (q.p')) / n, and the spin is 2 q' q*.
 Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
     const double length = raw.norm();
     const Eigen::Vector4d unit = raw / length;
@@ -33,7 +33,7 @@ Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
     return 2 * (quaternion_of(change) * quaternion_of(unit).conjugate()).vec();
 }
 
-// The mesh rests until the run begins. A path that begins elsewhere would make it jump.
+// The mesh stands at rest until the run begins, so a path that begins elsewhere would make it jump.
 void check_start(const MotionPath& path, const PathRows& rows, const std::filesystem::path& file) {
     constexpr double same = 1e-6;  // of the path's size; rad
     const PathPose start = path.at(0);
@@ -75,7 +75,7 @@ MotionPath::Moment MotionPath::moment_at(double time) const {
     return {piece, time - times_[piece], false};
 }
 
-// The pivot goes along the path, and all else turns about it.
+// The pivot moves along the path, and the rest of the body turns about it.
 PathPose MotionPath::at(double time) const {
     const Moment moment = moment_at(time);
     const CubicPiece<Vec3>& piece = pieces_[moment.piece];
@@ -110,9 +110,9 @@ void MotionPath::find_tops() {
 namespace {
 
 constexpr std::size_t fewest_rows = 4;
-constexpr double off_unit = 0.01;  // that the length of a quaternion may differ from 1, being rounded
+constexpr double off_unit = 0.01;  // by which the length of a quaternion may differ from 1 through rounding
 
-// Its columns, each by the names that a file may give it.
+// The columns of a path's file, each with the names that the file may give it.
 enum Column { of_time, of_x, of_y, of_z, of_qw, of_qx, of_qy, of_qz, columns };
 const std::array<std::vector<std::string_view>, columns> column_names{
     {{"time_s", "t", "time"}, {"x_m", "x"}, {"y_m", "y"}, {"z_m", "z"}, {"qw"}, {"qx"}, {"qy"}, {"qz"}}};
@@ -217,7 +217,7 @@ class PathReader {
         if (turns_) take_turn(cells);
     }
 
-    // q and -q are the same rotation: that which is nearer to the row before.
+    // q and -q are the same rotation; the one nearer to the row before is taken.
     void take_turn(const std::vector<std::string_view>& cells) {
         Eigen::Vector4d turn(number(cells, of_qw), number(cells, of_qx), number(cells, of_qy),
                              number(cells, of_qz));
@@ -256,18 +256,18 @@ class PathReader {
                         step(to - 1), rows.times[to] - rows.times[to - 1]));
     }
 
-    // Motions that are sampled well have no step that is alone so fast.
+    // Refuses jumps. In a well sampled motion no single step is so much faster than its neighbours.
     void check_places() const {
         constexpr double share = 0.05, faster = 20;
         const std::size_t steps = rows.places.size() - 1;
         Vec3 low = rows.places.front(), high = low;
         for (const Vec3& place : rows.places) low = low.cwiseMin(place), high = high.cwiseMax(place);
         const double size = (high - low).norm();
-        // The fastest of the steps beside those from `first` to `last`.
+        // The speed of the faster neighbour of the steps from `first` to `last`.
         const auto beside = [&](std::size_t first, std::size_t last) {
             return std::max(first > 0 ? speed(first - 1) : 0.0, last + 1 < steps ? speed(last + 1) : 0.0);
         };
-        constexpr std::size_t enough = 8;  // fewer rows were written by hand, and each is meant
+        constexpr std::size_t enough = 8;  // rows; shorter files were written by hand, and each row is meant
         if (rows.places.size() < enough) return;
         for (std::size_t i = 0; i < steps; ++i) {
             if (step(i) <= share * size) continue;
@@ -306,7 +306,8 @@ PathRows read_path_rows(const std::filesystem::path& file) {
 
 namespace {
 
-// How much of a rise of `over` seconds from `begin` on is there at `time`, and its integral over time (s).
+// How far a smooth rise of `over` seconds that starts at `begin` has come at `time` (0 to 1), and the
+// integral of this share over time (s).
 double share_at(double begin, double over, double time) {
     if (time < begin) return 0;
     return over > 0 ? smooth_step::value(std::min(1.0, (time - begin) / over)) : 1;

@@ -1,11 +1,11 @@
-// The motion of a body from a file: places and orientations at rising times, joined by a curve whose velocity
-// and acceleration are continuous.
+// The motion of a body from a file: places and orientations at rising times, joined by a curve whose
+// velocity and acceleration are continuous. Also the steady turn of a body.
 //
-// The file is CSV: a header of names, then rows. Columns time_s (or t), x_m, y_m, z_m (or x, y, z), and, if
-// wanted, qw, qx, qy, qz. Places count from where the body rests; the quaternion turns it about its pivot,
-// which goes with it. Natural cubic splines (de Boor 1978, A Practical Guide to Splines, ch. IV), of the
-// quaternion's four numbers too, which are then scaled to length 1. Before the first time and after the last
-// one the body stands where it was then.
+// The file is CSV: a header of names, then rows. Its columns are time_s (or t), x_m, y_m, z_m (or x, y, z)
+// and, if wanted, qw, qx, qy, qz. Places count from the body's place at rest. The quaternion turns the body
+// about its pivot, which moves with it. The curve is a natural cubic spline (de Boor 1978, A Practical
+// Guide to Splines, ch. IV); the quaternion's four numbers have splines too and are then scaled to length
+// 1. Before the first time and after the last one the body stands still.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,8 @@ namespace grainreel {
 // Natural cubic splines: the curve through points at rising times whose second derivative is continuous, and
 // zero at both ends. de Boor 1978, A Practical Guide to Splines, ch. IV.
 
-// value = c0 + c1 s + c2 s2 + c3 s3, with s the time since the piece's beginning. V: a vector of fixed size.
+// value = c0 + c1 s + c2 s2 + c3 s3, with s the time since the piece's beginning. V is a vector of fixed
+// size.
 template <class V>
 struct CubicPiece {
     V c0, c1, c2, c3;
@@ -30,14 +31,14 @@ struct CubicPiece {
     V slope(double s) const { return c1 + s * (2 * c2 + 3 * s * c3); }
 };
 
-// One piece between every two points. times: rising, at least 2; as many points.
+// One piece between every two points. times rise and are at least 2; there are as many points.
 template <class V>
 std::vector<CubicPiece<V>> natural_spline(const std::vector<double>& times, const std::vector<V>& points) {
     const std::size_t last = times.size() - 1;
     const auto width = [&](std::size_t i) { return times[i + 1] - times[i]; };
     const auto rise = [&](std::size_t i) { return V((points[i + 1] - points[i]) / width(i)); };
-    // Second derivatives m: h[i-1] m[i-1] + 2 (h[i-1] + h[i]) m[i] + h[i] m[i+1] = 6 (rise[i] - rise[i-1]),
-    // solved by elimination. What is left of the row above stands in `beyond`.
+    // The second derivatives m solve h[i-1] m[i-1] + 2 (h[i-1] + h[i]) m[i] + h[i] m[i+1] = 6 (rise[i] -
+    // rise[i-1]). They are found by elimination; `beyond` has what is left of the row above.
     std::vector<V> second(times.size(), V::Zero());
     std::vector<double> beyond(times.size(), 0.0);
     for (std::size_t i = 1; i < last; ++i) {
@@ -67,11 +68,11 @@ struct PathPose {
 
 class MotionPath {
   public:
-    // pivot: m, at rest; a mesh's position. Throws UserError with file and line: no numbers, times that do
-    // not rise or begin after 0, fewer than 4 rows, a quaternion that is no rotation, and jumps: a step of
-    // more than a twentieth of the path's size that is more than 20 times as fast as those before and after
-    // it, a single row that lies so far apart, and a turn of more than 2 rad from row to row, which might go
-    // either way round.
+    // `pivot` (m, at rest) is the mesh's position. Throws UserError with file and line for: values that are
+    // not numbers, times that do not rise or begin after 0, fewer than 4 rows, a quaternion that is no
+    // rotation, and jumps. A jump is a step of more than a twentieth of the path's size that is more than
+    // 20 times as fast as those before and after it; a single row that lies so far apart; or a turn of more
+    // than 2 rad from row to row, whose sense would be unclear.
     static std::shared_ptr<const MotionPath> read(const std::filesystem::path& file,
                                                   const Vec3& pivot = Vec3(0, 0, 0));
 
@@ -79,8 +80,8 @@ class MotionPath {
     const Vec3& pivot() const { return pivot_; }     // m, at rest
     double first() const { return times_.front(); }  // s
     double last() const { return times_.back(); }    // s
-    // At sixteen times between every two rows. No point farther than r from the pivot is faster than
-    // top_speed() + r * top_spin().
+    // Largest speeds at sixteen times between every two rows. No point at a distance r from the pivot is
+    // faster than top_speed() + r * top_spin().
     double top_speed() const { return top_speed_; }  // m/s, of the pivot
     double top_spin() const { return top_spin_; }    // rad/s
     bool turns() const { return !turns_.empty(); }
@@ -97,7 +98,7 @@ class MotionPath {
 
     std::vector<double> times_;
     std::vector<CubicPiece<Vec3>> pieces_;
-    std::vector<CubicPiece<Eigen::Vector4d>> turns_;  // of w, x, y, z; empty: it does not turn
+    std::vector<CubicPiece<Eigen::Vector4d>> turns_;  // of w, x, y, z; empty when the body does not turn
     Vec3 pivot_{0, 0, 0};
     double top_speed_ = 0, top_spin_ = 0;
     std::string hash_;
@@ -106,19 +107,20 @@ class MotionPath {
 // The rows of a path's file, checked one by one. Internal to MotionPath.
 
 struct PathRows {
-    std::vector<int> lines;  // of the file, from 1
+    std::vector<int> lines;  // line number in the file, from 1
     std::vector<double> times;
     std::vector<Vec3> places;
-    std::vector<Eigen::Vector4d> turns;  // unit, w first, each on the side of the one before; or none at all
+    std::vector<Eigen::Vector4d>
+        turns;  // unit, w first, each with the sign nearest to the one before; or none at all
 };
 
 // Throws UserError as MotionPath::read does.
 PathRows read_path_rows(const std::filesystem::path& file);
 
-// A steady turn about an axis, smoothly begun and ended.
+// A steady turn about an axis, with a smooth beginning and end.
 
-// The rate rises from 0 to `rate` within `over` seconds from `from` on, as 10u^3 - 15u^4 + 6u^5, as the
-// drive's ramp does, and falls back in the same way from `until` on.
+// The rate rises from 0 to `rate` within `over` seconds from `from` on, as 10u^3 - 15u^4 + 6u^5 (the
+// drive's ramp does the same). From `until` on it falls back in the same way.
 struct BodyTurn {
     Vec3 axis{0, 0, 1};                                      // unit
     Vec3 through{0, 0, 0};                                   // m, a point of the axis
@@ -127,7 +129,7 @@ struct BodyTurn {
     double over = 0;                                         // s; 0: at once
     double until = std::numeric_limits<double>::infinity();  // s
 
-    double angle_at(double time) const;  // rad, since the start; exact integral of the rate
+    double angle_at(double time) const;  // rad since the start; exact integral of the rate
     double rate_at(double time) const;   // rad/s
     bool operator==(const BodyTurn&) const = default;
 };

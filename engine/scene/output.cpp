@@ -2,7 +2,7 @@
 
 namespace grainreel {
 
-// Quotes and separators of CSV would break the row.
+// Replaces quotes and separators of CSV, which would break the row.
 std::string column_part(const std::string& name) {
     std::string result = name;
     for (char& c : result) {

@@ -1,8 +1,8 @@
 // What a run can write: columns of measures.csv, fields, and files in formats of other programs. Plain
 // values.
 //
-// The observers decide which columns there are (engine/measure/observer_list.hpp). The reader of a scene is
-// told them, because plots and live words name them.
+// The observers decide which columns there are (engine/measure/observer_list.hpp). The reader of a scene
+// gets the list, because plots and live words name columns.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ struct MeasureColumn {
     std::string name;   // "kinetic_J": the unit, when there is one, comes last
     std::string label;  // "kinetic energy"
     Dimension dimension = Dimension::number;
-    std::string instrument = {};  // of output.instruments, without which there is no such column; empty: none
+    std::string instrument = {};  // entry of output.instruments that the column needs; empty: none
     bool operator==(const MeasureColumn&) const = default;
 };
 
 // Columns that share a line of the documentation.
 struct ColumnGroup {
     std::vector<MeasureColumn> columns;
-    const char* unit;   // of the documentation: "J", "turns, 0 to 1"
+    const char* unit;   // as in the documentation: "J", "turns, 0 to 1"
     const char* about;  // Markdown
 };
 
@@ -41,13 +41,13 @@ struct Measurable {
     std::vector<MeasureColumn> columns;
     std::vector<std::string> instruments;
 };
-// The scene has all but its film by then.
+// Gives the columns for a scene that has been read except for its film.
 using MeasurableIn = std::function<Measurable(const Scene&)>;
 
 // A species' name as a part of a column's name.
 std::string column_part(const std::string& name);
 
-// What a scene says of the fields that are kept in fields.nc. Plain values in SI units.
+// What a scene says about the fields that are kept in fields.nc. Plain values in SI units.
 
 struct FieldOutput {
     // none: no fields; yz: means over the depth; xyz: in three dimensions.
@@ -57,22 +57,22 @@ struct FieldOutput {
     Kernel kernel = Kernel::gaussian;
     double width = 0;             // m, the kernel's standard deviation along one axis
     double cell = 0;              // m, largest side of a cell
-    int periods = 10;             // of the drive, that one record is the mean of; 0 without a drive
-    int samples = 16;             // moments in each period; without a drive in each record
-    std::optional<double> phase;  // turns; one moment a period, in place of `samples`
-    double interval = 0;          // s, of one record without a drive; else 0
+    int periods = 10;             // of the drive, over which a record is averaged; 0 without a drive
+    int samples = 16;             // moments in each period; without a drive, in each record
+    std::optional<double> phase;  // turns; one moment a period at this phase, in place of `samples`
+    double interval = 0;          // s, length of a record without a drive; else 0
 
     bool wanted() const { return grid != Grid::none; }
     bool operator==(const FieldOutput&) const = default;
 };
 
-// Formats of other programs that a run can leave beside its own files ([output] also). The writers are in
-// engine/files/frames/writers, which a scene does not know; a test holds that both lists are the same.
+// Formats of other programs that a run can write beside its own files ([output] also). The writers are in
+// engine/files/frames/writers, which the scene must not use; a test checks that both lists are the same.
 
 inline constexpr std::array<std::string_view, 10> kAlsoFormats{
     "netcdf", "lammps-dump", "lammps-data", "xyz", "csv", "vtk", "stl", "gsd", "gltf", "blender"};
 
-// Some of them, by their places in the list.
+// A set of these formats, by their places in the list.
 class AlsoFormats {
   public:
     bool any() const { return bits_ != 0; }

@@ -59,9 +59,9 @@ const SceneMesh* Scene::mesh_named(const std::string& mesh) const {
     return found == meshes.end() ? nullptr : &*found;
 }
 
-// A grain comes when its interval is over, so that none comes at the beginning.
+// A grain comes when its interval is over, so none comes at the beginning.
 std::int64_t Feed::due(double time) const {
-    constexpr double most = 4e9;        // more than can be numbered
+    constexpr double most = 4e9;        // grains; more cannot be numbered
     constexpr double rounding = 1e-12;  // of rate times time
     const double passed = std::max(0.0, std::min(time, until.value_or(time)) - from);
     const auto grains = static_cast<std::int64_t>(std::min(most, rate * passed * (1 + rounding)));
@@ -79,8 +79,7 @@ double level_of(double amplitude, double frequency, double gravity) {
     return gravity > 0 ? amplitude * omega * omega / gravity : std::numeric_limits<double>::infinity();
 }
 
-// The largest of what the drive has at first, unless a stage takes its place at once, and of what each stage
-// has.
+// The largest value of all stages and of the drive before them, unless a stage takes its place at once.
 template <class Of>
 double largest(const Drive& drive, const Of& of) {
     const bool replaced = drive.changes() && drive.stages.front().from <= 0;
@@ -127,7 +126,7 @@ std::int64_t Scene::grains_at_start() const {
 }
 
 std::string Scene::where(const std::string& key) const {
-    // From the key itself up through its parents, to the first that the file wrote.
+    // Looks for the key itself, then for its parents, up to the first that the file has written.
     for (std::string path = key; !path.empty();) {
         if (const auto found = written.find(path); found != written.end()) {
             const Location& at = found->second;

@@ -17,15 +17,16 @@
 
 namespace grainreel {
 
-// A place in the scene file, for messages. Line and column count from 1; line 0: not in the file (a default,
-// or set on the command line, in which case `file` says so, e.g. "--set run.duration").
+// A place in the scene file, for messages. Line and column count from 1. Line 0 means that the value is not
+// in the file: it is a default, or it was set on the command line and `file` says so, e.g. "--set
+// run.duration".
 struct Location {
     std::string file;
     int line = 0;
     int column = 0;
 };
 
-// What a scene shares with its copies, because it is large. Two are equal when their hashes are.
+// A large value that a scene shares with its copies. Two are equal when their hashes are.
 template <class T>
 struct Shared {
     std::shared_ptr<const T> of;
@@ -37,8 +38,8 @@ struct Shared {
     }
 };
 
-// Diameters of one species, m. `uniform`: evenly between smallest and largest. `normal`: mean and deviation,
-// cut off at smallest and largest (two deviations from the mean).
+// Diameters of one species, m. `uniform`: evenly distributed between smallest and largest. `normal`: with
+// mean and deviation, cut off at smallest and largest (two deviations from the mean).
 struct SizeSpread {
     enum class Kind { fixed, uniform, normal };
     Kind kind = Kind::fixed;
@@ -50,20 +51,21 @@ struct SizeSpread {
 struct Species {
     std::string name;
     std::int64_t count = 0;  // at the start
-    std::int64_t fed = 0;    // that come during the run
+    std::int64_t fed = 0;    // grains that come during the run
     SizeSpread diameter;
     double density = 0;       // kg/m3; from the mass at the mean diameter when the scene gives a mass
-    std::string colour_text;  // as TOML; the engine keeps it for those who draw; empty: none is said
+    std::string colour_text;  // as TOML; the engine keeps it for those who draw; empty: none is given
     std::int64_t all() const { return count + fed; }
     bool operator==(const Species&) const = default;
 };
 
 enum class NormalLaw { walton_braun, spring_dashpot, hertz };
 enum class TangentialLaw { incremental_slip, linear_spring, mindlin, none };
-// Where forces act: at the contact plane (keeps angular momentum), or at the full radius, as in the seed.
+// Where forces act: at the contact plane (keeps angular momentum), or at the full radius, as in the
+// original program.
 enum class LeverArms { contact_plane, radius };
 
-constexpr std::size_t kTablePoints = 8;  // of a restitution that depends on speed, at most
+constexpr std::size_t kTablePoints = 8;  // largest number of points of a restitution that depends on speed
 
 // One point of a restitution that depends on the speed of impact.
 struct RestitutionPoint {
@@ -79,17 +81,18 @@ struct PairContact {
     double restitution = 0.9;                                    // in (0, 1]
     std::optional<double>
         restitution_speed;  // m/s at which it holds, falling with speed; empty: at any speed
-    std::vector<RestitutionPoint> restitution_table;  // in its place, by rising speed; empty: not used
-    double friction = 0.5;                            // >= 0, may be infinite
-    double rolling_friction = 0;                      // torque at most so much x effective radius x N
+    std::vector<RestitutionPoint>
+        restitution_table;                 // in place of restitution, by rising speed; empty: not used
+    double friction = 0.5;                 // >= 0, may be infinite
+    double rolling_friction = 0;           // torque at most this value x effective radius x N
     std::optional<double> stiffness;       // N/m: K1 or kn; Hertz: Pa, E*; the plan chooses it when empty
     double tangential_ratio = 0.8;         // K0 / K1, or kt / kn; Mindlin: 2 (1 - nu) / (2 - nu)
     double gamma = 1.0 / 3.0;              // exponent of Walton's incremental slip
     bool attraction = false;               // laws with a dashpot may pull at the end of contact
     std::optional<double> normal_damping;  // 1/s, force = value * m_eff * v; from the restitution when empty
     std::optional<double> tangential_damping;  // 1/s, as above; half of the normal damping when empty
-    // As `stiffness`, of grains of one species with glued ones of the other. When empty it is `stiffness`;
-    // when both are, the plan chooses it.
+    // Stiffness of contacts with glued grains, between grains of one species and glued ones of the other.
+    // When empty it is `stiffness`; when both are empty the plan chooses it.
     std::optional<double> glued_stiffness;
     bool operator==(const PairContact&) const = default;
 };
@@ -99,7 +102,7 @@ struct Contact {
     std::vector<PairContact> grain;  // species x species, symmetric, row-major
     std::vector<PairContact> wall;   // one a species
     std::vector<PairContact> mesh;   // mesh x species, row-major
-    bool rubs() const;               // any of them has friction
+    bool rubs() const;               // whether any of them has friction
     bool operator==(const Contact&) const = default;
 };
 
@@ -113,8 +116,8 @@ struct Outlet {
     bool operator==(const Outlet&) const = default;
 };
 
-// Stands still below an outlet and catches what flows out, so that nothing leaves the run. Its cross-section
-// is that of a box as deep as the container, or round below a cylinder.
+// A tray that stands still below an outlet and catches what flows out, so that nothing leaves the run. Its
+// cross-section is that of a box as deep as the container, or round below a cylinder.
 struct Tray {
     double depth = 0;       // m, of its floor below the container's floor at rest
     double half_width = 0;  // m, along y; the radius of a round one
@@ -127,15 +130,15 @@ struct WallGrains {
     std::size_t species = 0;
     std::vector<std::string> faces;  // names of faces of the container at rest: "floor", "left slant"
     double spacing = 0;              // m, between neighbours in the layer
-    double disorder = 0.2;           // over the spacing, how far each is moved at random, at most
+    double disorder = 0.2;           // over the spacing: the most by which each grain is moved at random
     bool operator==(const WallGrains&) const = default;
 };
 
 struct Container {
     enum class Shape { wedge, box, cylinder, mesh, none };
-    Shape shape = Shape::wedge;  // none: empty space; the sizes then are those of what is looked at
+    Shape shape = Shape::wedge;  // none: empty space, with the sizes of what is looked at
     // For the shape `mesh`: the vessel's name, and the room that it encloses. Half-width, depth and height
-    // then are those of the room, the height from z = 0 to lid or rim.
+    // are then those of the room, with the height from z = 0 to lid or rim.
     std::string mesh;
     Shared<EnclosedRoom> room;
     double half_width = 0;    // m, along y: y_max, at and above the slanted part; the radius of a cylinder
@@ -148,17 +151,17 @@ struct Container {
     std::optional<Tray> tray;      // only below an outlet
     std::optional<WallGrains> wall_grains;
     bool periodic_depth = false;          // no front and back walls: what leaves at one enters at the other
-    std::optional<BodyTurn> turn;         // walls, floor and lid together
-    double base() const;                  // m, z of the lowest place: 0 but for a mesh
+    std::optional<BodyTurn> turn;         // turns walls, floor and lid together
+    double base() const;                  // m, z of the lowest place: 0 except for a mesh
     double floor_half_width() const;      // m, along y, of the floor (y_max - H tan(half-angle) for a wedge)
     double volume() const;                // m3, base to height
     double volume_below(double z) const;  // m3, base to z, z in [base, height]
-    // m, the free half-width at height z above the floor.
+    // The free half-width (m) at height z above the floor.
     double half_width_at(double z) const;
     bool operator==(const Container&) const = default;
 };
 
-// About an axis through the origin, by the right-hand rule.
+// A rotation about an axis through the origin, by the right-hand rule.
 struct AxisRotation {
     Vec3 axis{0, 0, 1};  // unit
     double angle = 0;    // rad
@@ -170,25 +173,28 @@ struct AxisRotation {
 struct SceneMesh {
     std::string name;
     std::string file;  // path
-    std::string hash;  // of the file, as in load_mesh.hpp; written into a run's scene, and then checked
+    std::string hash;  // of the file, as in load_mesh.hpp; a run writes it into its scene, and it is checked
+                       // when that is read
     double scale = 1;
     Vec3 position{0, 0, 0};  // m
     AxisRotation rotation;   // before it is moved to its position
-    // Its motion; at most one of these.
-    bool driven = false;  // with the drive
+    // Its motion: at most one of these and a path.
+    bool driven = false;  // moves with the drive
     std::optional<BodyTurn> turn;
     Vec3 velocity{0, 0, 0};  // m/s, steady
     std::string path_file, path_hash;
-    Shared<Surface> surface;  // in the scene at rest
+    Shared<Surface> surface;  // as it stands in the scene at rest
     Shared<MotionPath> path;
-    // m, corners of the box that it stays in during the run, but for the drive; follows from the rest.
+    // Corners (m) of the box in which it stays during the run, apart from the drive's motion. They follow
+    // from the rest.
     Vec3 low{0, 0, 0}, high{0, 0, 0};
     bool moves() const { return driven || turn || !path_file.empty() || !velocity.isZero(0); }
-    // Where the files lie makes no difference; their hashes do.
+    // The paths of the files make no difference; their hashes do.
     bool operator==(const SceneMesh& other) const;
 };
 
-// A box in the lab. A grain leaves the run when its centre is in it, or, with `outside`, when it is not.
+// A box in the lab. A grain leaves the run when its centre is in the box or, with `outside`, when it is
+// not.
 struct ExitBox {
     Vec3 low{0, 0, 0}, high{0, 0, 0};  // m
     bool outside = false;
@@ -198,11 +204,11 @@ struct ExitBox {
     bool operator==(const ExitBox&) const = default;
 };
 
-// A box to fill.
+// A box to fill with grains.
 struct Region {
     Vec3 low{0, 0, 0}, high{0, 0, 0};                      // m
     double volume() const { return (high - low).prod(); }  // m3
-    bool holds(const Vec3& place, double margin) const {   // at least so far (m) from its sides
+    bool holds(const Vec3& place, double margin) const {   // at least margin (m) away from its sides
         return (place - low).minCoeff() >= margin && (high - place).minCoeff() >= margin;
     }
     bool operator==(const Region&) const = default;
@@ -218,13 +224,13 @@ struct FreeWall {
     bool operator==(const FreeWall&) const = default;
 };
 
-// From a time of the run on the drive does something else.
+// A stage: from a time of the run on, the drive does something else.
 struct DriveStage {
     enum class Kind { vibrate, taps, rest };
     Kind kind = Kind::vibrate;
     double from = 0;       // s; the change begins with the first period that starts then or later
     int over = 3;          // periods that the change takes, at least 3
-    double frequency = 0;  // Hz; of a tap: 1 / its duration; of no meaning at rest
+    double frequency = 0;  // Hz; for a tap 1 / its duration; no meaning at rest
     double amplitude = 0;  // m; a tap goes up by twice as much and comes back; 0 at rest
     double interval = 0;   // s, from the start of a tap to that of the next; else 0
     bool operator==(const DriveStage&) const = default;
@@ -239,11 +245,11 @@ struct Drive {
     double phase = 0;         // turns, of the sine at t = 0
     double ramp = 3;          // periods over which the amplitude grows; >= 3, or 0 for none
     Moves moves = Moves::container;
-    std::vector<DriveStage> stages = {};   // by rising time; those above hold until the first
+    std::vector<DriveStage> stages = {};   // by rising time; the values above hold until the first
     double g_level(double gravity) const;  // Gamma = a (2 pi f)^2 / g; infinite without gravity
     double speed() const;                  // m/s, a 2 pi f
     bool changes() const { return !stages.empty(); }
-    // The largest of all stages, that of the drive before them included.
+    // The largest values over all stages and the drive before them.
     double highest_frequency() const;                // Hz
     double largest_amplitude() const;                // m
     double top_speed() const;                        // m/s
@@ -265,12 +271,12 @@ struct ListedGrain {
 struct Feed {
     std::size_t species = 0;
     double rate = 0;                      // 1/s
-    std::optional<std::int64_t> count;    // after which it ends
+    std::optional<std::int64_t> count;    // after so many grains it ends
     double from = 0;                      // s
     std::optional<double> until;          // s; the run's end when empty
-    Vec3 low{0, 0, 0}, high{0, 0, 0};     // m, corners of the box that their centres appear in
+    Vec3 low{0, 0, 0}, high{0, 0, 0};     // m, corners of the box in which their centres appear
     Vec3 velocity{0, 0, 0};               // m/s
-    std::int64_t due(double time) const;  // grains up to this time, s
+    std::int64_t due(double time) const;  // grains that have come up to this time (s)
     bool operator==(const Feed&) const = default;
 };
 
@@ -279,23 +285,23 @@ struct Start {
     Method method = Method::layers;
     std::string file;         // path: checkpoint of an earlier run, or its final.csv
     bool keep_clock = false;  // go on at the file's step and phase; needs a checkpoint, same step and drive
-    double settle_limit = 5;  // s, of settling at most
+    double settle_limit = 5;  // s, the longest time of settling
     double settle_damping = 10;       // 1/s, extra drag on every grain while settling only; 0 for none
     std::optional<double> rain_rate;  // 1/s; the plan chooses it when empty
-    std::optional<Region> region;     // to pack the grains in; the container's room when empty
-    std::vector<ListedGrain> grains;  // with `grains`
+    std::optional<Region> region;     // box in which to pack the grains; the container's room when empty
+    std::vector<ListedGrain> grains;  // with the method `grains`
     // Whether the grains are packed and settled before the drive starts.
     bool packs() const { return method == Method::layers || method == Method::rain; }
     bool operator==(const Start&) const = default;
 };
 
-// How the step is made; see engine/step/motion/scheme.hpp.
+// The method that makes the step; see engine/step/motion/scheme.hpp.
 enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth, gear };
 
-// What stiffness, step and corrections are by default; docs/reference/accuracy.md has what each costs.
+// The default level for stiffness, step and corrections; docs/reference/accuracy.md has what each costs.
 enum class Accuracy { draft, standard, reference };
 
-// Mixed: contact laws, their histories and relative motion in single precision, all else in double.
+// mixed: contact laws, their histories and relative motion in single precision, all else in double.
 enum class Precision { full, mixed };
 
 struct Run {
@@ -307,7 +313,7 @@ struct Run {
     double overlap = 0.01;  // wanted largest overlap over the smaller diameter
     Integrator integrator = Integrator::velocity_verlet;
     Precision precision = Precision::full;
-    bool contact_corrections = false;      // of onset, peak and exit (Walton-Braun)
+    bool contact_corrections = false;      // for onset, peak and exit (Walton-Braun)
     std::optional<int> steps_per_contact;  // the plan chooses by restitution when empty
     bool operator==(const Run&) const = default;
 };
@@ -320,20 +326,21 @@ struct Output {
     bool orientation = false;                 // keep orientations in the trajectory
     bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
-    // Keep the moments of the film's pictures in film_moments.nc; where they are few when empty.
+    // Keep the moments of the film's pictures in film_moments.nc. When empty, they are kept if they are
+    // few.
     std::optional<bool> film_moments;
-    AlsoFormats also;  // formats of other programs that the run leaves too
-    // Bytes of all checkpoints that are kept of a run's way; none are kept when empty.
+    AlsoFormats also;  // formats of other programs that the run also writes
+    // Largest size (bytes) of all checkpoints that are kept along the run; none are kept when empty.
     std::optional<std::int64_t> checkpoints = 64'000'000;
-    std::vector<std::string> instruments;  // what is measured beside the usual columns
+    std::vector<std::string> instruments;  // names of what is measured beside the usual columns
     FieldOutput fields;
     bool operator==(const Output&) const = default;
 };
 
-// What others, a film for instance, want of a run beside what [output] asks for.
+// What a film, for instance, needs from a run beside what [output] asks for.
 struct Wishes {
-    std::vector<std::string> instruments;  // measured too
-    bool orientation = false;              // kept, in frames and files
+    std::vector<std::string> instruments;  // also measured
+    bool orientation = false;              // also kept, in frames and files
     bool operator==(const Wishes&) const = default;
 };
 
@@ -356,27 +363,27 @@ struct Scene {
     // The tables of [film] as TOML. The engine keeps them as they are; render/scene reads them.
     std::string film_text;
 
-    // As far as the reader was told.
+    // Filled as far as the reader knew what can be measured.
     Measurable measurable;
 
-    // What the reader took in place of what was written, for the user to know.
+    // What the reader took in place of what was written, as notes to the user.
     std::vector<std::string> notes;
 
-    // Where each value was written, by its key path ("species[1].count"); for messages found later than
-    // reading.
+    // Where each value was written, by its key path ("species[1].count"), for messages about mistakes that
+    // are found after reading.
     std::string file;
     std::map<std::string, Location> written;
-    // "file:line:column" of the key, of its nearest written parent, or of the file's first line; the option
-    // that said it, "--size".
+    // "file:line:column" of the key, of its nearest written parent, or of the file's first line; for a
+    // value from an option, the option: "--size".
     std::string where(const std::string& key) const;
 
     const SceneMesh* mesh_named(const std::string& mesh) const;             // null where there is none
-    const SceneMesh* vessel() const { return mesh_named(container.mesh); }  // null but with Shape::mesh
+    const SceneMesh* vessel() const { return mesh_named(container.mesh); }  // null except with Shape::mesh
 
-    std::int64_t grains() const;  // all that there are in the course of the run
+    std::int64_t grains() const;  // number of all grains in the course of the run
     std::int64_t grains_at_start() const;
     bool keeps_orientations() const { return output.orientation || wishes.orientation; }
-    // Those of [output] and those that are wished for, each once.
+    // The instruments of [output] and those that are wished for, each once.
     std::vector<std::string> instruments() const;
     const PairContact& between(std::size_t a, std::size_t b) const {
         return contact.grain[a * species.size() + b];

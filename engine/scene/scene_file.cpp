@@ -20,7 +20,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::size_t most_of_a_path = 400;  // characters, in a message
+constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
     throw UserError(fmt::format("{}: {}", excerpt(file.string(), most_of_a_path), what));
@@ -32,7 +32,7 @@ std::string advice_for_missing(const std::filesystem::path& file) {
                  : "give the path of a scene file (.toml)";
 }
 
-// Whether it is a pipe.
+// Returns whether the file is a pipe. Throws where it is no file that can be read.
 bool check_kind(const std::filesystem::path& file, Pipes pipes) {
     using Type = std::filesystem::file_type;
     std::error_code ignored;
@@ -59,7 +59,8 @@ struct Closing {
     ~Closing() { ::close(file); }
 };
 
-// Until something comes through the pipe, or it ends. Whoever wants the program to stop is heard meanwhile.
+// Waits until something comes through the pipe, or it ends. A signal to stop the program is heeded
+// meanwhile.
 void wait_for(const std::filesystem::path& file, int pipe) {
     pollfd waiting{pipe, POLLIN, 0};
     if (::poll(&waiting, 1, -1) < 0) fail(file, "this is a pipe, and waiting for it was stopped");
@@ -91,7 +92,7 @@ std::string load_scene_file(const std::filesystem::path& file, Pipes pipes) {
 
 namespace {
 
-// It is the film's title and its folder's name when the scene has no other.
+// Checks the file's name, which becomes the film's title and the folder's name when the scene has no other.
 void check_name(const std::filesystem::path& file) {
     const std::string wrong = complaint_of_utf8(file.filename().string());
     if (!wrong.empty()) throw UserError(fmt::format("{}; rename the file", wrong));
@@ -222,7 +223,7 @@ std::string name_for(const fs::path& file, const std::vector<KeptFile>& taken) {
     return name;
 }
 
-// The name that a file has, which is kept from here on.
+// Adds a file to the kept ones and returns the name that it has there.
 std::string keep(const std::string& file, const std::string& hash, std::vector<KeptFile>& kept) {
     const fs::path path = file;
     if (file.empty() || path.filename().string().starts_with("shipped:")) return file;

@@ -1,4 +1,4 @@
-// The keys above all tables, and what several chapters need.
+// The keys above all tables, and functions that several chapters need.
 #include "engine/scene/chapters/chapters.hpp"
 
 #include <cmath>

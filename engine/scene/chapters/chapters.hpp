@@ -1,4 +1,4 @@
-// The chapters of a scene. Each adds its keys to the list of all, reads them and writes them back. The
+// The chapters of a scene. Each adds its keys to the list of all keys, reads them and writes them back. The
 // chapters of [film] are in render/scene/keys. Internal to the reader and the writer.
 #pragma once
 
@@ -25,7 +25,7 @@ void list_species(keys::Keys& all);
 void read_species(Document& document, Scene& scene, TableReader* further);
 void write_species(SceneText& out, const Scene& scene);
 
-// Written with the reasons for each stiffness.
+// [contact] is written with the reasons for each stiffness.
 void list_contact(keys::Keys& all);
 void read_contact(Document& document, Scene& scene);  // after species and meshes
 void write_contact(SceneText& out, const Scene& scene, const Reasons& reasons);
@@ -52,7 +52,7 @@ void write_grains(SceneText& out, const Scene& scene);
 
 void list_feeds(keys::Keys& all);
 void read_feeds(Document& document, Scene& scene);  // after species and container
-void count_fed(Document& document, Scene& scene);   // how many grains they give; after the run
+void count_fed(Document& document, Scene& scene);   // how many grains feeds give; after the run
 void write_feeds(SceneText& out, const Scene& scene);
 
 void list_drive(keys::Keys& all);
@@ -63,7 +63,7 @@ void list_start(keys::Keys& all);
 void read_start(Document& document, Scene& scene);  // after container and grains
 void write_start(SceneText& out, const Scene& scene);
 
-// [run] and [output]. Written with the reason for the step.
+// [run] and [output] are written with the reason for the step.
 void list_run(keys::Keys& all);
 void read_run(Document& document, Scene& scene);  // after the contacts
 void write_run(SceneText& out, const Scene& scene, const Reasons& reasons);
@@ -73,20 +73,20 @@ void list_fields(keys::Keys& all);
 void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains
 void write_fields(SceneText& out, const Scene& scene);
 
-// Finds the box that each mesh moves in, when all else is read.
+// Finds the box that each mesh moves in, when all else has been read.
 void measure_meshes(Scene& scene);
 
-// Gives empty space the size of what happens in it, after that.
+// Then gives empty space the size of what happens in it.
 void size_empty_space(Scene& scene);
 
-// What can be wrong between keys that are right by themselves. Throws UserError.
+// Checks what can be wrong between keys that are right by themselves. Throws UserError.
 void check_scene(const Scene& scene);
 void check_meshes(const Scene& scene);  // the same for meshes, exits and turning containers
 
-// What is likely a slip in a mesh's size, as lines for the user.
+// Warnings of likely slips in a mesh's size, as lines for the user.
 std::vector<std::string> doubts_of_meshes(const Scene& scene);
 
-// Whether a species of this number and name is that of a feed, before the feeds are read.
+// Whether a species of this number and name comes from a feed; for use before the feeds are read.
 bool is_fed(Document& document, std::size_t number, const std::string& name);
 
 // The species that a key names, or the first one. Throws UserError where there is none of that name.
@@ -98,19 +98,19 @@ void make_unit(const Document& document, const std::string& path, Vec3& directio
 // Throws UserError where the box of a table with 'low' and 'high' has no room.
 void check_corners(const Document& document, const std::string& table, const Vec3& low, const Vec3& high);
 
-// A reader of tables that the engine keeps only as text, such as [film]. It reads them from the same
-// document, so that messages name lines, and the first mistake of the file is told first.
+// Reads tables that the engine keeps only as text, such as [film]. It reads them from the same document, so
+// messages name lines, and the first mistake in the file is reported first.
 class TableReader {
   public:
     virtual ~TableReader() = default;
 
-    // All keys that the file may have, the engine's among them.
+    // All keys that the file may have, including the engine's.
     virtual const std::vector<Key>& keys() const = 0;
-    // What one species has for it. The engine has read that species.
+    // Reads what one species has for this reader. The engine has read that species.
     virtual void read_species(Document& document, std::size_t species) = 0;
-    // Its tables. The engine has read all of its own.
+    // Reads the tables of this reader. The engine has read all of its own.
     virtual void read_tables(Document& document) = 0;
-    // What can be wrong between keys that are right by themselves. Throws UserError.
+    // Checks what can be wrong between keys that are right by themselves. Throws UserError.
     virtual void check() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What can be wrong between values that are right by themselves.
+// Checks what can be wrong between values that are right by themselves.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,26 +24,26 @@ namespace grainreel {
 
 namespace {
 
-// The densest share of the container that growing spheres in layers reaches without jamming: random packings
-// of equal spheres end at 0.64, and one that can still be sheared near 0.55.
+// The largest solid share of the container that spheres growing in layers reach without jamming. Random
+// packings of equal spheres end at 0.64, and one that can still be sheared ends near 0.55.
 constexpr double most_solid = 0.55;
 constexpr double closest_packing = 0.64;  // of equal spheres at random
 
-// Over the largest diameter. From two on, no grain touches two images of another; half a diameter more is
-// what lists of neighbours may reach beyond contact.
+// Shortest period over the largest diameter. From two on, no grain touches two images of another; the other
+// half diameter is for neighbour lists, which may reach that far beyond contact.
 constexpr double shortest_period = 2.5;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
     throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
 }
 
-// As one reads it: "big " and "big" look alike.
+// The name as a reader sees it: "big " and "big" look alike.
 std::string trimmed(const std::string& name) {
     const auto first = name.find_first_not_of(' ');
     return first == std::string::npos ? "" : name.substr(first, name.find_last_not_of(' ') - first + 1);
 }
 
-// Names that differ in commas or quotes alone would share their columns of measures.csv.
+// Names that differ only in commas or quotes would share their columns of measures.csv.
 void check_columns(const Scene& scene) {
     std::set<std::string> columns;
     for (const MeasureColumn& column : scene.measurable.columns)
@@ -140,7 +140,7 @@ void check_grain_sizes(const Scene& scene) {
     }
 }
 
-// m3, of the grains that are there at the start.
+// Volume (m3) of the grains that are there at the start.
 double solid_at_start(const Scene& scene) {
     Scene start = scene;
     for (Species& species : start.species) species.fed = 0;
@@ -174,7 +174,7 @@ void check_room(const Scene& scene) {
                         room, 100 * most_solid));
 }
 
-// All that a feed is to give must find room, unless grains leave.
+// The grains of all feeds must find room, unless grains leave.
 void check_feeds(const Scene& scene) {
     if (scene.feeds.empty() || scene.container.shape == Container::Shape::none || !scene.exits.empty())
         return;
@@ -188,7 +188,7 @@ void check_feeds(const Scene& scene) {
             scene.where("feed"), scene.grains(), 100 * solid / room, room, 100 * closest_packing));
 }
 
-// Layers are to lie on something.
+// Layers need something to lie on.
 void check_gravity(const Scene& scene) {
     const bool held = scene.container.lid || !scene.walls.empty() || !scene.meshes.empty();
     if (scene.start.method != Start::Method::layers || held || scene.gravity.z() <= 0) return;
@@ -229,13 +229,13 @@ void check_scene(const Scene& scene) {
     check_wall_grains(scene);
 }
 
-// What can be wrong with meshes, exits and turning containers that are right by themselves.
+// Checks of meshes, exits and turning containers that are right by themselves.
 
 namespace {
 
 using Shape = Container::Shape;
 
-// Faces of containers and trays, whatever the container; a mesh of such a name would share their columns.
+// Faces of containers and trays, for any container. A mesh of such a name would share their columns.
 constexpr std::array<std::string_view, 10> kFaces{
     "wall", "floor", "lid", "left wall", "right wall", "left slant", "right slant", "back", "front", "tray"};
 
@@ -243,7 +243,7 @@ std::string key_of(std::size_t mesh, const char* name) {
     return fmt::format("mesh[{}].{}", mesh, name);
 }
 
-// Who else has a mesh's name; empty: nobody.
+// What else has the name of this mesh; empty when nothing has.
 std::string holder_of(const Scene& scene, std::size_t mesh) {
     std::string name = scene.meshes[mesh].name;
     std::replace(name.begin(), name.end(), '_', ' ');
@@ -284,7 +284,7 @@ void check_paths(const Scene& scene) {
     }
 }
 
-// What neither turning walls nor meshes go together with.
+// Refuses what cannot stand beside meshes.
 void check_company(const Scene& scene) {
     const Container& c = scene.container;
     if (c.periodic_depth && !scene.meshes.empty())

@@ -1,5 +1,5 @@
-// Laws and the numbers of every kind of contact: [contact], what [contact.wall] changes of it, and what
-// [[contact.pair]] changes of those.
+// Laws and numbers of every kind of contact: [contact], what [contact.wall] changes in it, and what
+// [[contact.pair]] changes in both.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,13 +20,13 @@ using namespace keys;
 const ChoiceWords<LeverArms> arms_words{{"contact-plane", LeverArms::contact_plane},
                                         {"radius", LeverArms::radius}};
 
-// What the tables say of one kind of contact, before defaults.
+// What the tables say about one kind of contact, before defaults are filled in.
 struct PairText {
-    PairContact value;                        // its laws are settled, all else is in:
-    std::map<std::string, PairContact> said;  // by the name of a key, a contact that has its value
+    PairContact value;                        // has the laws only; all other values are in `said`
+    std::map<std::string, PairContact> said;  // for each key, a contact that has its value
 };
 
-// Combinations that have no meaning.
+// Refuses combinations of laws that have no meaning.
 void check_laws(const Document& document, const PairContact& pair, const std::string& table) {
     const bool hertz = pair.normal == NormalLaw::hertz;
     const std::string key = table + (document.has(table + ".friction_law") ? ".friction_law" : ".law");
@@ -61,8 +61,8 @@ void take_back_restitution(const Document& document, const std::string& table, P
         for (const char* name : {"normal_damping", "restitution_table"}) pair.said.erase(name);
 }
 
-// A table that changes the normal law also gets the friction law that suits it, unless friction was turned
-// off.
+// A table that changes the normal law also changes to the friction law that suits it, unless friction was
+// turned off.
 void settle_laws(const Document& document, const std::string& table, PairText& pair) {
     const bool none = pair.said.contains("friction_law") && pair.value.tangential == TangentialLaw::none;
     if (document.has(table + ".law") && !none) pair.said.erase("friction_law");
@@ -73,7 +73,7 @@ bool is_law(const BoundKey<PairContact>& bound) {
     return bound.turn < 0;
 }
 
-// Adds what a table says.
+// Adds what a table says about the contact.
 void read_pair(Document& document, const Scene& scene, const std::string& table, PairText& pair) {
     settle_laws(document, table, pair);
     const auto& all = contact_table().in_order_of_reading();
@@ -95,7 +95,7 @@ void read_pair(Document& document, const Scene& scene, const std::string& table,
         if (!is_law(bound)) read(bound);
 }
 
-// Defaults filled in, and what the laws do not use left out: two contacts that act alike are then equal.
+// Fills in defaults and leaves out what the laws do not use, so that two contacts that act alike are equal.
 PairContact resolved(const PairText& text, const Scene& scene) {
     PairContact pair;
     pair.normal = text.value.normal;
@@ -112,8 +112,8 @@ PairContact resolved(const PairText& text, const Scene& scene) {
     return pair;
 }
 
-// Whom an exception is about: the index of a species; the number of species for "wall"; behind it the meshes
-// in their order.
+// The two that an exception is about. A number is the index of a species; the number of species means
+// "wall", and the meshes follow in their order.
 struct Partners {
     std::size_t one = 0, other = 0;
 };
@@ -159,7 +159,7 @@ const KeyTable<Partners>& partners_table() {
     return table;
 }
 
-// What all contacts have in common.
+// The keys that all contacts have in common.
 const KeyTable<Contact>& common_table() {
     static const KeyTable<Contact> table{
         choice("arms", &Contact::arms, arms_words, initial(),
@@ -168,7 +168,7 @@ const KeyTable<Contact>& common_table() {
     return table;
 }
 
-// What only contacts with glued grains have.
+// The keys that only contacts with glued grains have.
 constexpr std::array keys_of_glued = {"glued_stiffness", "glued_modulus"};
 
 void refuse_glued(const Document& document, const std::string& table, const char* reason) {
@@ -223,7 +223,7 @@ void read_exceptions(Document& document, const Scene& scene, ContactText& contac
     for (const auto& [table, partners] : of_meshes) read_exception(document, scene, table, partners, contact);
 }
 
-// Above the stiffness of that kind of contact, where there is one.
+// Puts the reason above the stiffness of that kind of contact, where there is one.
 void put_reason(SceneText& out, const std::string& key, const std::vector<std::string>& reasons,
                 std::size_t kind) {
     if (kind < reasons.size() && !reasons[kind].empty())

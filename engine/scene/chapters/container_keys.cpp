@@ -28,13 +28,13 @@ const ChoiceWords<Shape> shape_words{{"wedge", Shape::wedge},
                                      {"none", Shape::none}};
 const ChoiceWords<bool> top_words{{"lid", true}, {"open", false}};
 
-// Neither is there where the container's shape comes from a file.
+// Says why keys about the container mean nothing without a container, or where its shape comes from a mesh.
 const char* without_container(const C& container) {
     if (container.shape == Shape::mesh) return "the mesh that 'mesh' names says the container's whole shape";
     return container.shape == Shape::none ? "there is no container" : nullptr;
 }
 
-// What says why a key means nothing: `reason` unless the container is one of `shapes`.
+// Makes the function that says why a key means nothing: `reason` unless the container is one of `shapes`.
 BoundKey<C>::Useless only_of(std::initializer_list<Shape> shapes, const char* reason) {
     return [shapes = std::vector<Shape>(shapes), reason](const C& container) -> const char* {
         if (const char* none = without_container(container)) return none;
@@ -95,7 +95,7 @@ BoundKey<C> mesh_key() {
         });
 }
 
-// The scene says twice of what is kept.
+// A width in the scene is twice the value that is kept.
 BoundKey<C> width(const char* name, Fallback fallback, const char* about) {
     return bound_by<C>(
                quantity(name, Dimension::length, positive, std::move(fallback), about),
@@ -108,8 +108,8 @@ BoundKey<C> width(const char* name, Fallback fallback, const char* about) {
         .needed();
 }
 
-// Another way to say the height of a wedge's slants, which is what is kept and written. The half-width and
-// the angle are known before.
+// Reads the floor's width, another way to give the height of a wedge's slants; the height is kept and
+// written. The half-width and the angle have been read before.
 BoundKey<C> floor_width_key() {
     const auto read = [](Document& document, const Scene&, const std::string& path, C& container) {
         if (!document.has(path)) document.fail_missing("container.slant_height");
@@ -133,7 +133,7 @@ BoundKey<C> floor_width_key() {
         .never_written();
 }
 
-// In the order of reading and writing: slanted walls, width, depth, then what every shape has.
+// The order of reading and writing: slanted walls, width, depth, then keys of every shape.
 enum Place { of_slant = 1, of_width, of_depth, of_all };
 
 const KeyTable<C>& container_table() {
@@ -184,7 +184,7 @@ const KeyTable<C>& container_table() {
     return table;
 }
 
-// The sizes of a mesh's room. Half-width and depth are the largest of its levels.
+// Finds the sizes of a mesh's room. Half-width and depth are the largest of all its levels.
 void measure_room(const Document& document, const Scene& scene, C& c) {
     constexpr int levels = 64;
     c.room.of = room_of(scene.vessel()->surface.of);

@@ -11,7 +11,7 @@ namespace grainreel {
 
 const keys::KeyTable<BodyTurn>& turn_table();
 
-// Throws UserError where the value is no table, or makes no turn.
+// Throws UserError where the value is no table, or does not describe a turn.
 BodyTurn read_turn(Document& document, const Scene& scene, const std::string& path);
 
 // A key `turn` whose value is a table, kept in `member`.
@@ -30,7 +30,7 @@ keys::BoundKey<T> turn_key(std::optional<BodyTurn> T::*member, const char* about
 
 // The keys of container.outlet. Internal to [container].
 
-// Called after all that says the container's size.
+// The key is read after all that gives the container's size.
 keys::BoundKey<Container> outlet_key();
 
 // Throws UserError where an outlet does not suit its container or the grains.
@@ -38,7 +38,7 @@ void check_outlet(const Scene& scene);
 
 // The keys of container.tray. Internal to [container].
 
-// Called after the outlet.
+// The key is read after the outlet.
 keys::BoundKey<Container> tray_key();
 
 // Throws UserError where a tray does not suit its container.
@@ -46,13 +46,14 @@ void check_tray(const Scene& scene);
 
 // The keys of container.wall_grains. Internal to [container].
 
-// Called after all that says the container's size.
+// The key is read after all that gives the container's size.
 keys::BoundKey<Container> wall_grains_key();
 
 // Throws UserError where glued grains do not suit their container.
 void check_wall_grains(const Scene& scene);
 
-// Whether a species of this number and name is that of the glued grains, before the container is read.
+// Whether a species of this number and name is that of the glued grains; for use before the container is
+// read.
 bool is_glued(Document& document, std::size_t number, const std::string& name);
 
 }  // namespace grainreel

@@ -21,7 +21,7 @@ using namespace keys;
 const ChoiceWords<Drive::Moves> moves_words{{"container", Drive::Moves::container},
                                             {"floor", Drive::Moves::floor}};
 
-// Another way to say the amplitude, which is what is kept and written.
+// Another way to give the amplitude; the amplitude is kept and written.
 BoundKey<Drive> g_level_key() {
     const auto read = [](Document& document, const Scene& scene, const std::string& path, Drive& drive) {
         const double omega = 2 * std::numbers::pi * drive.frequency, gravity = scene.gravity.norm();
@@ -106,7 +106,8 @@ Motion last_motion(const Drive& drive) {
     return {drive.frequency, drive.amplitude};
 }
 
-// Another way to say the amplitude, which is what is kept and written. Without either the acceleration stays.
+// Another way to give a stage's amplitude; the amplitude is kept and written. Without either key the stage
+// keeps the acceleration of the last one.
 BoundKey<DriveStage> stage_g_level_key() {
     const auto read = [](Document& document, const Scene& scene, const std::string& path, DriveStage& stage) {
         if (stage.amplitude > 0 || stage.kind == Kind::rest) return;
@@ -229,7 +230,8 @@ void check_order(const Scene& scene) {
                         first, grown));
 }
 
-// Each change must be over when the next stage begins, and each stage must have a tap or a period left.
+// Checks that each change is over when the next stage begins, and that a tap or a period is left of each
+// stage.
 void check_lengths(const Scene& scene) {
     const std::vector<DriveStage>& stages = scene.drive.stages;
     const DriveSchedule schedule(scene.drive);
@@ -256,7 +258,7 @@ void check_lengths(const Scene& scene) {
 bool last_stage_counts(const Scene& scene) {
     const DriveStage& last = scene.drive.stages.back();
     const double end = scene.run.duration;
-    if (last.from <= 0) return true;  // it is the drive
+    if (last.from <= 0) return true;  // the stage takes the drive's place
     if (!clearly_less(last.from, end)) return false;
     const double settled = DriveSchedule(scene.drive).settled(scene.drive.stages.size());
     const double tap = last.kind == DriveStage::Kind::taps ? 1 / last.frequency : 0;
@@ -269,7 +271,7 @@ std::size_t shorten_stages(Scene& scene) {
     std::vector<DriveStage>& stages = scene.drive.stages;
     const std::size_t before = stages.size();
     const auto in_order = [](const DriveStage& a, const DriveStage& b) { return a.from <= b.from; };
-    if (!std::is_sorted(stages.begin(), stages.end(), in_order)) return 0;  // and will be refused
+    if (!std::is_sorted(stages.begin(), stages.end(), in_order)) return 0;  // a mistake that is refused later
     while (!stages.empty() && !last_stage_counts(scene)) stages.pop_back();
     return before - stages.size();
 }
@@ -286,8 +288,8 @@ bool begins_too_late(double from, const Scene& scene) {
     return !clearly_less(from, scene.run.duration);
 }
 
-// A feed stays, to be refused, where its species has no other grains: neither at the start nor from a feed
-// that begins in time.
+// Leaves out feeds that begin too late. A feed stays, and is refused later, where its species has no other
+// grains: neither at the start nor from a feed that begins in time.
 void shorten_feeds(Scene& scene) {
     std::vector<bool> has_others;
     for (const Species& species : scene.species) has_others.push_back(species.count > 0);

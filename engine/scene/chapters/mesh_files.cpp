@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The last few things made, each known by its hash.
+// Keeps the last few things made, each with its hash as key.
 template <class T, std::size_t Most>
 class LastMade {
   public:
@@ -52,7 +52,7 @@ std::string hash_with_placement(const SceneMesh& mesh) {
                        a.z(), mesh.rotation.angle);
 }
 
-// The hash that a scene says, as a run's scene does, is that of the file.
+// Checks that a file has the hash that the scene gives, as the scene in a run's folder does.
 void check_hash(const Document& document, const std::string& key, const std::string& file,
                 const std::string& said, const std::string& found) {
     if (said.empty() || said == found) return;
@@ -61,7 +61,7 @@ void check_hash(const Document& document, const std::string& key, const std::str
                                    excerpt(file, kLongestPath), found, said));
 }
 
-// What a reader of files says, at the place of the key that names the file.
+// Reads a file; an error gets the place of the key that names the file.
 template <class Read>
 auto at_key(const Document& document, const std::string& key, const Read& read) {
     try {
@@ -120,13 +120,13 @@ std::shared_ptr<const EnclosedRoom> room_of(const std::shared_ptr<const Surface>
     return rooms.with(surface->hash(), [&] { return std::make_shared<const EnclosedRoom>(surface); });
 }
 
-// The boxes that meshes move in.
+// The boxes in which meshes move.
 
 namespace {
 
-constexpr int kMoments = 64;  // of a motion that is looked at
+constexpr int kMoments = 64;  // of a motion, at which it is looked at
 
-// All vertices, or, where they are many, the corners of the box around them.
+// All vertices or, where they are many, the corners of the box around them.
 std::vector<Vec3> points_of(const Surface& surface) {
     constexpr std::size_t many = 20'000;
     if (surface.mesh().vertices.size() <= many) return surface.mesh().vertices;
@@ -137,7 +137,7 @@ std::vector<Vec3> points_of(const Surface& surface) {
     return corners;
 }
 
-// Each point goes round in a circle.
+// Adds the circles in which the points of a turning mesh move.
 void take_circles(const SceneMesh& mesh, Extent& extent) {
     const Vec3 &axis = mesh.turn->axis, &through = mesh.turn->through;
     const Vec3 reach = (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
@@ -167,7 +167,7 @@ void take_path(const SceneMesh& mesh, double duration, Extent& extent) {
     }
 }
 
-// Not much farther than it is large.
+// How far a mesh with a velocity goes, limited to a few times its size.
 Vec3 way_of(const SceneMesh& mesh, double duration) {
     constexpr double farthest = 5;
     Vec3 way = duration * mesh.velocity;

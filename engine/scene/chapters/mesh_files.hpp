@@ -9,18 +9,19 @@
 
 namespace grainreel {
 
-// The most letters of a path, as Linux has it.
+// The largest number of characters of a path, as on Linux.
 inline constexpr std::size_t kLongestPath = 4096;
 
-// The file that a key names, absolute. A relative one counts from the scene's folder. A checkpoint's scene
-// counts from the folder of its run, which is that of the checkpoint or one of the two above it. What the
-// program ships ("shipped:drum.stl") has no folder. Throws UserError where the name is not UTF-8, or names no
-// file.
+// The file that a key names, as an absolute path. A relative path counts from the scene's folder. For a
+// checkpoint's scene it counts from the folder of its run, which is that of the checkpoint or one of the
+// two above it. A file that the program ships ("shipped:drum.stl") has no folder. Throws UserError where
+// the name is not UTF-8, or where there is no such file.
 std::string named_file(Document& document, const Scene& scene, const std::string& path);
 
-// The surface of a mesh whose file and placement are read, and the hash of its file. Surfaces that are alike
-// are one, and the last few stay in memory, since a scene may be read several times in a row. Throws
-// UserError at the key `file` where the file cannot be used, or is not the one that mesh.hash says.
+// Loads the surface of a mesh whose file and placement have been read, and the hash of its file. Equal
+// surfaces are kept once, and the last few stay in memory, since a scene may be read several times in a
+// row. Throws UserError at the key `file` where the file cannot be used, or where its hash is not
+// mesh.hash.
 void load_surface(const Document& document, const std::string& table, SceneMesh& mesh);
 
 // Loads the path of a mesh in the same way. Throws UserError at the key `path`.

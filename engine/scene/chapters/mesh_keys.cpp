@@ -54,7 +54,7 @@ BoundKey<M> file_key(const char* name, std::string M::*member, Fallback fallback
                        [member](const M& mesh, const Scene&) {
                            return (mesh.*member).empty() ? std::string() : quoted(mesh.*member);
                        })
-        .decides_nothing();  // its hash does
+        .decides_nothing();  // the file's hash decides instead
 }
 
 BoundKey<M> hash_key(const char* name, std::string M::*member, const char* about) {
@@ -102,7 +102,7 @@ bool is_vessel(Document& document, const M& mesh) {
     return document.has("container.mesh") && document.text("container.mesh") == mesh.name;
 }
 
-// How a mesh moves is said once.
+// A mesh may have only one kind of motion.
 void settle_motion(Document& document, const std::string& table, M& mesh) {
     struct Motion {
         const char* key;

@@ -1,4 +1,4 @@
-// The keys of container.outlet and container.tray, and what they must keep to.
+// The keys of container.outlet and container.tray, and their checks.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 using namespace keys;
 using Shape = Outlet::Shape;
 
-// The size of a slot or of a hole, across.
+// The key of the size of a slot or of a hole, across.
 BoundKey<Outlet> size(const char* name, Shape shape, const char* about) {
     return bound_by<Outlet>(
         quantity(name, Dimension::length, positive, note("one of the two"), about),

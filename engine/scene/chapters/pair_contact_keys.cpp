@@ -10,8 +10,8 @@ namespace {
 
 using namespace keys;
 
-constexpr double spring_ratio = 2.0 / 7;  // of linear-spring: equal periods in both directions for a sphere
-constexpr double mindlin_ratio = 2 * (1 - 0.3) / (2 - 0.3);  // of Mindlin, at Poisson's ratio 0.3
+constexpr double spring_ratio = 2.0 / 7;  // for linear-spring: equal periods in both directions for a sphere
+constexpr double mindlin_ratio = 2 * (1 - 0.3) / (2 - 0.3);  // for Mindlin, at Poisson's ratio 0.3
 
 using Reason = const char*;
 
@@ -94,7 +94,7 @@ BoundKey<PairContact> restitution_table_key() {
     return bound;
 }
 
-// In the written scene: the laws, how much is lost, the springs, then friction.
+// The order in a written scene: laws, losses, springs, friction.
 enum Place { of_laws, of_losses, of_springs, of_rubbing };
 
 Fallback of_the_pair() {

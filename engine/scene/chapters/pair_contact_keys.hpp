@@ -7,7 +7,7 @@ namespace grainreel {
 
 const keys::KeyTable<PairContact>& contact_table();
 
-// Each normal law has a tangential one that suits it.
+// The tangential law that suits a normal law.
 TangentialLaw suiting(NormalLaw law);
 
 }  // namespace grainreel

@@ -20,7 +20,8 @@ namespace {
 
 using namespace keys;
 
-// Corrections need a spring of constant slopes, and the velocities of velocity Verlet.
+// Whether contact corrections are possible: they need a spring of constant slopes, and the velocities of
+// velocity Verlet.
 bool correctable(const Contact& contact, Integrator integrator) {
     const auto constant = [](const PairContact& pair) {
         return pair.normal == NormalLaw::walton_braun && !pair.restitution_speed &&
@@ -36,7 +37,7 @@ void usual_overlap(Run& run, const Scene&) {
     if (run.accuracy == Accuracy::reference) run.overlap = 0.003;
 }
 
-enum Place { of_time, of_method };  // in the written scene
+enum Place { of_time, of_method };  // the order in a written scene
 
 const KeyTable<Run>& run_table() {
     using R = Run;
@@ -78,7 +79,7 @@ const KeyTable<Run>& run_table() {
                     correctable(scene.contact, run.integrator) && run.accuracy != Accuracy::draft;
             })
             .written_at(of_method),
-        // The plan has made a step of it.
+        // It is not written, because the plan has turned it into a step.
         integer("steps_per_contact", &R::steps_per_contact, 4, 1000000,
                 note("12 or more by restitution; 45 with a dashpot or a restitution above 0.9976; by "
                      "`accuracy`"),
@@ -216,9 +217,9 @@ namespace {
 
 using namespace keys;
 
-// A cell must not miss a grain: the least kernel ends three widths away, and the middle of a cell is at most
+// No cell may miss a grain: the smaller kernel ends three widths away, and the middle of a cell is at most
 // 0.87 of its side away.
-constexpr double largest_cell = 2;  // widths
+constexpr double largest_cell = 2;  // in widths
 
 const char* without_fields(const FieldOutput& fields) {
     return fields.wanted() ? nullptr : "without a 'grid' no fields are kept";
@@ -229,9 +230,9 @@ const char* beside_phase(const FieldOutput& fields) {
     return fields.phase ? "a 'phase' has one moment in each period" : nullptr;
 }
 
-// Mean over the grains at the start and those that the feeds give in a second. How many come in all depends
-// on the run's end, and a run that is made longer has the same grid as one that was so long from the
-// beginning.
+// The mean diameter over the grains at the start and those that feeds give in a second. The total number of
+// fed grains is not used, because it depends on the run's end: a run that is made longer later must have
+// the same grid as one of that length from the beginning.
 double usual_diameter(const Scene& scene) {
     std::vector<double> grains;
     for (const Species& species : scene.species) grains.push_back(static_cast<double>(species.count));

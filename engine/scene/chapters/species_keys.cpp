@@ -24,7 +24,7 @@ const char* beside_ends(const SizeSpread& spread) {
     return spread.kind == Spread::uniform ? "'min' and 'max' say the spread" : nullptr;
 }
 
-// Keys of a diameter that is a table.
+// The keys of a diameter that is a table.
 const KeyTable<SizeSpread>& spread_table() {
     using S = SizeSpread;
     const auto length = [](const char* name, double S::*member, const char* about) {
@@ -78,7 +78,7 @@ void read_count(Document& document, const Scene& scene, const std::string& path,
     species.count = count.value_or(0);
 }
 
-// Another way to say the density, which is what is kept and written.
+// Another way to give the density; the density is kept and written.
 void read_mass(Document& document, const Scene&, const std::string& path, Species& species) {
     const auto mass = document.quantity(path);
     if (!mass) return;

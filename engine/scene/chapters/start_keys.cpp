@@ -21,7 +21,7 @@ using Method = Start::Method;
 const ChoiceWords<Method> method_words{
     {"layers", Method::layers}, {"rain", Method::rain}, {"file", Method::file}, {"grains", Method::grains}};
 
-constexpr std::size_t longest_path = 4096;  // as Linux has it
+constexpr std::size_t longest_path = 4096;  // as on Linux
 
 const char* without_file(const Start& start) {
     return start.method != Method::file ? "the start is not from a file" : nullptr;
@@ -140,7 +140,7 @@ void read_start(Document& document, Scene& scene) {
     check_listed(document, start);
     if (start.grains.empty() && start.method == Method::grains)
         document.fail("start.method", "is \"grains\", but none is listed; write [[grain]] and its position");
-    // A box of one's own may lie on meshes or planes.
+    // A region may lie on meshes or planes.
     const bool none = scene.container.shape == Container::Shape::none && !start.region;
     if (start.method == Method::layers && none)
         document.fail(
@@ -178,7 +178,7 @@ BoundKey<ListedGrain> species_key() {
         });
 }
 
-enum Place { of_kind, of_motion };  // in the order of reading and writing
+enum Place { of_kind, of_motion };  // the order of reading and writing
 
 const KeyTable<ListedGrain>& grain_table() {
     using G = ListedGrain;
@@ -243,7 +243,8 @@ namespace {
 
 using namespace keys;
 
-constexpr double default_box = 3;  // its height over the largest diameter, below the container's top
+constexpr double default_box =
+    3;  // height of the default box over the largest diameter, below the container's top
 
 BoundKey<Feed> fed_species_key() {
     return bound_by<Feed>(
@@ -285,7 +286,7 @@ void settle_rate(Document& document, const std::string& path, Feed& feed) {
     feed.rate = static_cast<double>(*feed.count) / (*feed.until - feed.from);
 }
 
-// All across the container, below its top, unless the scene says where.
+// The default box is as wide as the container, below its top.
 void settle_box(Document& document, const Scene& scene, const std::string& path, Feed& feed) {
     const Container& c = scene.container;
     const bool low = document.has(path + ".low"), high = document.has(path + ".high");
@@ -305,7 +306,7 @@ void settle_box(Document& document, const Scene& scene, const std::string& path,
     }
 }
 
-// At the rest position of all walls.
+// Checks a feed's box, with all walls in their rest positions.
 void check_box(Document& document, const Scene& scene, const FreeSpace& space, const std::string& path,
                const Feed& feed) {
     if (scene.container.shape == Container::Shape::none) return;

@@ -1,4 +1,4 @@
-// The key of grains that are glued to walls (container.wall_grains), and what it must keep to.
+// The key of grains that are glued to walls (container.wall_grains), and its checks.
 #include "engine/scene/chapters/container_keys.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ using Shape = Container::Shape;
 
 constexpr double most_glued = 1e6;
 
-// As a scene names them; a face's own name has blanks.
+// Replaces characters: a scene writes names of faces with "_" where the face's own name has blanks.
 std::string with(std::string name, char from, char to) {
     std::replace(name.begin(), name.end(), from, to);
     return name;
@@ -120,7 +120,7 @@ void check_faces(const Scene& scene) {
     }
 }
 
-// No face is larger than this, m2.
+// An upper bound (m2) of the area of any face.
 double largest_face(const Container& c) {
     const double slope = c.shape == Shape::wedge ? c.slant_height / std::cos(c.half_angle) : 0;
     const double high = std::max({c.height, slope, 2 * c.half_width});
@@ -138,7 +138,7 @@ void check_number(const Scene& scene) {
                          layer.spacing, most, most_glued));
 }
 
-// m, of the largest free grain.
+// Diameter (m) of the largest free grain.
 double largest_free(const Scene& scene) {
     double largest = 0;
     for (const Species& species : scene.species)
@@ -146,9 +146,9 @@ double largest_free(const Scene& scene) {
     return largest;
 }
 
-// What lies between two sides of a container.
+// The space between two sides of a container.
 struct Room {
-    const char* key;  // that says how wide it is
+    const char* key;  // gives its width
     double size;      // m
     std::vector<std::string> one_side, other_side;
 };
@@ -167,7 +167,7 @@ std::vector<Room> rooms_of(const Container& c) {
     return rooms;
 }
 
-// A glued grain stands out by its radius. Between two sides there must be room for the largest free grain.
+// A glued grain stands out by its radius. Between two sides the largest free grain must have room.
 void check_room(const Scene& scene) {
     const W& layer = *scene.container.wall_grains;
     const double largest = scene.species[layer.species].diameter.largest, free = largest_free(scene);

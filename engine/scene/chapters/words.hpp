@@ -1,4 +1,4 @@
-// The words that scenes use for choices, once for the reader, the writer and the list of keys.
+// The words that scenes use for choices. The reader, the writer and the list of keys take them from here.
 #pragma once
 
 #include "engine/scene/keys/keys.hpp"

@@ -1,5 +1,5 @@
-// A key bound to the member of a struct. One entry says how it is called and documented, how it is read and
-// written, what it is when the scene says nothing, and beside which others it means nothing.
+// A key bound to the member of a struct. One entry gives its name and text, how it is read and written, its
+// value when the scene says nothing, and beside which other keys it means nothing.
 //
 //   quantity("zoom", &Camera::zoom, Dimension::number, magnification, initial(), "Over the automatic
 //   framing.")
@@ -17,12 +17,12 @@
 
 namespace grainreel::keys {
 
-// Stands for the value that a member has by itself.
+// The fallback that stands for the member's initial value.
 inline Fallback initial() {
     return {"", ""};
 }
 
-// As documented: numbers without ".0".
+// A value as documented: numbers without ".0".
 template <class V>
 std::string initial_text(const V& value) {
     return as_toml(value);
@@ -30,7 +30,7 @@ std::string initial_text(const V& value) {
 std::string initial_text(double value);
 std::string initial_text(const Vec3& value);
 
-// Nothing happens to the value where the key is not there.
+// Each of these leaves the value unchanged where the key is not there.
 void read_value(Document& document, const std::string& path, double& value);
 void read_value(Document& document, const std::string& path, bool& value);
 void read_value(Document& document, const std::string& path, int& value);
@@ -53,15 +53,16 @@ struct BoundKey {
     using Usual = std::function<void(T&, const Scene&)>;
 
     Key key;                     // its path is the name inside a table
-    Keys parts;                  // of a value that may be a table itself
-    bool must_be_there = false;  // wherever it means something
+    Keys parts;                  // keys of a value that may be a table itself
+    bool must_be_there = false;  // wherever the key means something
     Read read;
-    Write write;                                     // as TOML; empty: nothing
-    std::function<void(const T& from, T& to)> copy;  // of this one member
-    Useless useless;  // why the key means nothing beside what the others say; null: it does mean something
-    Usual usual;      // sets the member when the scene says nothing, by what the others say
+    Write write;                                     // value as TOML; empty: not written
+    std::function<void(const T& from, T& to)> copy;  // copies this one member
+    Useless
+        useless;  // says why the key means nothing beside the values of others; null: it does mean something
+    Usual usual;  // sets the member when the scene says nothing, from the values of others
     std::function<bool(const T&)> unwritten;
-    int turn = 0, line = 0;  // of reading and writing; those of the same number as they are listed
+    int turn = 0, line = 0;  // order of reading and of writing; keys with the same number go as listed
 
     BoundKey needed() const {
         return changed([](BoundKey& k) { k.must_be_there = true; });
@@ -97,7 +98,7 @@ struct BoundKey {
         return changed([&](BoundKey& k) { k.line = where; });
     }
     BoundKey placed_at(int place) const { return read_at(place).written_at(place); }
-    // The value may be a table with the keys of `table`.
+    // Adds that the value may be a table with the keys of `table`.
     template <class Table>
     BoundKey holding(const Table& table) const {
         return changed([&](BoundKey& k) { table.list(k.parts, k.key.path); });
@@ -158,7 +159,7 @@ BoundKey<T> text(const char* name, std::string T::*member, Fallback fallback, co
     return bound(entry(name, KeyKind::text, std::move(fallback), about), member);
 }
 
-// A Vec3, or one that may be missing.
+// A key for a Vec3, or for one that may be missing.
 template <class T, class V>
 BoundKey<T> vector(const char* name, V T::*member, Dimension dimension, Fallback fallback,
                    const char* about) {
@@ -194,7 +195,7 @@ class KeyTable {
                          [](const auto& a, const auto& b) { return a.line < b.line; });
     }
 
-    // Adds its keys to the list of all. inherited: in words, in place of each key's default.
+    // Adds its keys to the list of all keys. `inherited` is a text that replaces each key's default.
     void list(Keys& all, const std::string& table, const char* inherited = nullptr) const {
         const auto add = [&](Key key) {
             key.path = join_path(table, key.path);
@@ -207,7 +208,7 @@ class KeyTable {
         }
     }
 
-    // Throws UserError, as Document does; where a needed key is missing, too.
+    // Throws UserError as Document does, and where a needed key is missing.
     void read(Document& document, const Scene& scene, const std::string& table, T& into) const {
         for (const BoundKey<T>& bound : read_) {
             const std::string path = join_path(table, bound.key.path);
@@ -234,7 +235,7 @@ class KeyTable {
         return "{ " + text + " }";
     }
 
-    // A list of tables, [[name]], each an element more of `into`.
+    // Reads a list of tables, [[name]]; each adds an element to `into`.
     void read_elements(Document& document, const Scene& scene, const std::string& name,
                        std::vector<T>& into) const {
         for (std::size_t i = 0; i < document.size(name); ++i) {
@@ -255,7 +256,7 @@ class KeyTable {
     const std::vector<BoundKey<T>>& in_order_of_reading() const { return read_; }
 
   private:
-    // Names and values of what is written, in order.
+    // Names and values of the keys that are written, in order.
     std::vector<std::pair<std::string, std::string>> values(const Scene& scene, const T& from) const {
         std::vector<std::pair<std::string, std::string>> all;
         for (const BoundKey<T>& bound : written_) {

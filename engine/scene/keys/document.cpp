@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_of_parser = 200;  // characters of the parser's own message
 
-// toml++ says of such a byte only that it is unknown.
+// Checked here because toml++ says only that the character is unknown.
 void check_utf8(std::string_view text, const std::string& file) {
     const std::optional<std::size_t> bad = first_byte_not_utf8(text);
     if (!bad) return;
@@ -137,7 +137,8 @@ std::string Document::written_value(const toml::node& node) const {
     return excerpt(value);
 }
 
-// Whoever writes 90 means degrees: a phase without a unit is in turns, where whole ones say nothing.
+// A number without a unit is in turns, and a whole number of turns means nothing: who writes 90 means
+// degrees.
 void Document::check_bare_phase(const std::string& path, const toml::node& node) const {
     const double turns = node.value<double>().value_or(0);
     if (std::isfinite(turns) && std::abs(turns) > 1)
@@ -149,7 +150,8 @@ void Document::check_bare_phase(const std::string& path, const toml::node& node)
 
 namespace {
 
-// A bound, for what is beyond it by the rounding of a unit: a quarter of a turn is 90 degrees.
+// Moves a value that is beyond a bound only by the rounding of a unit to the bound: a quarter of a turn is
+// 90 degrees.
 double snapped(double value, const Range& range) {
     constexpr double rounding = 1e-12;
     for (const double bound : {range.low, range.high})
@@ -174,7 +176,7 @@ double Document::number_in(const std::string& path, const toml::node& node, cons
         value = *real;
     } else if (const auto text = node.value_exact<std::string>()) {
         try {
-            // A pure number has no example that suits every key.
+            // No one example suits every key that is a pure number.
             value =
                 parse_quantity(*text, key.dimension, key.dimension == Dimension::number ? key.example() : "");
             value = snapped(value, key.range);
@@ -226,7 +228,7 @@ std::optional<bool> Document::flag(const std::string& path) {
     return value;
 }
 
-// A name stands on a line of its own, in tables and in comments. U+0000 cuts text off wherever C reads it.
+// A name must fit on one line, in tables and in comments. U+0000 would cut text off wherever C reads it.
 void Document::check_characters(const std::string& path, const std::string& text) const {
     const bool a_name = name_of(path) == "name";
     const auto control = a_name                                 ? first_control_character(text)

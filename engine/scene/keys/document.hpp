@@ -1,5 +1,5 @@
-// A TOML file as the reader wants it: values by key path ("species[1].count"), checked against the list of
-// keys, every complaint with its place. Internal to the reader.
+// A TOML file for the reader: values by key path ("species[1].count"), checked against the list of keys;
+// every message has a place. Internal to the reader.
 #pragma once
 
 #include <toml++/toml.h>
@@ -22,35 +22,38 @@ namespace grainreel {
 
 class Document {
   public:
-    // `file` is the name used in messages; `keys`, which must live on, those that it may have. Throws
-    // UserError when the text is not UTF-8 or not TOML.
+    // `file` is the name in messages. `keys` are the keys that the file may have; they must outlive the
+    // document. Throws UserError when the text is not UTF-8 or not TOML.
     Document(std::string_view text, std::string file, const std::vector<Key>& keys = scene_keys());
 
-    // One assignment of the command line. A key that excludes others (g_level and amplitude), or that others
-    // belong to (the colour's map to what it stands for), removes them; [] and {} remove a list of tables and
-    // a table. Throws UserError when the place does not exist or the text is not UTF-8.
+    // Applies one assignment from the command line. A key that excludes others (g_level and amplitude)
+    // removes them; so does a key to which others belong (the colour's map belongs to the quantity it
+    // shows). [] and {} remove a list of tables and a table. Throws UserError when the place does not exist
+    // or the text is not UTF-8.
     void set(const Assignment& assignment);
 
-    // Takes a table out of the document and gives it as TOML, ready to stand in a scene file; empty where
+    // Takes a table out of the document and returns it as TOML, ready to stand in a scene file; empty where
     // there is none. Throws UserError when the key is no table.
     std::string take_out(const std::string& table);
-    // Throws at the first key that is not in the list, or is a table and should not be, or the other way
-    // round.
+    // Throws at the first key that is not in the list, that is a table and should be a value, or a value
+    // and should be a table.
     void check_keys() const;
     // Throws at the first key that nothing has read.
     void check_all_read() const;
 
     bool has(const std::string& path) const;
-    std::size_t size(const std::string& path) const;  // of an array; 0 when absent
-    bool is_table(const std::string& path) const;     // an inline table as a value
+    std::size_t size(const std::string& path) const;  // number of elements of an array; 0 when absent
+    bool is_table(const std::string& path) const;     // whether the value is an inline table
     bool is_array(const std::string& path) const;
     bool is_text(const std::string& path) const;
-    std::string written_value(const std::string& path) const;  // of a key that is there, as TOML, cut short
+    std::string written_value(
+        const std::string& path) const;  // value of a key that is there, as TOML, cut short
 
-    // The value of a key, in its dimension's unit; none when absent. Throw UserError when it is not of the
-    // key's kind or outside its range.
+    // The value of a key, in its dimension's unit; none when absent. These functions throw UserError when
+    // the value is not of the key's kind or outside its range.
     std::optional<double> quantity(const std::string& path);
-    std::optional<double> quantity(const std::string& path, Dimension dimension);  // that another key names
+    std::optional<double> quantity(const std::string& path,
+                                   Dimension dimension);  // with a dimension that another key gives
     std::optional<std::int64_t> integer(const std::string& path);
     std::optional<bool> flag(const std::string& path);
     std::optional<std::string> text(const std::string& path);  // also choices
@@ -63,8 +66,8 @@ class Document {
     std::optional<std::array<double, 2>> interval(const std::string& path, Dimension dimension);
     std::vector<std::string> name_list(const std::string& path);      // empty when absent
     std::vector<std::int64_t> integer_list(const std::string& path);  // as above
-    // Values of any kind as TOML writes them in one line, of which an assignment can be made. Empty when
-    // absent. Throw UserError when the key is not a list, or is one.
+    // Values of any kind as one line of TOML, from which an assignment can be made. Empty when absent.
+    // value_list throws UserError when the key is not a list, value when it is one.
     std::vector<std::string> value_list(const std::string& path);
     std::string value(const std::string& path);
     // A value of any kind as TOML; empty when absent.
@@ -73,11 +76,11 @@ class Document {
     double required_quantity(const std::string& path);
     std::string required_text(const std::string& path);
 
-    // "'path' <what>" at the key's place.
+    // Throws with "'path' <what>" at the key's place.
     [[noreturn]] void fail(const std::string& path, const std::string& what) const;
-    // "[table] lacks 'key', ..." at the place of the table.
+    // Throws with "[table] lacks 'key', ..." at the table's place.
     [[noreturn]] void fail_missing(const std::string& path) const;
-    // Throws when the key is there, because of `reason` ("a box has no slanted walls").
+    // Throws when the key is there, and gives `reason` ("a box has no slanted walls").
     void refuse(const std::string& path, const std::string& reason) const;
 
     const std::map<std::string, Location>& written() const { return written_; }
@@ -86,7 +89,7 @@ class Document {
 
   private:
     const toml::node* find(const std::string& path) const;
-    const toml::node* read(const std::string& path);  // find, and remember that it was read
+    const toml::node* read(const std::string& path);  // finds the value and remembers that it was read
     double number_in(const std::string& path, const toml::node& node, const Key& key) const;
     void check_characters(const std::string& path, const std::string& text) const;
     void check_bare_phase(const std::string& path, const toml::node& node) const;

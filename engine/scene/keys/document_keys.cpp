@@ -15,7 +15,7 @@ namespace grainreel {
 
 namespace {
 
-// "species[1].count" or "species.big.count" -> species, 1 or big, count
+// Splits a path: "species[1].count" or "species.big.count" gives species, 1 or big, count.
 std::vector<std::string> parts_of(const std::string& path) {
     std::vector<std::string> parts;
     std::string part;
@@ -30,7 +30,7 @@ std::vector<std::string> parts_of(const std::string& path) {
     return parts;
 }
 
-// ".5", "5." and "+.5" are numbers to everybody but TOML.
+// Reads numbers that everybody but TOML accepts: ".5", "5." and "+.5".
 std::optional<double> plain_number(std::string_view text) {
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
     double value = 0;
@@ -40,13 +40,13 @@ std::optional<double> plain_number(std::string_view text) {
     return value;
 }
 
-// `text` as TOML where it is TOML and the key does not want text; otherwise as a number or a string.
+// Reads `text` as TOML where it is TOML and the key does not want text, else as a number or a string.
 toml::table parsed_value(const std::string& text, const Key* key) {
     const bool quoted = !text.empty() && (text.front() == '"' || text.front() == '\'');
     const bool a_table = key != nullptr && is_table_path(key->path) && text.rfind('{', 0) == 0;
     const bool wants_text =
         key != nullptr && !a_table && (key->kind == KeyKind::text || key->kind == KeyKind::choice);
-    // "0x0" is a hexadecimal number to TOML.
+    // A picture size such as "0x0" would be a hexadecimal number in TOML.
     const bool plain_size = key != nullptr && key->kind == KeyKind::picture_size && text.rfind('[', 0) != 0;
     if (quoted || !(wants_text || plain_size)) {
         try {
@@ -78,8 +78,8 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
                                 excerpt(part), array->size()));
 }
 
-// The table that the last of `parts` lies in, and its path with indices. It is made where it is missing, and
-// where there is a value that may be a table but is none.
+// The table in which the last of `parts` lies, and its path with indices. The table is made where it is
+// missing, and where a key that may be a table has another value.
 std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::string>& parts,
                                                          const Location& by) {
     toml::node* node = &root_;
@@ -109,7 +109,7 @@ std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::
     return {node->as_table(), path};
 }
 
-// Takes a key out, and the places of all that was below it.
+// Removes a key, and the places of all that was below it.
 void Document::remove(toml::table& table, const std::string& table_path, std::string_view key) {
     table.erase(key);
     const std::string gone = join_path(table_path, key);
@@ -119,7 +119,7 @@ void Document::remove(toml::table& table, const std::string& table_path, std::st
     std::erase_if(written_, [&](const auto& entry) { return below(entry.first); });
 }
 
-// Takes out of the table what belonged to the value that `key` has had.
+// Removes from the table what belonged to the old value of `key`.
 void Document::take_back(toml::table& table, const std::string& table_path, const std::string& key,
                          const toml::node& value) {
     const Key* known = find_key(join_path(table_path, key), *keys_);
@@ -160,7 +160,7 @@ std::string Document::take_out(const std::string& table) {
     if (node == nullptr) return "";
     if (!node->is_table()) fail(table, fmt::format("must be a table; write [{}] above its keys", table));
     toml::table alone = *node->as_table();
-    alone.is_inline(false);  // it stands behind other tables
+    alone.is_inline(false);  // it is written with its own heading
     std::ostringstream text;
     text << toml::table{{table, std::move(alone)}};
     root_.erase(table);
@@ -216,11 +216,11 @@ void Document::check_read(const std::string& path, const toml::node& node) const
     }
 }
 
-// Lists in a document: intervals, names, whole numbers, values of any kind.
+// Reads lists: intervals, names, whole numbers, values of any kind.
 
 namespace {
 
-// In one line, and read back to the same bits.
+// Writes a value in one line, from which the same bits are read back.
 std::string in_one_line(const toml::node& node) {
     if (const auto text = node.value_exact<std::string>()) return quoted(*text);
     if (const auto real = node.value_exact<double>()) return toml_number(*real);

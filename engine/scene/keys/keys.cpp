@@ -1,4 +1,4 @@
-// Finding keys in the list, the right ones and the nearest ones, and describing them.
+// Finds keys in the list, also the nearest to a wrong one, and describes them.
 #include "engine/scene/keys/keys.hpp"
 
 #include <fmt/format.h>

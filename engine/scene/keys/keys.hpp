@@ -1,7 +1,7 @@
-// Keys: what one is, how lists of them are made and searched, paths and words of keys, and assignments of the
-// command line. The reader, the search for the nearest key and the table in docs/reference/scenes.md use one
-// list, scene_keys(). Another kind of file (a study) has a list of its own. New keys are not added here but
-// in chapters.
+// Keys: what a key is, how lists of keys are made and searched, paths and words of keys, and assignments
+// from the command line. The reader, the search for the nearest key and the table in
+// docs/reference/scenes.md use one list, scene_keys(). Another kind of file (a study) has its own list. New
+// keys are added in the chapters, not here.
 #pragma once
 
 #include <cstddef>
@@ -38,16 +38,17 @@ enum class KeyKind {
     value_list,    // anything, several times
 };
 
-// The most letters of a text. Letters cost time on every picture, and a picture holds far fewer.
+// The largest number of characters of a text. Drawing them takes time on every picture, and a picture holds
+// far fewer.
 constexpr std::size_t kMostLetters = 1000;
 
-// What numbers may be, ends included unless `open`.
+// The allowed numbers, ends included unless `open`.
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool open = false;      // low itself is not allowed
     bool infinite = false;  // inf is allowed
-    bool small = false;     // so is less than the least of the dimension (units.hpp)
+    bool small = false;     // values below the dimension's least (units.hpp) are allowed
     bool contains(double value) const;
     std::string text() const;  // "larger than 0", "from 0 to 51"; empty when anything goes
 };
@@ -58,31 +59,31 @@ struct Key {
     Dimension dimension = Dimension::number;
     Range range;
     std::vector<std::string> choices;         // of a choice, or of each name in a list
-    std::size_t most_letters = kMostLetters;  // of a text
-    std::string fallback;                     // as a scene would write it; empty when there is no such value
-    std::string fallback_note;                // in words instead: "required", "one period"
+    std::size_t most_letters = kMostLetters;  // for a text
+    std::string fallback;       // default as a scene would write it; empty when no value stands for it
+    std::string fallback_note;  // default in words: "required", "one period"
     std::string about;
-    // Names beside it in its table. Setting a key on the command line takes out of the file what the key
-    // excludes, what excludes the key, and, when its value changes, what belongs to that value.
+    // Names of other keys in the same table. When the command line sets a key, the file loses what the key
+    // excludes, what excludes the key and, when its value changes, what belongs to that value (`owns`).
     std::vector<std::string> excludes, owns;
-    bool decides = true;        // the future of a run, so that a run that goes on must have the same
-    bool often_chosen = false;  // by the plan, for reasons that other keys give
+    bool decides = true;        // decides the future of a run, so a run that goes on must have the same value
+    bool often_chosen = false;  // often chosen by the plan, for reasons that other keys give
 
-    std::string example() const;  // a value that is right, as a scene would write it
-    Range bounds() const;         // what the dimension's bounds leave of the range
+    std::string example() const;  // a right value, as a scene would write it
+    Range bounds() const;         // the part of the range within the dimension's bounds
 };
 
 const std::vector<Key>& scene_keys();
 
 // The key at a path with or without indices ("species[1].count"), or nullptr.
 const Key* find_key(std::string_view path, const std::vector<Key>& keys = scene_keys());
-// The names beside a key or a table that it excludes, or that exclude it.
+// The names in the same table that a key or a table excludes, or that exclude it.
 std::vector<std::string> rivals_of(std::string_view path, const std::vector<Key>& keys = scene_keys());
 // Whether a path is a table ("drive", "species[0]", "contact.wall"), or an array of tables ("species").
 bool is_table_path(std::string_view path, const std::vector<Key>& keys = scene_keys());
 bool is_table_array_path(std::string_view path, const std::vector<Key>& keys = scene_keys());
 
-// What to tell somebody who wrote an unknown key: "did you mean 'frequency'?", "it belongs in [drive]", or
+// Advice for somebody who wrote an unknown key: "did you mean 'frequency'?", "it belongs in [drive]", or
 // the keys that exist there.
 std::string advice_for_unknown_key(std::string_view path, const std::vector<Key>& keys = scene_keys());
 
@@ -109,7 +110,7 @@ inline std::string name_of(std::string_view path) {
     return std::string(dot == std::string_view::npos ? path : path.substr(dot + 1));
 }
 
-// A list of choices: the word that a scene uses for each value.
+// The words that a scene uses for each value of a choice.
 
 template <class T>
 using ChoiceWords = std::vector<std::pair<std::string, T>>;
@@ -130,7 +131,7 @@ std::vector<std::string> all_of(const ChoiceWords<T>& words) {
 
 }  // namespace grainreel
 
-// What the list of keys is put together from. Internal.
+// Functions that make the entries of the list of keys. Internal.
 
 namespace grainreel::keys {
 
@@ -207,10 +208,10 @@ using Keys = std::vector<Key>;
 }  // namespace grainreel::keys
 namespace grainreel {
 
-// A key that `resume --accept` changed at a step of a run. Checkpoints from before have it as it was.
+// A key that `resume --accept` changed at a step of a run. Earlier checkpoints have the value from before.
 struct AcceptedKey {
     std::int64_t step = 0;
-    std::string key, then, now;  // values as TOML; empty: not there
+    std::string key, then, now;  // values as TOML; empty where the key is not there
 };
 
 // A value that takes precedence over that of a scene file, and the option that gave it.
@@ -220,14 +221,14 @@ struct Assignment {
     Assignment(const char* assignment) : text(assignment) {}
 
     std::string text;    // "drive.frequency=30 Hz"
-    std::string option;  // that was typed, "--size"; empty: --set
+    std::string option;  // option that the user typed, "--size"; empty for --set
 
     std::string key() const;    // "drive.frequency"
     std::string value() const;  // "30 Hz"
     std::string place() const;  // for messages: "--size", "--set drive.frequency"
 };
 
-// The later of two assignments to one key wins.
+// Assignments from the command line; the later of two to one key wins.
 class Assignments : public std::vector<Assignment> {
   public:
     using std::vector<Assignment>::vector;

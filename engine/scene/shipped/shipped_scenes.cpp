@@ -16,7 +16,7 @@ std::string plain_name(std::string_view name) {
     return plain;
 }
 
-// The lines of the comment at the top of a text, in one line.
+// The lines of the comment at the top of a text, joined into one.
 std::string first_comment(std::string_view text) {
     std::string comment;
     while (!text.empty() && text.front() == '#') {

@@ -1,5 +1,5 @@
-// The scenes of the folder scenes/, which the build puts into the program: they can be run by name wherever
-// the program is.
+// The scenes of the folder scenes/, which the build puts into the program, so that they can be run by name
+// anywhere.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,17 @@
 namespace grainreel {
 
 struct ShippedScene {
-    std::string name;       // of its file, without .toml
+    std::string name;       // name of its file, without .toml
     std::string_view text;  // TOML
 
-    // The first sentence of the comment that the file begins with.
+    // The first sentence of the comment at the top of the file.
     std::string about() const;
 };
 
-// In alphabetical order.
+// All shipped scenes, in alphabetical order.
 const std::vector<ShippedScene>& shipped_scenes();
 
-// The one with this name, with .toml or without; "-" counts as "_". Null when there is none.
+// The scene of this name, with .toml or without; "-" counts as "_". Null when there is none.
 const ShippedScene* shipped_scene(std::string_view name);
 
 // The scene of this name, or the only one whose name contains it: "brazil-nut" is teaching_brazil_nut.

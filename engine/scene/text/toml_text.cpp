@@ -43,7 +43,7 @@ std::string names_text(const std::vector<std::string>& names) {
     return words.empty() ? "" : toml_list(words);
 }
 
-// A phase beyond one turn needs its unit, without which the reader takes it for a mistake.
+// A phase beyond one turn is written with its unit; the reader takes a bare number for a mistake.
 std::string as_toml(double value, Dimension dimension) {
     const bool many_turns = dimension == Dimension::phase && std::abs(value) > 1;
     return many_turns ? quoted(fmt::format("{} turn", value)) : toml_number(value);
@@ -71,7 +71,7 @@ namespace {
 // A line with a key, or a table's heading.
 struct Line {
     std::string_view text, comment;  // the comment lines right above it, with their ends
-    std::string place;               // its table's heading and how many of that came before, and the line
+    std::string place;  // heading of its table, how many of that heading came before, and the line
 };
 
 std::vector<Line> lines_of(std::string_view text) {

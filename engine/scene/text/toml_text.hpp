@@ -1,4 +1,4 @@
-// Values as a scene file has them, and the file put together from them.
+// Values as a scene file has them, and the text of a scene file made from them.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace grainreel {
 // The shortest decimals that read back to the same bits, and that TOML takes for a float.
 std::string toml_number(double value);
 std::string quoted(const std::string& text);
-// "[1.0, 2.0]" of values that are TOML already.
+// "[1.0, 2.0]", from values that are TOML already.
 std::string toml_list(const std::vector<std::string>& values);
 std::string names_text(const std::vector<std::string>& names);  // a list of quoted words; "" for none
 
-// In the dimension's unit, "" for what is not there.
+// The value in the dimension's unit; "" for a value that is not there.
 std::string as_toml(double value, Dimension dimension = Dimension::number);
 std::string as_toml(const Vec3& value, Dimension dimension = Dimension::number);
 std::string as_toml(const std::string& value, Dimension = Dimension::number);
@@ -48,9 +48,9 @@ class SceneText {
     void table(std::string_view name) { text_ += "\n[" + std::string(name) + "]\n"; }
     void element(std::string_view name) { text_ += "\n[[" + std::string(name) + "]]\n"; }
     void comment(const std::string& words) { text_ += "# " + visible(words) + "\n"; }
-    // A comment above the next key of that name.
+    // Puts a comment above the next key of that name.
     void remark(const std::string& key, const std::string& words) { remarks_[key] = words; }
-    // value: TOML; empty: the key is left out.
+    // value is TOML; where it is empty the key is left out.
     void put(const std::string& key, const std::string& value);
     std::string take() { return std::move(text_); }
 
@@ -59,9 +59,9 @@ class SceneText {
     std::map<std::string, std::string> remarks_;
 };
 
-// Carries comments over to a scene file that is written again. Both texts come from the scene's writer, one
-// key a line. A comment above a key in `before` is put above the same key in `text` if its value is the same
-// and it has no comment yet.
+// Carries comments over to a scene file that is written again. Both texts come from the scene's writer,
+// with one key a line. A comment above a key in `before` is put above the same key in `text` if its value
+// is the same and it has no comment yet.
 std::string with_comments_of(std::string_view before, std::string text);
 
 }  // namespace grainreel

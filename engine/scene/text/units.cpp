@@ -24,8 +24,8 @@ struct FreeUnit {
 };
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 
-// The table of units that udunits installs beside itself. Its location is compiled into the library, or given
-// by UDUNITS2_XML_PATH. udunits keeps global state, hence one lock around every use.
+// The table of units that udunits installs beside itself. Its location is compiled into the library, or
+// given by UDUNITS2_XML_PATH. udunits keeps global state, so every use takes one lock.
 class UnitSystem {
   public:
     UnitSystem() {
@@ -46,7 +46,7 @@ class UnitSystem {
     Unit parse(const std::string& text) const { return Unit(ut_parse(system_, text.c_str(), UT_UTF8)); }
 
     // The factor from `from` to `to`; none when they measure different things. For udunits the radian is 1,
-    // so that 25 rad/s would pass as 25 Hz: here it is a dimension of its own.
+    // and 25 rad/s would pass as 25 Hz; here it is a dimension of its own.
     static std::optional<double> factor(const Unit& from, const Unit& to) {
         if (!ut_are_convertible(from.get(), to.get())) return std::nullopt;
         const Unit ratio(ut_divide(from.get(), to.get()));
@@ -99,8 +99,8 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-// udunits would take "1 000 mm" for 1 times 000 mm, and "mm 3" for three of them: a unit begins with a
-// letter, or with "1/", and no number follows a space.
+// Whether a text can be a unit: it begins with a letter or with "1/", and no number follows a space.
+// udunits would take "1 000 mm" for 1 times 000 mm, and "mm 3" for three of them.
 bool looks_like_unit(std::string_view text) {
     if (text.empty()) return false;
     if (text.substr(0, 2) == "1/") text.remove_prefix(2);
@@ -114,7 +114,7 @@ bool looks_like_unit(std::string_view text) {
     return text.find('@') == std::string_view::npos;
 }
 
-// " is a time" for a unit of another dimension we know; " is not" otherwise.
+// " is a time" for a unit of another known dimension, else " is not".
 std::string other_dimension(const Unit& unit) {
     for (const DimensionText& other : dimension_texts)
         if (UnitSystem::factor(unit, unit_system().parse(other.unit)))
@@ -122,7 +122,7 @@ std::string other_dimension(const Unit& unit) {
     return " is not";
 }
 
-// What udunits makes of a unit in base units: "m.kg.s-2" without its factor.
+// A unit in base units: "m.kg.s-2" without its factor.
 std::string base_units(const Unit& unit) {
     std::array<char, 256> definition{};
     if (ut_format(unit.get(), definition.data(), definition.size() - 1, UT_ASCII | UT_DEFINITION) < 0)
@@ -130,7 +130,7 @@ std::string base_units(const Unit& unit) {
     std::string_view text = definition.data();
     const std::size_t space = text.find(' ');
     if (space != std::string_view::npos) text.remove_prefix(space + 1);
-    // A plain number is a factor without units.
+    // The definition of a pure number has no units at all.
     return std::string(text.find_first_not_of("0123456789.eE+-") == std::string_view::npos ? "" : text);
 }
 
@@ -192,8 +192,8 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
     if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", shown, excerpt(unit_text)));
     const std::optional<double> scale = UnitSystem::factor(unit, unit_system().parse(wanted.unit));
     if (!scale) throw fail(fmt::format("\"{}\"{}", shown, other_dimension(unit)));
-    // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off. 2.5 g/cm3 are 2500 kg/m3, where udunits
-    // has a factor of 999.9999999999998.
+    // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off. 2.5 g/cm3 are 2500 kg/m3, where
+    // udunits has a factor of 999.9999999999998.
     constexpr double rounding = 1e-13;
     const double parts = std::round(1 / *scale), times = std::round(*scale);
     if (parts > 1 && std::abs(parts * *scale - 1) < rounding) return value / parts;
