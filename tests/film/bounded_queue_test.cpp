@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-// Pushes 0 to count - 1 and counts what is in.
+// Pushes 0 to count - 1 and counts the items that are in the queue.
 std::thread producer_of(BoundedQueue<int>& queue, int count, std::atomic<int>& in) {
     return std::thread([&queue, count, &in] {
         for (int i = 0; i < count; ++i) {
@@ -28,7 +28,7 @@ TEST(BoundedQueue, KeepsOrderAndNeverHoldsMoreThanItsCapacity) {
     int out = 0, most = 0;
     while (const std::optional<int> item = queue.pop()) {
         ASSERT_EQ(*item, out++);
-        most = std::max(most, in - out);  // what went in for good and was not yet taken out
+        most = std::max(most, in - out);  // items that are surely in the queue and not yet taken out
         if (out % 1000 == 0) std::this_thread::yield();
     }
     producer.join();
@@ -59,7 +59,7 @@ TEST(BoundedQueue, CancelThrowsAwayWhatIsInsideAndWakesBothSides) {
     EXPECT_EQ(full.pop(), std::nullopt);
 }
 
-// Items come out in turns: each turn begins with a full queue, and nothing goes in until it is empty.
+// Items come out in turns: each turn begins with a full queue, and no item goes in until it is empty.
 TEST(BoundedQueue, TakesTurns) {
     constexpr int count = 1000, capacity = 4;
     BoundedQueue<int> queue(capacity, std::chrono::hours(1));
@@ -67,7 +67,7 @@ TEST(BoundedQueue, TakesTurns) {
     std::thread producer = producer_of(queue, count, in);
     for (int out = 0; out < count; ++out) {
         ASSERT_EQ(queue.pop(), out);
-        // Within a turn all that ever went in are those of this turn.
+        // Within a turn, only items of this turn and earlier ones have gone in.
         if (out % capacity < capacity - 1) {
             ASSERT_LE(in, out / capacity * capacity + capacity);
         }

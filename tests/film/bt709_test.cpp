@@ -19,7 +19,8 @@ struct Converted {
     bool operator==(const Converted&) const = default;
 };
 
-// With rows that are longer than the picture, whose rest must stay as it is.
+// Converts a picture into rows that are `more` longer than the picture; the rest of each row must stay as it
+// is.
 Converted converted(const Picture& picture, int more = 0) {
     const int width = picture.width + more, half = picture.width / 2 + more;
     Converted out{std::vector<std::uint8_t>(static_cast<std::size_t>(width * picture.height), 7),
@@ -30,7 +31,7 @@ Converted converted(const Picture& picture, int more = 0) {
     return out;
 }
 
-// The formula, of colours that are the mean of two rows and of three columns, the middle one twice.
+// The formula for colours that are means of two rows and three columns, where the middle column counts twice.
 Code chroma_of(const Picture& picture, int x, int y) {
     std::array<double, 3> mean{};
     for (int row = 0; row < 2; ++row)
@@ -60,7 +61,8 @@ void expect_codes(const Picture& picture, const Converted& codes, int more) {
         }
 }
 
-// All widths around those of registers, so that every column is once the first and once the last of one.
+// All widths around those of registers are tested, so that every column is once the first and once the last
+// in a register.
 TEST(Bt709, CodesAreTheFormulasRounded) {
     for (int width = 2; width <= 100; width += 2) {
         const Picture picture = noise(width, 6, static_cast<unsigned>(width));
@@ -78,7 +80,8 @@ TEST(Bt709, LeavesTheRestOfLongerRowsAlone) {
         for (int x = 17; x < 20; ++x) EXPECT_EQ(codes.cb[static_cast<std::size_t>(y * 20 + x)], 7);
 }
 
-// Parts of all places and sizes: as if all had been converted, and nothing far from the part is touched.
+// Parts of all places and sizes give the same codes as if the whole picture had been converted, and nothing
+// far from the part changes.
 TEST(Bt709, APartsCodesAreThoseOfTheWholePicture) {
     constexpr int width = 90, height = 8;
     const Picture before = noise(width, height, 3);

@@ -24,7 +24,7 @@ using ::testing::SizeIs;
 
 constexpr int frames = 50, wide = 256, high = 144;
 
-// Three by five dots a digit, a row after another from the top.
+// A digit has three by five dots, row after row from the top.
 constexpr std::array<std::array<int, 5>, 10> font{{{7, 5, 5, 5, 7},
                                                    {2, 6, 2, 2, 7},
                                                    {7, 1, 7, 4, 7},
@@ -36,8 +36,8 @@ constexpr std::array<std::array<int, 5>, 10> font{{{7, 5, 5, 5, 7},
                                                    {7, 5, 7, 5, 7},
                                                    {7, 5, 7, 1, 7}}};
 constexpr int dot = 2, digit_width = 4 * dot, digit_height = 5 * dot, margin = 4;  // pixels
-constexpr int ink = 90, paper = 235;  // as small words on a frame
-constexpr int places = 4;             // of the number shown
+constexpr int ink = 90, paper = 235;  // the same as small words on a frame
+constexpr int places = 4;             // digits in the number shown
 
 bool inked(int digit, int x, int y) {
     return x < 3 * dot && (font[digit][y / dot] >> (2 - x / dot) & 1) != 0;
@@ -51,7 +51,7 @@ int digit_of(int number, int place) {
                         : shown % 10;
 }
 
-// Discs that wander, and in a corner without discs the frame's number, as words stand beside grains.
+// Discs move over the picture. The frame's number is in a corner without discs, as words stand beside grains.
 Picture numbered(int width, int height, int number) {
     Picture picture = discs(width, height, number);
     for (int y = 0; y < digit_height + 2 * margin; ++y)
@@ -65,7 +65,7 @@ Picture numbered(int width, int height, int number) {
     return picture;
 }
 
-// The digit that a reader takes this one for: the nearest in the squares of its greys.
+// The digit that a reader takes this one for: the one with the smallest squared difference of greys.
 int read_digit(const Picture& picture, int place) {
     double best = std::numeric_limits<double>::infinity();
     int found = -1;
@@ -152,12 +152,12 @@ TEST_P(CappedFilmTest, ACapAtWhichDigitsWouldReadWrongIsAClearErrorAndKeepsTheFi
     }
 }
 
-// Above the least legible quality the films that the cap is measured with are none the worse.
+// Above the least legible quality, films with which the cap is measured are no worse.
 TEST_P(CappedFilmTest, AtTheLeastLegibleQualityDigitsReadRight) {
     size_at(least_legible);
     EXPECT_EQ(false_digits(read_film(path())), 0);
     size_at(40);
-    EXPECT_GT(false_digits(read_film(path())), 0);  // or the test would see nothing
+    EXPECT_GT(false_digits(read_film(path())), 0);  // otherwise the test would see nothing
 }
 
 TEST_P(CappedFilmTest, AFilmThatFitsIsLeftAtItsQuality) {
@@ -238,7 +238,7 @@ TEST_F(CappedGif, ACapBelowTheFewestColoursIsAClearErrorAndKeepsTheFilm) {
     EXPECT_FALSE(std::filesystem::exists(folder / "movie.work"));
 }
 
-// scale = (0.9 share)^(1 / 1.4), frames: 0.9 share of them.
+// scale = (0.9 share)^(1 / 1.4); the number of frames is 0.9 share of theirs.
 TEST(SmallerFilm, SaysWhichFilmWouldFit) {
     const int width = 2 * static_cast<int>(1280 * std::pow(0.45, 1 / 1.4) / 2);
     const int height = 2 * static_cast<int>(720 * std::pow(0.45, 1 / 1.4) / 2);

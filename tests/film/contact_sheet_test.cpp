@@ -18,7 +18,7 @@ Film film_of(int columns, int rows, int width, int height) {
     return film;
 }
 
-// The sheet of a film whose frame k is the grey k / 2 (so 512 frames can be told apart by pairs).
+// The sheet of a film whose frame k has the grey k / 2 (so that 512 frames can be told apart in pairs).
 Picture sheet_of(const Film& film, int frames) {
     ContactSheet sheet(film);
     Picture last;
@@ -47,23 +47,24 @@ TEST(ContactSheet, FramesAreSpreadEvenlyFromTheFirstToTheLast) {
         ASSERT_EQ(found.size(), 12u);
         const double spacing = (frames - 1) / 11.0;
         for (int i = 0; i < 12; ++i)
-            // An eighth of the spacing, half a frame of rounding, one for the greys by pairs.
+            // The tolerance is an eighth of the spacing, half a frame of rounding, and one for greys that
+            // come in pairs.
             EXPECT_NEAR(2 * found[static_cast<std::size_t>(i)], i * spacing, spacing / 8 + 1.5)
                 << frames << ' ' << i;
         EXPECT_EQ(found.back(), (frames - 1) / 2);
     }
 }
 
-// Ten times slower at both ends: three quarters of the frames show a twelfth of the time.
+// The film is ten times slower at both ends: three quarters of the frames show a twelfth of the time.
 TEST(ContactSheet, TilesAreSpreadOverTheTimeThatTheFilmShows) {
     const Film film = film_of(4, 3, 160, 96);
     ContactSheet sheet(film);
     Picture last;
     const auto add = [&](double time) {
-        const int grey = static_cast<int>(20 * time + 0.5);  // ten seconds are 200
+        const int grey = static_cast<int>(20 * time + 0.5);  // ten seconds give the grey 200
         last = flat(film.width, film.height, grey, grey, grey);
         sheet.add(last, time);
-        sheet.add(last, time);  // where two segments meet, one moment is there twice
+        sheet.add(last, time);  // where two segments meet, one moment comes twice
     };
     for (int k = 0; k < 120; ++k) add(0.4 * k / 120);
     for (int k = 0; k < 110; ++k) add(0.4 + 9.2 * k / 110);
@@ -99,7 +100,7 @@ TEST(ContactSheet, IsNoWiderThan1920PixelsAndKeepsTheShapeOfItsFrames) {
     EXPECT_LT(page.height, 3 * tile * 9 / 16 + 4 * gap + 3 * 45);
 }
 
-// Below each tile something is written, and in no other gap.
+// There is something written below each tile, and in no other gap.
 TEST(ContactSheet, EveryTileHasItsTime) {
     const Film film = film_of(4, 3, 480, 270);
     const Picture page = sheet_of(film, 60);

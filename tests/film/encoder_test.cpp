@@ -85,7 +85,7 @@ TEST(ColourConversion, PureColoursAreTheirCodesRounded) {
         conversion.convert(flat(64, 64, c[0], c[1], c[2]), *frame);
         const Code code = bt709_code(c[0], c[1], c[2]);
         for (int plane = 0; plane < 3; ++plane) {
-            // Half a code for the rounding of the sum, half for swscale's fixed point.
+            // Half a code is for the rounding of the sum, and half for swscale's fixed point.
             EXPECT_NEAR(frame->data[plane][10 * frame->linesize[plane] + 10],
                         code[static_cast<std::size_t>(plane)], 1);
         }
@@ -96,7 +96,8 @@ TEST(ColourConversion, PureColoursAreTheirCodesRounded) {
     EXPECT_EQ(frame->data[2][0], 240);
 }
 
-// Where the film's tags say: on the left one of two columns, which is worth half of the sample.
+// Chroma is at the place that the film's tags give: on the left one of two columns, which counts for half of
+// the sample.
 TEST(ColourConversion, ChromaSitsOnTheLeftColumn) {
     Picture picture = flat(64, 64, 255, 0, 0);
     for (int y = 0; y < 64; ++y)
@@ -165,8 +166,7 @@ TEST_F(EncoderTest, FinishedFilmsHaveTheirIndexInFrontUnfinishedOnesAreFragmente
 
 TEST_F(EncoderTest, KeyFramesAreHalfASecondApartAtMost) {
     Encoder encoder(settings());
-    for (int i = 0; i < 90; ++i)
-        encoder.add(flat(160, 96, 200, 200, 200));  // nothing else asks for a key frame
+    for (int i = 0; i < 90; ++i) encoder.add(flat(160, 96, 200, 200, 200));  // nothing else needs a key frame
     encoder.finish();
     EXPECT_EQ(read_film(path()).key_frames, 6);  // 3 s of film
 }
@@ -174,7 +174,8 @@ TEST_F(EncoderTest, KeyFramesAreHalfASecondApartAtMost) {
 TEST_F(EncoderTest, OddSizesArePaddedWithTheirLastRowAndColumn) {
     Encoder encoder(settings(65, 35));
     EXPECT_THAT(encoder.notes(), ElementsAre(HasSubstr("65x35 padded to 66x36")));
-    // The lower right corner is blue, the rest yellow: the pad must be blue there, yellow elsewhere.
+    // The lower right corner is blue and the rest yellow, so the padding must be blue there and yellow
+    // elsewhere.
     Picture picture = flat(65, 35, 255, 255, 0);
     for (int y = 17; y < 35; ++y)
         for (int x = 33; x < 65; ++x)
@@ -227,7 +228,7 @@ TEST_P(KilledEncoderTest, TheFilmPlaysUpToItsLastTwoSeconds) {
     ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
     const FilmFile film = read_film(path());
     EXPECT_GE(static_cast<double>(film.frames.size()), count - 2 * k.rate);
-    EXPECT_LT(static_cast<int>(film.frames.size()), count);  // or the child was not killed half-way
+    EXPECT_LT(static_cast<int>(film.frames.size()), count);  // otherwise the child was not killed half-way
     for (const YuvFrame& frame : film.frames) {
         // The last pictures on disk may have gaps: B-frames are coded after the picture that follows them.
         const auto number = static_cast<int>(std::lround((frame.time - film.frames[0].time) * k.rate));

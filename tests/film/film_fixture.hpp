@@ -1,4 +1,4 @@
-// A folder that goes away, pictures to film, and a drawer without OpenGL.
+// A folder that is removed at the end, pictures to film, and a drawer without OpenGL.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class FilmTest : public ::testing::Test {
     std::filesystem::path folder;
 };
 
-// While it lives no file of this process grows beyond `bytes`: a full disk for everyone.
+// While this lives, no file of this process grows beyond `bytes`. This stands for a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -63,7 +63,7 @@ inline Picture flat(int width, int height, int red, int green, int blue) {
     return picture;
 }
 
-// A soft orange ball on white that moves to the right, back to the left edge after 32 frames.
+// A soft orange ball on white. It moves to the right and is back at the left edge after 32 frames.
 inline Picture ball(int width, int height, int number) {
     Picture picture = flat(width, height, 255, 255, 255);
     const double radius = height / 3.0, cx = width * (number % 32 + 0.5) / 32, cy = height / 2.0;
@@ -78,7 +78,7 @@ inline Picture ball(int width, int height, int number) {
     return picture;
 }
 
-// Eighty discs that wander over grey: hard enough for an encoder that sizes can be steered.
+// Eighty discs that move over grey. They are hard enough for an encoder that the size can be controlled.
 inline Picture discs(int width, int height, int number) {
     Picture picture = flat(width, height, 235, 235, 235);
     const double radius = height / 14.0;
@@ -104,7 +104,7 @@ inline Picture discs(int width, int height, int number) {
     return picture;
 }
 
-// Nothing that an encoder could make small.
+// Noise that no encoder can make small.
 inline Picture noise(int width, int height, int number) {
     Picture picture(width, height);
     std::uint32_t state = 12345u + static_cast<std::uint32_t>(number);
@@ -115,7 +115,7 @@ inline Picture noise(int width, int height, int number) {
     return picture;
 }
 
-// Draws whatever `paint` gives for a frame.
+// Draws the picture that `paint` gives for a frame.
 class PaintingDrawer final : public Drawer {
   public:
     explicit PaintingDrawer(std::function<Picture(const Frame&)> paint) : paint_(std::move(paint)) {}
@@ -132,7 +132,8 @@ inline DrawerMaker painting(std::function<Picture(const Frame&)> paint) {
     return [paint = std::move(paint)] { return std::make_unique<PaintingDrawer>(paint); };
 }
 
-// A grey that tells frames apart: neighbours differ by at least 7 levels, and it comes back after 37 frames.
+// A grey by which frames are told apart: neighbours differ by at least 7 levels, and the greys repeat after
+// 37 frames.
 inline int grey_of(std::int64_t step) {
     return 2 + static_cast<int>(step * 15 % 37) * 7 % 259 % 252;
 }

@@ -37,7 +37,7 @@ class FilmMakerTest : public FilmTest {
             return flat(96, 64, grey, grey, grey);
         });
     }
-    // How many frames of the film carry the grey of the step they should show.
+    // Expects that the film's frames have the greys of the steps that they should show.
     static void expect_steps_in_order(const FilmFile& film) {
         for (std::size_t i = 0; i < film.frames.size(); ++i) {
             const int grey = grey_of(static_cast<std::int64_t>(i));
@@ -67,7 +67,7 @@ TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
     EXPECT_EQ(played.metadata.at("comment"), "grainreel, scene teaching, seed 1");
 }
 
-// The first picture with a caption is held for 0.2 s of film: at 30 frames a second 6 more.
+// The first picture with a caption is held for 0.2 s of film: 6 more frames at 30 a second.
 TEST_F(FilmMakerTest, StandsStillWhereACaptionBegins) {
     FilmedScene scene = small_scene(96, 64);
     const double early = 0.5 * (frame_at(2)->time + frame_at(3)->time), late = frame_at(6)->time;
@@ -117,7 +117,8 @@ TEST_F(FilmMakerTest, ASlowDrawerMakesTheEngineWaitAndLosesNothing) {
         most = std::max(most, alive.load());
     }
     EXPECT_GT(maker.finish().waited_seconds, 0);
-    // 4 wait to be drawn, 1 is drawn, 2 wait to be encoded, 1 is encoded, 1 is kept for the poster.
+    // 4 pictures wait to be drawn, 1 is drawn, 2 wait to be encoded, 1 is encoded, and 1 is kept for the
+    // poster.
     EXPECT_LE(most, 9);
     ASSERT_THAT(film().frames, SizeIs(count));
     expect_steps_in_order(film());
@@ -183,14 +184,15 @@ TEST_F(FilmMakerTest, WithoutFinishTheFilmPlaysAndHasAPoster) {
     EXPECT_EQ(poster_grey(), grey_of(static_cast<std::int64_t>(played.frames.size()) - 1));
 }
 
-// Left while pictures wait: what was encoded by then is in the film, and the report counts it.
+// The film maker is closed while pictures wait: the film has the pictures encoded by then, and the report
+// counts them.
 TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
     for (const FilmFormat format : {FilmFormat::mp4, FilmFormat::gif, FilmFormat::png}) {
         FilmedScene scene = small_scene();
         scene.film.format = format;
         std::atomic<bool> hurry = false;
         FilmMaker maker(scene, options(), painting([&](const Frame& frame) {
-                            // The last picture is drawn when it is no longer wanted.
+                            // The last picture is being drawn when it is no longer wanted.
                             if (frame.step == 39) {
                                 hurry = true;
                                 std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -228,7 +230,7 @@ TEST_F(FilmMakerTest, WhoIsInNoHurryGetsAWholeFilm) {
     EXPECT_THAT(film().frames, SizeIs(20));
 }
 
-// The folder is somebody else's now: no file is made there, and none replaced.
+// The folder belongs to somebody else now: no file is made or replaced there.
 TEST_F(FilmMakerTest, AFolderThatIsNoLongerOursGetsNoFiles) {
     FilmOptions o = options(true, true);
     std::atomic<bool> lost = false;
@@ -267,7 +269,7 @@ TEST_F(FilmMakerTest, NothingTakenIsNoReasonToHang) {
     EXPECT_EQ(maker.finish().frames, 0);
 }
 
-// Takes frames until that fails, as an engine would; what() of the error, also from finish().
+// Takes frames as an engine would until that fails. Returns what() of the error, also of finish().
 std::string failure_of(FilmMaker& maker, int most = 10'000) {
     std::string words = "no error";
     try {
@@ -347,7 +349,7 @@ TEST_F(FilmMakerTest, KilledItPlaysUpToTheLastTwoSecondsAndHasAPoster) {
     EXPECT_GE(static_cast<std::int64_t>(played.frames.size()), done - 60);
     expect_steps_in_order(played);
     EXPECT_EQ(poster_grey(),
-              grey_of(127));  // drawn in passing, at the 128th frame: the film is far from its end
+              grey_of(127));  // drawn on the way, at the 128th frame: the film is far from its end
 }
 
 }  // namespace

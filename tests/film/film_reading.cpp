@@ -34,7 +34,7 @@ YuvFrame copy_of(const AVFrame& frame, AVRational time_base) {
     return out;
 }
 
-// These films have two orders of bytes: B, G, R and alpha, or B, G, R and nothing.
+// These films have two orders of bytes: B, G, R and alpha, or B, G, R and an unused byte.
 Picture rgb_copy_of(const AVFrame& frame) {
     if (frame.format != AV_PIX_FMT_BGR0 && frame.format != AV_PIX_FMT_BGRA)
         throw std::runtime_error("neither yuv420p nor bgr0 nor bgra");
@@ -50,7 +50,7 @@ Picture rgb_copy_of(const AVFrame& frame) {
     return out;
 }
 
-// What comes out of the decoder for one packet; null at the end.
+// Takes the frames that the decoder gives for one packet. The packet is null at the end.
 void decode(AVCodecContext& codec, const AVPacket* packet, AVRational time_base, FilmFile& film) {
     if (avcodec_send_packet(&codec, packet) < 0) return;
     const AvFramePtr frame(av_frame_alloc());
@@ -111,7 +111,7 @@ std::vector<std::string> mp4_boxes(const std::filesystem::path& path) {
         const std::uint32_t size = std::uint32_t{head[0]} << 24 | std::uint32_t{head[1]} << 16 |
                                    std::uint32_t{head[2]} << 8 | std::uint32_t{head[3]};
         names.emplace_back(reinterpret_cast<const char*>(head.data()) + 4, 4);
-        if (size < 8) break;  // a 64-bit size: no film of these tests is that long
+        if (size < 8) break;  // a 64-bit size, which no film of these tests needs
         at += size;
     }
     return names;

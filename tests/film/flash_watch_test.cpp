@@ -1,4 +1,4 @@
-// Against the numbers of WCAG 2.2, success criterion 2.3.1.
+// Tests of the flash watch against the numbers of WCAG 2.2, success criterion 2.3.1.
 #include "render/film/production/flash_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ std::uint8_t grey(double luminance) {
     return static_cast<std::uint8_t>(std::lround(255 * to_srgb(luminance)));
 }
 
-// 3 s of a picture on mid-grey, of which the left `share` of the width has this luminance at each time (s).
+// Shows 3 s of a picture on mid-grey, of which the left `share` of the width has the luminance of each time
+// (s).
 std::optional<double> watched(double share, const std::function<double(double)>& luminance) {
     FlashWatch watch(kRate);
     Picture picture(480, 270);

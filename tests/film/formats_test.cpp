@@ -1,4 +1,4 @@
-// Every format that has a file of its own, read back by its decoder.
+// Tests of every format that has a file of its own, read back by its decoder.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -50,7 +50,8 @@ class FormatTest : public FilmTest, public ::testing::WithParamInterface<FilmFor
         for (const YuvFrame& frame : film.frames) pictures.push_back(to_rgb(frame));
         return pictures;
     }
-    // What plays when the film was cut off: itself, or the exact copy that a GIF is made of.
+    // The file that plays when the film was cut off: the film itself, or the exact copy from which a GIF is
+    // made.
     std::filesystem::path cut_off() const {
         return GetParam() == FilmFormat::gif ? folder / "movie.work" / "spool.mkv" : path();
     }
@@ -83,9 +84,9 @@ TEST_P(FormatTest, EveryPictureComesBackInOrderAndOnTime) {
     EXPECT_FALSE(std::filesystem::exists(path().string() + ".part"));
 }
 
-// Y'CbCr within one code and RGB within three levels, the step of limited range being 1.16 and chroma's
-// matrix doubling it; lossless RGB exactly; a GIF of so few colours within its palette's 5 bits, 255 / 31 / 2
-// + rounding.
+// Y'CbCr is within one code. RGB is within three levels, because the step of limited range is 1.16 and
+// chroma's matrix doubles it. Lossless RGB is exact. A GIF with so few colours is within its palette's 5
+// bits, 255 / 31 / 2 + rounding.
 TEST_P(FormatTest, FlatColoursKeepTheirCodes) {
     const std::vector<std::array<int, 3>> colours{{255, 0, 0},     {0, 255, 0},   {0, 0, 255},
                                                   {128, 128, 128}, {0, 0, 0},     {230, 159, 0},
@@ -117,7 +118,7 @@ TEST_P(FormatTest, YuvIsTaggedBt709AndLimited) {
     if (is_rgb()) return;
     EXPECT_EQ(played.pixel_format, AV_PIX_FMT_YUV420P);
     EXPECT_EQ(played.range, AVCOL_RANGE_MPEG);
-    if (GetParam() == FilmFormat::y4m) return;  // has no words for the rest
+    if (GetParam() == FilmFormat::y4m) return;  // the format has no place for text
     EXPECT_EQ(played.primaries, AVCOL_PRI_BT709);
     EXPECT_EQ(played.transfer, AVCOL_TRC_BT709);
     EXPECT_EQ(played.matrix, AVCOL_SPC_BT709);
@@ -218,7 +219,7 @@ TEST_F(LosslessFilm, Ffv1KeepsEveryByteAndAlphaWhenAsked) {
     }
 }
 
-// A ball of many shades: 256 colours and Bayer's pattern, whose amplitude is bounded.
+// The ball has many shades, the GIF has 256 colours, and the amplitude of Bayer's pattern is bounded.
 TEST_F(LosslessFilm, AGifStaysNearItsPictures) {
     FilmedScene scene = small_scene(160, 96);
     scene.film.format = FilmFormat::gif;

@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-// `count` frames every `every` steps from step `first`, by a clock of 20 Hz.
+// Moments of `count` frames, one every `every` steps from the step `first` on, by a clock of 20 Hz.
 std::vector<Frame> moments(int count, std::int64_t every, std::int64_t first = 0, std::int64_t period = 800) {
     const Clock clock{1 / (20.0 * static_cast<double>(period)), period, 0};
     std::vector<Frame> frames;
@@ -51,8 +51,8 @@ TEST(Pacing, OtherwiseTheFactorFollowsFromTheInterval) {
     EXPECT_EQ(caption(moments(9, 160, 0), 20, 10), "slow motion, 1/10 speed");
 }
 
-// A panel of 25 Hz whose moments follow those of 20 Hz: it shows every period, but now and then leaves one
-// out.
+// The moments of a panel of 25 Hz follow those of 20 Hz: it shows every period, but leaves one out now and
+// then.
 TEST(Pacing, WhereFramesComeUnevenlyTheirMeanIsSaid) {
     std::vector<Frame> frames;
     const Clock clock{1 / 25.0 / 640, 640, 0};
@@ -74,7 +74,8 @@ TEST(Pacing, WhereFramesComeUnevenlyTheirMeanIsSaid) {
 TEST(Pacing, RoundingToStepsDoesNotHideThePlainFactor) {
     EXPECT_EQ(caption(moments(9, 533), 20), "real time");
     EXPECT_EQ(caption(moments(9, 53), 20), "slow motion, 1/10 speed");
-    EXPECT_EQ(caption(moments(9, 530), 20), "slow motion, 0.994 speed");  // three steps off is meant
+    EXPECT_EQ(caption(moments(9, 530), 20),
+              "slow motion, 0.994 speed");  // three steps of difference are meant
 }
 
 TEST(Pacing, DurationIsThatOfTheFrames) {
@@ -88,7 +89,7 @@ TEST(Pacing, OneFrameOrUnevenOnesHaveNone) {
     EXPECT_EQ(caption(uneven), "none");
 }
 
-// 16 steps of 21 make a period of 20 Hz ... seen at 1.05 times the period: |20 - 1 x 19.05| = 0.952 Hz.
+// 16 steps of 21 make a period of 20 Hz ... at a rate of 1.05 times the period: |20 - 1 x 19.05| = 0.952 Hz.
 TEST(Pacing, WarnsWhereTheFilmWouldLie) {
     const auto warning = pacing_warning(moments(9, 840), drive_of(20));
     ASSERT_TRUE(warning.has_value());

@@ -41,7 +41,7 @@ Film film_of(std::vector<FilmSegment> segments, double rate = 30) {
     return film;
 }
 
-// With a place for messages.
+// Puts the film into a scene that has a place for messages.
 FilmedScene scene_with(const Film& film) {
     FilmedScene scene;
     scene.file = "a.toml";
@@ -65,7 +65,7 @@ Drive drive_of(double frequency) {
 }
 
 TEST(FilmSchedule, MotionTakesTheStepNearestToEachFramesTime) {
-    const Clock clock{7e-5, 0, 0};  // no drive; the frame interval is no whole number of steps
+    const Clock clock{7e-5, 0, 0};  // there is no drive, and the frame interval is no whole number of steps
     const std::int64_t steps = 20'000;
     const double playback = 0.3, rate = 25;
     const std::vector<Shot> shots = schedule_of(film_of({motion({}, playback)}, rate), clock, steps);
@@ -78,7 +78,7 @@ TEST(FilmSchedule, MotionTakesTheStepNearestToEachFramesTime) {
     EXPECT_LE(shots.back().step, steps);
 }
 
-// 20 Hz, from 1 s over 3 periods to a frequency that has no whole number of steps.
+// The clock goes from 20 Hz, from 1 s over 3 periods, to a frequency without a whole number of steps.
 Clock changing_clock(const Drive& drive) {
     return drive_clock(drive, 1 / (drive.frequency * 2000), 2000);
 }
@@ -96,7 +96,7 @@ TEST(FilmSchedule, LockedFollowsTheStageThatIsOn) {
     ASSERT_GT(shots.size(), 10u);
     for (std::size_t k = 0; k < shots.size(); ++k) {
         const bool first = shots[k].segment == 0;
-        // A step is 1/2000 of a period at first, and 1/1212 at last.
+        // A step is 1/2000 of a period at first, and 1/1212 at the end.
         EXPECT_NEAR(clock.phase(shots[k].step), first ? 0.25 : 0.75, 0.5 / 1212) << k;
         if (k == 0 || shots[k].segment != shots[k - 1].segment) continue;
         EXPECT_NEAR(clock.cycles(shots[k].step) - clock.cycles(shots[k - 1].step), first ? 1 : 2, 1.0 / 1212);
@@ -145,7 +145,8 @@ TEST(FilmSchedule, LockedShotsHaveTheAskedPhaseOfTheDriveExactly) {
 TEST(FilmSchedule, ALockedPhaseIsRoundedToAWholeStep) {
     const Clock clock = clock_of(10, 8);
     EXPECT_EQ(schedule_of(film_of({locked({}, 1, 0.3)}), clock, 80).front().step, std::llround(0.3 * 8));
-    // 0.99 of 8 steps rounds to 8: the phase 0 of the next period, which is the step 0 of this one.
+    // 0.99 of 8 steps rounds to 8, which is the phase 0 of the next period; as step 0 of this period it is
+    // the same phase.
     EXPECT_EQ(schedule_of(film_of({locked({}, 1, 0.99)}), clock, 80).front().step, 0);
 }
 
@@ -162,8 +163,8 @@ TEST(FilmSchedule, SegmentsFollowEachOtherAndTheOpenOneTakesTheRest) {
         }
         times[static_cast<std::size_t>(shots[i].segment)].push_back(clock.time(shots[i].step));
     }
-    // 0.5 s at 1/10 speed: 5 s of film, its last instant belongs to the next segment. Then every second of
-    // the 170 periods between 0.5 s and 9 s. Then 1 s at 1/5 speed, both ends included.
+    // 0.5 s at 1/10 speed are 5 s of film, whose last instant belongs to the next segment. Then comes every
+    // second of the 170 periods between 0.5 s and 9 s. Then comes 1 s at 1/5 speed, with both ends.
     EXPECT_THAT(times[0], SizeIs(5 * 30));
     EXPECT_THAT(times[1], SizeIs(170 / 2));
     EXPECT_THAT(times[2], SizeIs(5 * 30 + 1));
@@ -188,7 +189,7 @@ TEST(FilmSchedule, SlowerThanTheStepsStillRisesStrictly) {
     for (std::size_t k = 0; k < shots.size(); ++k) EXPECT_EQ(shots[k].step, static_cast<std::int64_t>(k));
 }
 
-// Counts are closed forms, so they can be had of schedules that nobody could make.
+// Counts have closed forms, so schedules can be counted that nobody could make.
 TEST(FilmSchedule, IsCountedAsItIsMade) {
     const Clock clock = clock_of(20, 1000, 0.3);
     for (const double playback : {1e-320, 1e-3, 0.0007, 0.3, 1.0, 2.5, 1e16})
@@ -221,7 +222,7 @@ std::string complaint_of(const Film& film, const Clock& clock, std::int64_t step
     return "no error";
 }
 
-// 1e9 s at 1e8 Hz: 1e17 periods, and one step each for the slowest of motions.
+// 1e9 s at 1e8 Hz have 1e17 periods; the slowest motion has a frame for each step.
 TEST(FilmSchedule, NoMoreIsMadeThanAFilmMayHave) {
     const Clock clock = clock_of(1e8, 8);
     const std::int64_t steps = 800'000'000'000'000;
@@ -236,7 +237,7 @@ TEST(FilmSchedule, NoMoreIsMadeThanAFilmMayHave) {
 TEST(FilmSchedule, NoMoreMomentsAreKeptThanAFilmMayHave) {
     const Clock clock = clock_of(20, 1000);
     FilmSegment means = locked({}, 1, 0);
-    means.average = 1000;  // 16 a period, and the one before: 16,001 a picture
+    means.average = 1000;  // 16 a period and the one before: 16,001 for a picture
     const std::int64_t periods = 20'000'000 / 16'001 + 1;
     EXPECT_EQ(complaint_of(film_of({means}), clock, 1000 * (periods - 2)), "no error");
     EXPECT_THAT(complaint_of(film_of({means}), clock, 1000 * periods),
@@ -280,7 +281,7 @@ TEST(PlaybackCaption, SaysHowTimeRuns) {
     EXPECT_EQ(playback_caption(locked({}, 4, 0), drive, 30), "1 frame every 4 periods at phase 0 (plays 6×)");
 }
 
-// At 0.1 ms a step and 30 frames a second, one frame a step is a playback of 0.003.
+// At 0.1 ms a step and 30 frames a second, one frame a step plays at 0.003 of real time.
 TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
     const Clock clock = clock_of(20, 500);
     const double every_step = 30 * clock.step;
@@ -296,7 +297,7 @@ TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
         EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, playback)})), clock), IsEmpty());
     }
     EXPECT_THAT(pace_warnings(scene_with(film_of({locked({}, 1, 0)})), clock), IsEmpty());
-    // What the warning says to write, to three digits, is not below what is played: 30 / 9001 is 0.003333.
+    // The number that the warning advises, to three digits, is not below the real one: 30 / 9001 is 0.003333.
     Clock odd = clock;
     odd.step = 1.0 / 9001;
     EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, 1e-5)})), odd),
@@ -318,10 +319,11 @@ TEST(StrobeWarnings, GiveTheApparentMotion) {
         strobe_warnings(film_of({motion({}, 1)}), drive_of(31), 10),
         ElementsAre("film segment 1 shows 0.968 frames a period: the 31 Hz drive will seem to move at 1 Hz; "
                     "lock it to a phase, or set its playback to 0.121 or less"));
-    // Just below F: still k = 1, not the whole number below.
+    // Just below F, k is still 1 and not the whole number below.
     EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), drive_of(28), 10),
                 ElementsAre(HasSubstr("the 28 Hz drive will seem to move at 2 Hz")));
-    // F = 15: f = 20 lies nearest to 1 F; |20 - 15| = 5. And F = 60: nearest is 0 F, so 20 itself.
+    // For F = 15, f = 20 is nearest to 1 F, and |20 - 15| = 5. For F = 60 the nearest multiple is 0 F, which
+    // leaves 20 itself.
     EXPECT_THAT(
         strobe_warnings(film_of({motion(1.0, 2), locked(1.0, 1, 0), motion({}, 0.5)}), drive_of(20), 10),
         ElementsAre(
@@ -336,7 +338,7 @@ TEST(StrobeWarnings, AreSilentFromEightFramesAPeriodAndWithoutADrive) {
     EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), Drive{}, 10), IsEmpty());
 }
 
-// 33 Hz comes in the second segment only: 8 frames a period of 20 Hz are 160 a second, and of 33 Hz 264.
+// 33 Hz comes only in the second segment: 8 frames a period of 20 Hz are 160 a second, and of 33 Hz 264.
 TEST(StrobeWarnings, GoByTheStagesOfEachSegment) {
     const Film film = film_of({motion(1.0, 30.0 / 200), motion({}, 30.0 / 200)});
     EXPECT_THAT(strobe_warnings(film, changing_drive(), 2),

@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-// Steps of 1/(f n): n a period.
+// A clock with steps of 1/(f n), of which a period has n.
 Clock clock_of(double frequency, std::int64_t period, double phase = 0) {
     return {1 / (frequency * static_cast<double>(period)), period, phase};
 }
@@ -43,7 +43,7 @@ TEST(Timeline, GoesByTheSlowestDrive) {
 TEST(Timeline, OneFrequencyShowsOnePhaseAndCycle) {
     Film film;
     film.segments = {locked(0.25)};
-    const Clock a = clock_of(20, 800), b = clock_of(20, 1360);  // steps of their own
+    const Clock a = clock_of(20, 800), b = clock_of(20, 1360);  // each has steps of its own
     const std::vector<Instant> instants = instants_of(scene_with(film), a, 8000);
     ASSERT_EQ(instants.size(), 10u);
     const std::vector<Shot> of_a = shots_at(instants, film.segments, a, 8000);
@@ -54,7 +54,7 @@ TEST(Timeline, OneFrequencyShowsOnePhaseAndCycle) {
     }
 }
 
-// Each stands at the phase of its own drive, no more than half of its period away.
+// Each clock stands at the phase of its own drive, at most half of its period away.
 TEST(Timeline, OtherFrequenciesKeepTheirPhase) {
     Film film;
     film.segments = {locked(0.5)};

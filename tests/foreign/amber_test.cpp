@@ -18,15 +18,15 @@ using testing::HasSubstr;
 
 constexpr std::size_t frames = 2, grains = 3;
 
-// x of grain i in frame f is 100 f + 10 i, y 1 more, z 2 more; times 1024, so that a molecule is large enough
-// for its unit.
+// In frame f, grain i has x = 100 f + 10 i, y is 1 larger and z is 2 larger; all times 1024, so that a
+// molecule is large enough for its unit.
 double place(std::size_t frame, std::size_t grain, std::size_t axis) {
     return 1024 * static_cast<double>(100 * frame + 10 * grain + axis);
 }
 
 class Bed {
   public:
-    // The kind of file: NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4, 0.
+    // kind: kind of the file, NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4 or 0.
     explicit Bed(int kind, const char* length = "meter", const char* time = "second", bool in_group = false)
         : file_("") {
         std::filesystem::remove(file_.path());
@@ -79,7 +79,7 @@ class Bed {
              const std::vector<double>& values) const {
         EXPECT_EQ(nc_put_vara_double(id_, variable, start.data(), count.data(), values.data()), NC_NOERR);
     }
-    // Its bytes; nothing can be put into it then.
+    // The bytes of the file. Nothing can be added to it afterwards.
     std::string bytes() {
         if (root_ >= 0) nc_close(root_);
         root_ = -1;
@@ -129,7 +129,7 @@ TEST(Amber, UnitsAreTold) {
     EXPECT_FALSE(facts("furlong", "s").length_unit.has_value());
 }
 
-// Grains of millimetres in a file that says angstrom because the convention asks for it.
+// The grains are of millimetres, but the file says angstrom because the convention asks for it.
 TEST(Amber, AnAngstromThatCannotBeIsNotBelieved) {
     Bed bed(NC_64BIT_OFFSET, "angstrom", "picosecond");
     bed.put(bed.variable("coordinates"), {0, 0, 0}, {1, grains, 3}, {0, 0, 0, .1, .1, .1, .2, .2, .2});
@@ -178,7 +178,7 @@ TEST(Amber, AHeaderThatCountsNoFrameIsRefusedWithTheCount) {
     EXPECT_THAT(complaint_of(amber_format(), bytes), HasSubstr("'\\000\\000\\000\\000\\000\\000\\000\\002'"));
 }
 
-// "Streaming": as many as there is room for.
+// The count is that of "streaming": the file has as many frames as there is room for.
 TEST(Amber, AHeaderMayLeaveTheCountOpen) {
     std::string bytes = Bed(NC_64BIT_OFFSET).bytes();
     bytes.replace(4, 4, 4, '\xff');
@@ -193,7 +193,7 @@ TEST(TrialInChild, ACrashEndsTheChildAlone) {
     EXPECT_EQ(changed, 0);
 }
 
-// Whatever a byte of an HDF5 file is, the file is read or refused.
+// Whatever value a byte of an HDF5 file gets, the file is read or refused.
 TEST(Amber, AnyByteOfHdf5MayBeWrong) {
     const std::string bytes = Bed(NC_NETCDF4).bytes();
     for (std::size_t at = 8; at < bytes.size(); at += 331) {

@@ -1,5 +1,5 @@
-// Frames of other programs as a record: what columns mean, series, boxes, velocities from places, walls that
-// move.
+// Tests of frames of other programs as an archive: meaning of columns, series, boxes, velocities from places,
+// and walls that move.
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <cmath>
@@ -65,8 +65,8 @@ TEST_F(Foreign, RowsComeByTheirIdsWhateverTheirOrder) {
 }
 
 TEST_F(Foreign, SharesOfATiltedBoxBecomePlaces) {
-    // Edges (2 0 0), (0.5 2 0), (0.25 0.1 2) from the origin: x = sx a + sy b + sz c. The bounds are those of
-    // the box around it: x from 0 to 2 + 0.75, y from 0 to 2.1.
+    // The edges are (2 0 0), (0.5 2 0), (0.25 0.1 2) from the origin: x = sx a + sy b + sz c. The bounds are
+    // those of the box around it: x from 0 to 2 + 0.75, y from 0 to 2.1.
     write(file("t.dump"), dump(0, "id type xs ys zs radius", {"1 1 0.5 0.25 0.5 0.1"},
                                "0 2.75 0.5\n0 2.1 0.25\n0 2 0.1\n", "xy xz yz pp pp pp"));
     const ForeignArchive archive(file("t.dump"), {});
@@ -87,7 +87,7 @@ TEST_F(Foreign, ADiameterIsHalvedAndARadiusOfATypeIsTaken) {
 }
 
 TEST_F(Foreign, UnitsBecomeSi) {
-    // cgs: 1 cm = 0.01 m, 1 cm/s = 0.01 m/s, 1 g/cm3 = 1000 kg/m3 (LAMMPS manual, command units).
+    // In cgs units 1 cm = 0.01 m, 1 cm/s = 0.01 m/s, 1 g/cm3 = 1000 kg/m3 (LAMMPS manual, command units).
     write(file("c.dump"), dump(10, "id type x y z radius vx vy vz density", {"1 1 1 2 3 0.1 5 0 0 2.5"}));
     ReadingOptions options;
     options.units = "cgs";
@@ -130,7 +130,7 @@ TEST_F(Foreign, FilesOfProcessesAreOneFrameAndALaterFrameOfAStepCounts) {
 }
 
 TEST_F(Foreign, VelocitiesComeFromPlacesWhereMomentsAreNear) {
-    // A fall: central differences of z = -g t^2 / 2 are exact.
+    // A grain falls: central differences of z = -g t^2 / 2 are exact.
     std::string text;
     for (int k = 0; k < 5; ++k) {
         const double t = 1e-3 * k;
@@ -142,7 +142,7 @@ TEST_F(Foreign, VelocitiesComeFromPlacesWhereMomentsAreNear) {
     const ForeignArchive archive(file("v.dump"), options);
     EXPECT_TRUE(archive.derived_velocities());
     EXPECT_NEAR(archive.grains(2).velocity[0].z(), -9.81 * 2e-3, 1e-9);
-    // Frames that are a second apart say nothing of velocities.
+    // Frames that are a second apart tell nothing about velocities.
     write(file("far.dump"), dump(0, "id type x y z radius", {"1 1 1 1 0.2 0.1"}) +
                                 dump(1000, "id type x y z radius", {"1 1 1 1 1.9 0.1"}));
     const ForeignArchive far(file("far.dump"), options);
@@ -201,8 +201,8 @@ TEST(WallMotion, PartsOfOneSolidMoveEachOnItsOwn) {
     EXPECT_TRUE(news.empty());
 }
 
-// What an exporter writes comes back: places exactly where the format has doubles, to a float's last place
-// else.
+// What an exporter writes comes back. Places are exact if the format has doubles, and right to a float's last
+// digit otherwise.
 class RoundTrip : public Foreign,
                   public testing::WithParamInterface<std::tuple<const char*, const char*, double>> {};
 
@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                              return text;
                          });
 
-// A hundred frames, and one of them has a grain of another type.
+// One of a hundred frames has a grain of another type.
 TEST(Archive, ATypeOfOneFrameAmongManyIsASpecies) {
     const TemporaryFolder folder;
     std::string text;
@@ -290,7 +290,7 @@ TEST(Archive, VelocitiesHaveTheUnitOfTheirNames) {
     EXPECT_NEAR(frame.radius[0], 0.004, 1e-15);
 }
 
-// A restart appended the last frame again.
+// A restart has written the last frame again.
 TEST(Archive, OfTwoFramesOfOneTimeTheLaterCounts) {
     const TemporaryFolder folder;
     const std::string row = " 0.2 0.3 1 2 3 0.5 0 0 0 7 8 9 1\n", box = " 0 0 0 1 1 1\n";

@@ -1,4 +1,4 @@
-// Files for the tests of readers of dumps, in a folder of their own, and what goes wrong with them.
+// Files for tests of readers of dumps, in a folder of their own, and the messages about them.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ class DumpFolder {
     std::filesystem::path path_;
 };
 
-// What UserError says, without the path before it.
+// The message of UserError, without the path at its beginning.
 inline std::string complaint_about(const std::filesystem::path& file, const std::function<void()>& act) {
     try {
         act();
@@ -68,7 +68,7 @@ inline std::unique_ptr<RawFile> open_text(const std::filesystem::path& file) {
     return lammps_text_format().open(file);
 }
 
-// The message of opening the text and reading all its frames.
+// The message when the text is opened and all its frames are read.
 inline std::string text_complaint(const DumpFolder& folder, std::string_view text) {
     const std::filesystem::path file = folder.write("a.dump", text);
     return complaint_about(file, [&] {
@@ -83,7 +83,7 @@ inline std::vector<double> column_of(const RawTable& table, const std::string& n
     return column == nullptr ? std::vector<double>{} : column->values;
 }
 
-// A frame with a box of 0 to 1 along each axis.
+// A frame whose box goes from 0 to 1 along each axis.
 inline std::string frame_text(const std::string& step, const std::string& count, const std::string& names,
                               const std::string& rows) {
     return "ITEM: TIMESTEP\n" + step + "\nITEM: NUMBER OF ATOMS\n" + count +

@@ -1,4 +1,4 @@
-// Binary dumps, written here number by number.
+// Tests of binary dumps, which are written here number by number.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 using Rows = std::vector<std::vector<double>>;
 
-// Numbers in either byte order.
+// Writes numbers in either byte order.
 class Writer {
   public:
     explicit Writer(bool swapped) : swapped_(swapped) {}
@@ -41,7 +41,7 @@ class Writer {
         for (const double value : values) add(value);
         return *this;
     }
-    // One part a process.
+    // Writes one part for each process.
     Writer& parts(const std::vector<Rows>& parts) {
         add(static_cast<std::int32_t>(parts.size()));
         for (const Rows& rows : parts) {
@@ -69,7 +69,7 @@ struct Frame {
     std::optional<double> time{};
 };
 
-// As LAMMPS writes it since 2021.
+// A frame in the form that LAMMPS has written since 2021.
 std::string new_frame(const Frame& f, bool swapped = false) {
     Writer out(swapped);
     out.add(std::int64_t{-10})
@@ -209,7 +209,7 @@ TEST(BinaryDump, OtherFilesAreNotTaken) {
     EXPECT_FALSE(takes(""));
     EXPECT_FALSE(takes(std::string(1000, '\0')));
     EXPECT_FALSE(takes("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\n" + std::string(1000, 'a')));
-    // A binary STL whose head is empty, with 12 facets.
+    // This is a binary STL with an empty head and 12 facets.
     EXPECT_FALSE(takes(std::string(80, '\0') + std::string("\x0C\0\0\0", 4) + std::string(600, '\x3F')));
 }
 
@@ -257,7 +257,7 @@ TEST(DamagedBinaryDump, IsRefusedWithItsByte) {
     std::string other = whole;
     other.replace(8, 10, "DUMPLOCALS");
     EXPECT_THAT(binary_complaint(folder, other), HasSubstr("of the style \"DUMPLOCALS\""));
-    // A part of 10^9 numbers in a file of a few bytes.
+    // A part claims 10^9 numbers in a file of a few bytes.
     Writer huge(false);
     huge.text(whole.substr(0, whole.size() - 2 * 36)).add(std::int32_t{1000000000});
     std::string claims = huge.bytes();

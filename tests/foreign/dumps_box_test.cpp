@@ -1,4 +1,4 @@
-// Boxes of dumps, straight and tilted, against the formulas of LAMMPS' page Howto_triclinic.
+// Tests of boxes of dumps, straight and tilted, against the formulas of LAMMPS' page Howto_triclinic.
 #include <gmock/gmock.h>
 
 #include "engine/files/foreign/dumps/dump_parts.hpp"
@@ -77,7 +77,7 @@ TEST(DumpBox, WhatIsNoBoxIsRefusedWithItsLine) {
                 HasSubstr(":7: a number of the box is expected, and \"nan\""));
     EXPECT_THAT(complaint("0 1\n0 1\n0\n"), HasSubstr(":8: the box has 1 numbers in this line, of 2"));
     EXPECT_THAT(complaint("0 1\n1 0\n0 1\n"), HasSubstr(":8: the box ends before it begins along y"));
-    EXPECT_EQ(complaint("0 1\n1 0\n0 1\n", "0"), "no complaint");  // shrunk around nothing
+    EXPECT_EQ(complaint("0 1\n1 0\n0 1\n", "0"), "no complaint");  // a box shrunk around no grain
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The bytes behind a packing.
+// Tests of the bytes that readers get from packed files.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Bytes that do not pack to nothing, so that packed pieces have ends.
+// Bytes that do not pack to almost nothing, so that packed pieces have ends.
 std::string numbers(std::size_t count) {
     std::mt19937 random(7);
     std::string text;
@@ -36,7 +36,7 @@ TEST(PackedBytes, AllPackingsGiveTheSame) {
     const DumpFolder folder;
     const std::string one = numbers(700000), two = numbers(1000);
     expect_all_and_any_place(folder.write("a", one), one);
-    // The suffix says nothing.
+    // The suffix is not used.
     expect_all_and_any_place(folder.write("b.txt", gzip_of(one)), one);
     expect_all_and_any_place(folder.write("c", gzip_of(one) + gzip_of(two)), one + two);
     expect_all_and_any_place(
@@ -74,7 +74,7 @@ TEST(PackedBytes, WhatIsCutGivesWhatThereIs) {
         EXPECT_GT(read.size(), expected.size() / 2);
         EXPECT_LT(read.size(), expected.size());
     }
-    // Within the head of a member.
+    // The file ends within the head of a member.
     const auto file = folder.write("b", gzip_of("abc") + std::string("\x1f"));
     const std::unique_ptr<ByteSource> source = open_bytes(file);
     char read[10];
@@ -126,7 +126,7 @@ TEST(PackedBytes, OnlyOrdinaryFiles) {
                 HasSubstr("cannot be opened: No such file"));
 }
 
-// A small file that unpacks to much.
+// A small file unpacks to many bytes.
 TEST(PackedBytes, NoMoreThanIsAllowed) {
     const DumpFolder folder;
     const auto file = folder.write("a", gzip_of(std::string(5 << 20, 'a')));

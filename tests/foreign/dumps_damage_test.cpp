@@ -1,4 +1,4 @@
-// Text dumps that are damaged or cut.
+// Tests of text dumps that are damaged or cut.
 #include <gmock/gmock.h>
 
 #include "engine/files/foreign/dumps/text_index.hpp"
@@ -81,7 +81,7 @@ TEST(DamagedTextDump, Heads) {
                 HasSubstr(":3: a dump of a grid"));
 }
 
-// A line without an end within the buffer's growth is refused, not kept.
+// A line that does not end within the largest buffer is refused and not kept.
 TEST(DamagedTextDump, EndlessLine) {
     const DumpFolder folder;
     EXPECT_THAT(text_complaint(folder, frame_text("7", "1", names, std::string(40 << 20, '1'))),
@@ -94,7 +94,8 @@ TEST(CutTextDump, WholeFramesAreReadAndTheLastIsLeftOut) {
                               frame_text("1", "2", names, "1 1 0.5\n2 1 0.125\n");
     const std::string last = frame_text("2", "2", names, "1 1 0.5\n2 1 0.375\n");
     for (std::size_t kept = 1; kept < last.size(); ++kept) {
-        // "0.375" without its line feed is cut or not: nobody knows. So it is for each number before it.
+        // Nobody knows whether "0.375" without its line feed is cut. The same is true for each number before
+        // it.
         const auto dump = open_text(folder.write("a", whole + last.substr(0, kept)));
         const bool only_feeds = last.substr(0, kept).find_first_not_of("\n") == std::string::npos;
         ASSERT_EQ(dump->moments().size(), 2u) << last.substr(0, kept);
@@ -131,7 +132,7 @@ TEST(CutTextDump, TheOnlyFrameMayEndWithoutALineFeed) {
     const auto dump = open_text(folder.write("a", frame_text("0", "2", names, "1 1 0.424637\n2 1 0.38212")));
     EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(0.424637, 0.38212));
     EXPECT_THAT(dump->news()[0], HasSubstr("no line ends behind its last row, which is taken as whole"));
-    // But not with a radius that none of the others has.
+    // The row is not taken as whole if its radius is one that no other grain has.
     EXPECT_THAT(text_complaint(folder, frame_text("0", "5", "id radius",
                                                   "1 0.0015\n2 0.0019\n3 0.0015\n4 0.0019\n5 0.0")),
                 HasSubstr("no frame of this file is whole"));
@@ -143,7 +144,7 @@ TEST(CutTextDump, LastWords) {
     EXPECT_EQ(judge_last_word("0.0019", radii), LastWord::whole);
     EXPECT_EQ(judge_last_word("0.0", radii), LastWord::cut);
     EXPECT_EQ(judge_last_word("0.001", radii), LastWord::cut);
-    EXPECT_EQ(judge_last_word("1", {"1", "12", "1", "12", "1"}), LastWord::open);  // of 12, perhaps
+    EXPECT_EQ(judge_last_word("1", {"1", "12", "1", "12", "1"}), LastWord::open);  // perhaps it was 12
     EXPECT_EQ(judge_last_word("2", {"1", "2", "1", "2"}), LastWord::whole);
     for (const char* word : {"-", "1.5e", "1.5e-", "0.", ""})
         EXPECT_EQ(judge_last_word(word, {}), LastWord::cut) << word;
@@ -172,7 +173,7 @@ TEST(CutTextDump, AGrowingFile) {
     EXPECT_EQ(dump->moments().size(), 1u);
     EXPECT_FALSE(dump->grow());
     folder.append("a", "5");
-    EXPECT_FALSE(dump->grow());  // the number is whole, but who knows
+    EXPECT_FALSE(dump->grow());  // the number may be whole, but nobody knows
     folder.append("a", "\n");
     EXPECT_TRUE(dump->grow());
     ASSERT_EQ(dump->moments().size(), 2u);
@@ -195,7 +196,7 @@ TEST(CutTextDump, AGrowingFile) {
     EXPECT_THAT(complaint_about(file, [&] { dump->grow(); }), HasSubstr("cannot be opened"));
 }
 
-// The only frame is read without its last line feed, and is another one when the file goes on.
+// The only frame is read without its last line feed. When the file goes on, it is another frame.
 TEST(CutTextDump, ANumberThatGrows) {
     const DumpFolder folder;
     const auto dump = open_text(folder.write("a", frame_text("0", "1", names, "1 1 0.2")));

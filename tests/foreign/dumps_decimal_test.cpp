@@ -1,4 +1,4 @@
-// Numbers of texts against strtod, whose result is the nearest double.
+// Tests of numbers in texts against strtod, whose result is the nearest double.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -15,7 +15,7 @@
 namespace grainreel {
 namespace {
 
-// As readers do it: the fast way where it takes the number, else the other one.
+// Reads a number as readers do: the fast way if it takes the number, and otherwise the other way.
 struct Read {
     bool taken = false, fast = false;
     double value = 0;
@@ -75,10 +75,11 @@ TEST(DumpDecimals, AMillionWordsAreTheNearestDoubles) {
         expect_as_strtod(random_word(random), fast);
         if (HasFatalFailure()) return;
     }
-    EXPECT_GT(fast, 700000);  // most go the fast way, so that it is what is tested
+    EXPECT_GT(fast, 700000);  // most numbers go the fast way, so this way is tested
 }
 
-// (2m + 1) 2^s lies in the middle of two doubles: it goes to the even one, and a bit more to the upper one.
+// (2m + 1) 2^s is in the middle of two doubles. It becomes the even one, and a number slightly larger becomes
+// the upper one.
 TEST(DumpDecimals, MiddlesGoToTheEvenDouble) {
     std::mt19937_64 random(51);
     int fast = 0;
@@ -91,7 +92,8 @@ TEST(DumpDecimals, MiddlesGoToTheEvenDouble) {
         }
         if (HasFatalFailure()) return;
     }
-    // Middles behind the point: 1 + 2^-53 has 53 decimals, 1/2 + 2^-54 + what 19 digits can say.
+    // These are middles with digits after the point: 1 + 2^-53 has 53 decimals, and 1/2 + 2^-54 + what 19
+    // digits can express.
     for (const char* word :
          {"9007199254740993", "9007199254740995", "18014398509481986", "0.5000000000000000555",
           "1.1102230246251565e-16", "4503599627370496.5", "4503599627370497.5"})

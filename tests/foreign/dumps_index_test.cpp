@@ -1,4 +1,4 @@
-// The index of a dump that is kept between two calls.
+// Tests of the index of a dump that is kept between two calls.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -73,7 +73,8 @@ TEST(DumpIndex, BelongsToOneStateOfTheFile) {
     ASSERT_TRUE(kept && kept->of_now);
     expect_same(kept->index, index_of(file));
 
-    folder.append("a", frames(1).substr(15));  // longer: it serves, and the pass goes on
+    folder.append("a",
+                  frames(1).substr(15));  // longer: the index is used, and the pass continues from its end
     kept = kept_index(file, state());
     ASSERT_TRUE(kept);
     EXPECT_FALSE(kept->of_now);
@@ -83,7 +84,7 @@ TEST(DumpIndex, BelongsToOneStateOfTheFile) {
 
     std::string other = frames(6);
     other[2] = 'X';
-    folder.write("a", other);  // the same inode and longer, but another head
+    folder.write("a", other);  // the inode is the same and the file longer, but its head is another one
     EXPECT_FALSE(kept_index(file, state()));
     folder.write("a", frames(3));
     EXPECT_FALSE(kept_index(file, state()));
@@ -96,7 +97,7 @@ TEST(DumpIndex, BelongsToOneStateOfTheFile) {
     EXPECT_FALSE(kept_index(file, state()));
 }
 
-// Where the folder of the file takes no file of that name, the user's cache does.
+// If no index can be written beside the file, it goes to the user's cache.
 TEST(DumpIndex, GoesToTheCacheWhereItMust) {
     const DumpFolder folder, cache;
     const char* const before = std::getenv("XDG_CACHE_HOME");
@@ -116,7 +117,7 @@ TEST(DumpIndex, GoesToTheCacheWhereItMust) {
         ::setenv("XDG_CACHE_HOME", kept_before.c_str(), 1);
 }
 
-// A dump that is large enough is opened by its index the second time: a wrong step in it shows.
+// The second time, a large dump is opened by its index: a wrong step in the index is found in the result.
 TEST(DumpIndex, OfALargeDumpIsUsed) {
     const DumpFolder folder;
     std::string rows;

@@ -1,4 +1,5 @@
-// Frames that LAMMPS and LIGGGHTS wrote, in tests/data/foreign, against a plain reading of their words.
+// Tests of frames that LAMMPS and LIGGGHTS wrote, in tests/data/foreign, against a plain reading of their
+// words.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ std::filesystem::path data(const char* name) {
     return std::filesystem::path(GRAINREEL_SOURCE) / "tests/data/foreign" / name;
 }
 
-// The numbers below the line that begins with `item`, by strtod.
+// The numbers below the line that begins with `item`, read by strtod.
 std::vector<std::vector<double>> rows_below(const std::filesystem::path& file, const std::string& item,
                                             std::size_t frame) {
     std::ifstream in(file);
@@ -74,7 +75,8 @@ TEST(DumpsOfPrograms, LammpsPairs) {
     expect_numbers(frame.contacts, rows_below(file, "ITEM: ENTRIES", 1));
 }
 
-// The text and the binary file of one run at one step: the same box, and places to six digits.
+// The text file and the binary file are of one run at one step: they have the same box, and places agree to
+// six digits.
 TEST(DumpsOfPrograms, TextAndBinaryOfOneRun) {
     const auto file = data("triclinic_cgs.dump");
     const auto text = open_text(file);

@@ -1,4 +1,4 @@
-// Text dumps: what programs write into them, oddity by oddity.
+// Tests of text dumps with all that programs write into them, one peculiarity after the other.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -29,10 +29,11 @@ TEST(TextDump, RowsInAnyOrderAndFramesThatComeAndGo) {
         grains.push_back(moment.grains);
         EXPECT_FALSE(moment.time || moment.has_contacts);
     }
-    EXPECT_THAT(steps, ElementsAre(0, 100, 5000000000, 100));  // a step twice stays: the series decides
+    EXPECT_THAT(steps, ElementsAre(0, 100, 5000000000,
+                                   100));  // a step that comes twice stays, because the series decides
     EXPECT_THAT(grains, ElementsAre(0, 2, 1, 0));
     EXPECT_THAT(dump->news(), IsEmpty());
-    // From the last to the first.
+    // The frames are read from the last to the first.
     EXPECT_EQ(dump->read(3).grains.rows, 0u);
     EXPECT_THAT(column_of(dump->read(2).grains, "x"), ElementsAre(0.004));
     const RawFrame frame = dump->read(1);
@@ -141,11 +142,11 @@ TEST(TextDump, OldFilesWithoutNames) {
     EXPECT_FALSE(scaled->read(0).box->periodic[0]);
     const auto in_metres = open_text(folder.write("b", old_frame("-9 12\n", "1 1 3 0.2 0.3\n", 1)));
     EXPECT_THAT(names_in(*in_metres), ElementsAre("id", "type", "x", "y", "z"));
-    // In a box of 2 m grains up to 0.75 fill more of it as shares.
+    // In a box of 2 m, places up to 0.75 fill more of the box if they are fractions of it.
     const auto few =
         open_text(folder.write("d", old_frame("0 2\n", "1 1 0.5 0.5 0.25\n2 1 0.75 0.5 0.25\n", 2)));
     EXPECT_THAT(names_in(*few), ElementsAre("id", "type", "xs", "ys", "zs"));
-    // Within 0 and 1, but it is the box that is small.
+    // The places are between 0 and 1 because the box is small.
     const auto small = open_text(
         folder.write("c", old_frame("0 0.02\n", "1 1 0.01 0.015 0.002\n2 1 0.019 0.001 0.01\n", 2)));
     EXPECT_THAT(names_in(*small), ElementsAre("id", "type", "x", "y", "z"));
@@ -168,7 +169,7 @@ TEST(TextDump, PackedFramesInAnyOrder) {
     }
 }
 
-// More than a reader's buffer of lines, each row by its own formula.
+// The file is larger than a reader's buffer of lines, and each row has its own formula.
 TEST(TextDump, ManyRows) {
     constexpr int count = 60000;
     const DumpFolder folder;

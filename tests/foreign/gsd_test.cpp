@@ -20,7 +20,7 @@ void put(std::string& bytes, const T& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// A writer of GSD by its specification: header, chunks, index, names.
+// Writes GSD files by the specification: header, chunks, index, names.
 class GsdBytes {
   public:
     template <class T>
@@ -44,7 +44,7 @@ class GsdBytes {
 
     std::string schema = "hoomd";
     std::uint32_t layer = 2;
-    // The last chunk's numbers, to be made wrong.
+    // The number of rows of the last chunk, which a test can make wrong.
     std::uint64_t& last_rows() { return entries_.back().rows; }
     std::uint64_t& last_place() { return entries_.back().place; }
     std::uint64_t& last_frame() { return entries_.back().frame; }
@@ -111,7 +111,7 @@ class GsdBytes {
 using Floats = std::vector<float>;
 using Counts = std::vector<std::uint32_t>;
 
-// Two grains in a tilted box; the second frame moves them alone, the third has three grains.
+// Two grains in a tilted box. The second frame only moves them, and the third has three grains.
 GsdBytes bed() {
     GsdBytes gsd;
     gsd.chunk(0, "configuration/box", 6, Floats{4, 5, 6, 0.5F, 0, 0.25F});
@@ -234,7 +234,7 @@ TEST(Gsd, EveryCutIsRefused) {
         EXPECT_NE(complaint_of(gsd_format(), bytes.substr(0, size)), "no complaint") << size;
 }
 
-// Whatever a byte is, the file is read or refused.
+// Whatever value a byte has, the file is read or refused.
 TEST(Gsd, AnyByteMayBeWrong) {
     const std::string bytes = bed().bytes();
     for (std::size_t at = 8; at < bytes.size(); at += 3) {

@@ -1,4 +1,4 @@
-// Between which values the grains of an imported run lie.
+// Tests of the ranges of values of an imported run's grains.
 #include <gtest/gtest.h>
 
 #include <limits>

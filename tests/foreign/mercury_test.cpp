@@ -81,7 +81,7 @@ TEST(MercuryData, GrowsByWholeFrames) {
     EXPECT_EQ(opened->moments()[4].time, 3);
 }
 
-// A contact of i and j at x, with the force f.
+// A contact of i and j at x with the force f.
 std::string contact(int i, int j, double x, double f) {
     return fmt::format("0.5 {} {} {} 0 0 0.01 0 {} 0 1 0 0 0 0 0\n", i, j, x, f);
 }
@@ -112,7 +112,7 @@ TEST(MercuryContacts, DamageIsToldWithItsLine) {
                 StartsWith("grains:6: "));
 }
 
-// The form of MercuryDPM 1.0, with what a reader looks at.
+// A restart file in the form of MercuryDPM 1.0, with the parts that a reader looks at.
 std::string restart(const std::string& walls, int count_of_walls, int grains = 1) {
     return fmt::format(
                "MercuryDPM 1.0 name test\n"
@@ -152,7 +152,7 @@ TEST(MercuryRestart, HasGrainsBoxGravityAndDensities) {
     EXPECT_THAT(column(frame.grains, "density"), ElementsAre(4));
 }
 
-// The area of a wall, and its normal.
+// The area of a wall times its normal.
 Vec3 area_of(const TriangleMesh& mesh) {
     Vec3 area(0, 0, 0);
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -163,7 +163,7 @@ Vec3 area_of(const TriangleMesh& mesh) {
 }
 
 TEST(MercuryRestart, InfiniteWallsAreCutToTheBoxAndLookInwards) {
-    // Half a turn about y makes -x of x: the wall at x = 0, whose normal points out of the bed.
+    // Half a turn about y turns x into -x: the wall is at x = 0, and its normal points out of the bed.
     const RawFrame frame = frame_of(
         mercury_restart_format(),
         restart(
@@ -180,7 +180,7 @@ TEST(MercuryRestart, InfiniteWallsAreCutToTheBoxAndLookInwards) {
 }
 
 TEST(MercuryRestart, AnObliqueWallEndsAtTheFaces) {
-    // Through the edges x = 0, z = 0 and x = 1, z = 3.
+    // The plane goes through the edges x = 0, z = 0 and x = 1, z = 3.
     const RawFrame frame =
         frame_of(mercury_restart_format(), restart("InfiniteWall normal 3 0 -1 position 0\n", 1));
     ASSERT_EQ(frame.walls.size(), 1u);

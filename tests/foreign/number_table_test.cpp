@@ -45,7 +45,7 @@ TEST(NumberTable, ARowOfUnitsGoesToTheNames) {
         EXPECT_THAT(names(table), ElementsAre("x [mm]", "y [mm]", "r [m]", "n")) << bytes;
         EXPECT_THAT(column(table, "y [mm]"), ElementsAre(2)) << bytes;
     }
-    // Materials that are called like units.
+    // These are materials with names like units.
     EXPECT_THAT(words(table_of("kind,x,y\nm,1,2\ns,3,4\n"), "kind"), ElementsAre("m", "s"));
 }
 
@@ -112,7 +112,7 @@ TEST(NumberTable, RowsOfOneTimeMakeAFrame) {
 
 TEST(NumberTable, TimesMayHaveAUnit) {
     EXPECT_DOUBLE_EQ(*frame_of(number_table_format(), "time [ms],x,y\n20,1,2\n").time, 0.02);
-    EXPECT_FALSE(frame_of(number_table_format(), "T,x,y\n20,1,2\n").time.has_value());  // a temperature
+    EXPECT_FALSE(frame_of(number_table_format(), "T,x,y\n20,1,2\n").time.has_value());  // T is a temperature
     EXPECT_EQ(frame_of(number_table_format(), "Frame,x,y\n7,1,2\n").step, 7);
 }
 

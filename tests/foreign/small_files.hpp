@@ -17,7 +17,7 @@
 
 namespace grainreel::small_files {
 
-// A folder with one file, gone afterwards.
+// A folder with one file, which is removed afterwards.
 class OneFile {
   public:
     explicit OneFile(std::string_view bytes, const std::string& name = "grains") : path_(folder_ / name) {
@@ -50,7 +50,7 @@ inline RawFrame frame_of(const RawFormat& format, std::string_view bytes, std::s
     return format.open(file.path())->read(index);
 }
 
-// What is wrong with a file, without its folder; of opening it and of reading all its frames.
+// The message about a file, without its folder, when it is opened and all its frames are read.
 inline std::string complaint_of(const RawFormat& format, std::string_view bytes) {
     const OneFile file(bytes);
     try {

@@ -10,7 +10,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// One grain at x; Coding{} is text, another one is appended.
+// A file with one grain at x. Coding{} is text; the default is appended.
 std::string grain(double x, const Coding& coding = {Form::appended_raw}) {
     XmlWriter writer(coding);
     return writer.file("PolyData", "<Piece NumberOfPoints=\"1\" NumberOfVerts=\"1\"><PointData>" +
@@ -59,7 +59,7 @@ class Collections : public testing::Test {
         for (const RawMoment& moment : file.moments()) all.push_back(moment.time.value_or(-1));
         return all;
     }
-    // x of the first grain, and z of the first wall, of each moment.
+    // x of the first grain of each moment, or -1 without grains.
     static std::vector<double> grains(const RawFile& file) {
         std::vector<double> all;
         for (std::size_t i = 0; i < file.moments().size(); ++i) {
@@ -89,15 +89,14 @@ TEST_F(Collections, PartsOfOneTimeAreOneMoment) {
     EXPECT_TRUE(file->news().empty());
 }
 
-// Hand-written lists give both files of a time part 0.
-// As a program on Windows writes it.
+// A program on Windows writes paths like this.
 TEST_F(Collections, BackslashesInNames) {
     std::filesystem::create_directory(folder.path() / "vtk");
     folder.write("vtk/g7.vtp", grain(7));
     const auto one = open("a.pvd", pvd({{"timestep=\"1\"", "vtk\\g7.vtp"}}));
     ASSERT_EQ(one->moments().size(), 1u);
     EXPECT_EQ(one->read(0).grains.find("x")->values.at(0), 7);
-    // A file of that very name is it.
+    // A file with exactly this name is preferred.
     folder.write("vtk\\g7.vtp", grain(3));
     EXPECT_EQ(open("b.pvd", pvd({{"timestep=\"1\"", "vtk\\g7.vtp"}}))->read(0).grains.find("x")->values.at(0),
               3);
@@ -148,7 +147,7 @@ TEST_F(Collections, FilesThatAreNotThereYet) {
                 HasSubstr("g9.vtp\" is not there; copy its files"));
 }
 
-// A hole in the middle is left out; a wall that is missing there leaves the grains.
+// A missing moment in the middle is left out; where only a wall is missing, the grains stay.
 TEST_F(Collections, Holes) {
     const auto file = open("a.pvd", pvd({{"timestep=\"0\"", "g0.vtp"},
                                          {"timestep=\"1\"", "g8.vtp"},
@@ -197,7 +196,7 @@ std::string domain() {
                                               writer.array("Float64", "", {1, 6}) + "</Coordinates></Piece>");
 }
 
-// As dump custom/vtm of LIGGGHTS writes them: timestep is the number of the frame.
+// The list is like those of dump custom/vtm of LIGGGHTS: timestep is the number of the frame.
 TEST_F(Collections, LiggghtsBlocks) {
     folder.write("d/box.vtr", domain());
     folder.write("d/g.vtp", grain(5));
@@ -217,7 +216,7 @@ TEST_F(Collections, LiggghtsBlocks) {
     EXPECT_EQ(frame.box->origin, Vec3(-1, 0, 1));
     EXPECT_EQ(frame.box->edges[0] + frame.box->edges[1] + frame.box->edges[2], Vec3(3, 4, 5));
 
-    folder.write("dump0.vtm", blocks(box));  // no grains yet
+    folder.write("dump0.vtm", blocks(box));  // there are no grains yet
     std::string list =
         "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
         "<Collection>\n<DataSet timestep=\"0\" part=\"0\" file=\"dump0.vtm\"/>\n"
@@ -228,7 +227,7 @@ TEST_F(Collections, LiggghtsBlocks) {
     EXPECT_EQ(series->moments()[0].step, 0);
     EXPECT_EQ(series->moments()[1].step, 2000);
     EXPECT_EQ(series->moments()[0].grains, 0);
-    // Times that are no numbers of frames are times.
+    // Values that are no numbers of frames are times.
     list.replace(list.find("timestep=\"1\""), 12, "timestep=\"0.1\"");
     EXPECT_THAT(times(*open("other.pvd", list)), ElementsAre(0, 0.1));
 }
@@ -255,7 +254,7 @@ TEST_F(Collections, SeriesOfParaView) {
                 HasSubstr("entry 2 of its list \"files\" has no \"name\""));
 }
 
-// Other columns in another file of the same moment: what is missing is NaN.
+// Another file of the same moment has other columns: missing values are NaN.
 TEST_F(Collections, GrainsOfTwoFiles) {
     XmlWriter writer({});
     folder.write("h1.vtp",

@@ -20,7 +20,7 @@ std::string with(std::string text, const std::string& what, const std::string& b
     return at == std::string::npos ? text : text.replace(at, what.size(), by);
 }
 
-// A file that ends anywhere is refused, or nothing of it but the closing tags is missing.
+// A file that ends anywhere is refused, unless only closing tags are missing.
 TEST(DamagedVtk, CutAnywhere) {
     const Folder folder;
     for (const Form form : {Form::ascii, Form::base64, Form::appended_raw, Form::appended_base64})
@@ -31,7 +31,7 @@ TEST(DamagedVtk, CutAnywhere) {
             for (std::size_t size = 60; size < whole.size(); size += 41) {
                 const std::string message = xml_complaint(folder, whole.substr(0, size));
                 const bool all = size >= appended;
-                // Fill bits at the end of base64 may be missing, too.
+                // Fill bits at the end of base64 may also be missing.
                 if (message == "no complaint")
                     EXPECT_TRUE(all || size + 8 > whole.find("</VTKFile>")) << size << " of " << whole.size();
                 else
@@ -42,7 +42,7 @@ TEST(DamagedVtk, CutAnywhere) {
         }
 }
 
-// Any byte may be another one: the file is read or refused, and nothing else happens.
+// Any byte may change: the file is read or refused, and nothing else happens.
 TEST(DamagedVtk, OtherBytes) {
     const Folder folder;
     for (const Form form : {Form::base64, Form::appended_raw})
@@ -57,7 +57,7 @@ TEST(DamagedVtk, OtherBytes) {
         }
 }
 
-// Counts are believed only as far as the file can hold them.
+// Counts are believed only if the file can hold so many values.
 TEST(DamagedVtk, ClaimsOfMore) {
     const Folder folder;
     const std::string text = bed_file({}, false);
@@ -78,7 +78,7 @@ TEST(DamagedVtk, ClaimsOfMore) {
     EXPECT_THAT(xml_complaint(folder, bomb), HasSubstr("where its numbers take"));
 }
 
-// A block that says more than its compressed bytes can give.
+// A block claims more bytes than its compressed bytes can give.
 TEST(DamagedVtk, BlocksThatCannotBe) {
     const Folder folder;
     const auto file = [&](const std::vector<std::uint64_t>& head, const std::string& data) {

@@ -1,4 +1,4 @@
-// VTK files that tests write, by an encoder of their own, and one bed that all of them hold.
+// VTK files that tests write with an encoder of their own, and one bed that all of them hold.
 #pragma once
 
 #include <fmt/format.h>
@@ -56,7 +56,7 @@ inline std::string complaint(const std::function<void()>& act) {
     }
     return "no complaint";
 }
-// The message of opening and reading a file.
+// The message when a file is opened and read.
 inline std::string complaint_of(const RawFormat& format, const std::filesystem::path& file) {
     return complaint([&] { frame_in(format, file); });
 }
@@ -67,7 +67,7 @@ inline std::vector<double> column(const RawTable& table, const std::string& name
     return found == nullptr ? std::vector<double>() : found->values;
 }
 
-// The bed: grain i of `bed_grains`. Numbers of few bits, so that floats hold them.
+// The bed: the values of grain i of `bed_grains`. Numbers have few bits, so that floats hold them.
 inline constexpr std::size_t bed_grains = 37;
 inline double bed_place(std::size_t i, std::size_t axis) {
     return 0.125 * static_cast<double>((i * (axis + 3) + axis) % 29) - 1;
@@ -101,7 +101,7 @@ inline std::vector<double> bed_velocities() {
 inline std::vector<double> bed_ids() {
     return bed_numbers([](std::size_t i, std::size_t) { return bed_id(i); }, 1);
 }
-// 0, 1, 2, ... from `first`.
+// The numbers first, first + 1, first + 2, ...
 inline std::vector<double> counting(std::size_t count, double first = 0) {
     std::vector<double> values(count);
     for (std::size_t i = 0; i < count; ++i) values[i] = first + static_cast<double>(i);
@@ -135,7 +135,7 @@ struct Coding {
     Packer packer = Packer::none;
     bool big_endian = false;
     bool wide_header = false;  // UInt64
-    std::size_t block = 100;   // bytes, of a compressed block; no multiple of a number's
+    std::size_t block = 100;   // bytes of a compressed block; not a multiple of a number's size
 };
 
 inline std::string base64(std::string_view bytes) {
@@ -220,7 +220,7 @@ inline std::string stored(std::string_view bytes, const Coding& coding) {
     return raw ? header(lengths, coding) + data : base64(header(lengths, coding)) + base64(data);
 }
 
-// Writes a file of one Piece after the other.
+// Writes a file, one Piece after the other.
 class XmlWriter {
   public:
     explicit XmlWriter(const Coding& coding) : coding_(coding) {}
@@ -267,7 +267,7 @@ class XmlWriter {
     std::string appended_{};
 };
 
-// The bed as PolyData or UnstructuredGrid, with a vertex a point.
+// The bed as PolyData or UnstructuredGrid, with a vertex cell for each point.
 inline std::string bed_file(const Coding& coding, bool poly_data) {
     XmlWriter writer(coding);
     std::string inside =

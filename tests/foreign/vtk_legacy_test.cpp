@@ -11,11 +11,11 @@ RawFrame frame(const Folder& folder, const std::string& text) {
     return frame_in(vtk_legacy_format(), folder.write("bed.vtk", text));
 }
 
-// An array: words, or big-endian bytes of the type.
+// An array as words, or as big-endian bytes of the type.
 std::string numbers(const char* type, const std::vector<double>& values, bool binary) {
     if (!binary) {
         std::string text;
-        // Nine to a line, as VTK has them, so that points go over the ends of lines.
+        // There are nine numbers in a line, as VTK writes them, so that points go over the ends of lines.
         for (std::size_t i = 0; i < values.size(); ++i)
             text += fmt::format("{}{}", values[i], i % 9 == 8 ? "\n" : " ");
         return text + "\n";
@@ -130,7 +130,7 @@ TEST(VtkLegacy, NothingYet) {
     EXPECT_EQ(opened->read(0).grains.rows, 0u);
 }
 
-// LIGGGHTS' compute pair/gran/local by dump local/gran/vtk.
+// The file is like one of LIGGGHTS' compute pair/gran/local by dump local/gran/vtk.
 TEST(VtkLegacy, LinesAreContacts) {
     const Folder folder;
     const auto opened = vtk_legacy_format().open(folder.write(
@@ -162,17 +162,18 @@ TEST(VtkLegacy, Surfaces) {
               "CELL_DATA 5\nSCALARS wear float\nLOOKUP_TABLE default\n1 2 3 4 5\n");
     ASSERT_EQ(read.walls.size(), 1u);
     using Triangle = TriangleMesh::Triangle;
-    // Quads from their first corner, pixels by rows, every second triangle of a strip turned.
+    // Quads are cut from their first corner, pixels go by rows, and every second triangle of a strip is
+    // turned.
     EXPECT_THAT(read.walls[0].mesh.triangles,
                 ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 1, 2},
                             Triangle{0, 2, 3}, Triangle{0, 1, 3}, Triangle{3, 1, 2}, Triangle{3, 2, 4}));
     EXPECT_THAT(column(read.walls[0].cells, "wear"), ElementsAre(1, 2, 2, 3, 3, 4, 4, 4));
-    EXPECT_EQ(read.walls[0].mesh.vertices.size(), 5u);  // those that are used
+    EXPECT_EQ(read.walls[0].mesh.vertices.size(), 5u);  // only those that are used
     EXPECT_EQ(read.contacts.rows, 1u);
     EXPECT_EQ(read.grains.rows, 0u);
 }
 
-// The faces of a solid look outward: the volume by the divergence theorem is the solid's.
+// The faces of a solid look outwards: the volume by the divergence theorem is that of the solid.
 TEST(VtkLegacy, FacesOfSolids) {
     const Folder folder;
     struct Solid {
@@ -213,7 +214,7 @@ TEST(VtkLegacy, WallsOfLiggghtsByMesh) {
         for (const RawWall& wall : frame(folder, text).walls) wear.push_back(column(wall.cells, "wear"));
         return wear;
     };
-    // Triangles of each mesh are counted from 0; or all triangles of a mesh have its number; or neither.
+    // Triangles of each mesh are counted from 0, or all have the number of their mesh, or neither.
     EXPECT_THAT(walls("0 1 2 0 1"), ElementsAre(ElementsAre(5, 6, 7), ElementsAre(8, 9)));
     EXPECT_THAT(walls("4 4 4 2 2"), ElementsAre(ElementsAre(5, 6, 7), ElementsAre(8, 9)));
     EXPECT_THAT(walls("0 1 2 3 4"), ElementsAre(ElementsAre(5, 6, 7, 8, 9)));

@@ -32,7 +32,7 @@ std::string binary_stl(std::string head, std::size_t triangles) {
     return head;
 }
 
-// The size of the file is that of its packed bytes, and the first bytes are not all.
+// The size of the file is that of its packed bytes, and only the first bytes are known.
 TEST(WallSurface, ALargeStlThatWasPackedIsKnownByItsFacets) {
     FileHead head = head_of(binary_stl("mesh", 2000));
     ASSERT_EQ(head.bytes.size(), kHeadBytes);

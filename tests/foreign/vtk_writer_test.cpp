@@ -1,4 +1,5 @@
-// Files of VTK that are written: the same bytes on any number of threads, and forces that add up.
+// Tests of VTK files that are written: they have the same bytes on any number of threads, and forces that add
+// up.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-// Numbers without a pattern, for several blocks of 256 KiB.
+// Numbers without a pattern, enough for several blocks of 256 KiB.
 std::vector<double> many_numbers(std::size_t count) {
     std::vector<double> numbers(count);
     std::uint64_t state = 1;
@@ -79,7 +80,7 @@ TEST(VtkWriter, LinesToWallsEndWhereTheyTouch) {
     EXPECT_EQ(wall, (std::vector<double>{0, 0, 0.01, 0, 0, 0}));
 }
 
-// Depth 0.1 m along x: two grains at its ends touch across the edge.
+// The depth is 0.1 m along x: two grains at its ends touch across the edge.
 TEST(VtkWriter, LinesAcrossAPeriodicEdgeAreShort) {
     Pile pile;
     pile.world.cell.emplace();

@@ -56,7 +56,7 @@ TEST(VtkXml, EveryType) {
         }
 }
 
-// As our export writes them: types from 1, and their names as bytes with a 0 behind each.
+// This is the form of our export: types from 1, and their names as bytes with a 0 after each.
 TEST(VtkXml, TypesThatHaveNames) {
     const Folder folder;
     const auto types = [&](const std::vector<double>& numbers, const std::string& names) {
@@ -72,7 +72,8 @@ TEST(VtkXml, TypesThatHaveNames) {
     const RawColumn named = types({2, 1}, "98 105 103 0 97 0 ");  // "big", "a"
     EXPECT_THAT(named.words, ElementsAre("big", "a"));
     EXPECT_THAT(named.values, ElementsAre(1, 0));
-    // A type without a name, names without an end, one twice, what is no byte, and none at all.
+    // Wrong are a type without a name, a name without an end, a name that comes twice, a value that is no
+    // byte, and no name at all.
     for (const char* names : {"98 0 ", "98 0 97", "98 0 98 0 ", "98 0 300 0 ", "98 0 0 ", ""}) {
         SCOPED_TRACE(names);
         const RawColumn plain = types({2, 1}, names);
@@ -81,7 +82,7 @@ TEST(VtkXml, TypesThatHaveNames) {
     }
 }
 
-// VTK packs eight bits in a byte, the first one highest; the file is one of VTK 9.1.
+// VTK packs eight bits into a byte, the first one highest; the file is of VTK 9.1.
 TEST(VtkXml, Bits) {
     const Folder folder;
     const std::string text =
@@ -133,7 +134,7 @@ TEST(VtkXml, PiecesOfOtherColumnsAreRefused) {
                 HasSubstr("this piece has the columns x, y, z, and those before it have x, y, z, radius"));
 }
 
-// Cell data of vertices are the grains', in whatever order the vertices name the points.
+// Cell data of vertices belong to the grains, in whatever order the vertices name the points.
 TEST(VtkXml, CellDataOfVertices) {
     const Folder folder;
     XmlWriter writer({Form::base64});
@@ -191,7 +192,7 @@ TEST(VtkXml, PiecesInFilesOfTheirOwn) {
     EXPECT_THAT(complaint_of(vtk_xml_format(), list), HasSubstr("is a list of pieces itself"));
 }
 
-// MFIX and LIGGGHTS name a compressor though the numbers are text.
+// MFIX and LIGGGHTS name a compressor although the numbers are text.
 TEST(VtkXml, CompressorOfTextsDoesNotMatter) {
     const Folder folder;
     std::string text = bed_file({}, true);

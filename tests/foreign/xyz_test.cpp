@@ -65,7 +65,7 @@ TEST(ExtendedXyz, ItsSecondLineNamesAll) {
     ASSERT_TRUE(frame.box.has_value());
     EXPECT_EQ(frame.box->origin, Vec3(-2, -1, 0));
     EXPECT_EQ(frame.box->edges[0], Vec3(4, 0, 0));
-    EXPECT_EQ(frame.box->edges[1], Vec3(1, 5, 0));  // a line is a vector
+    EXPECT_EQ(frame.box->edges[1], Vec3(1, 5, 0));  // a line of the matrix is a vector
     EXPECT_EQ(frame.box->edges[2], Vec3(0, 0, 6));
     EXPECT_THAT(frame.box->periodic, ElementsAre(true, false, true));
 }
@@ -78,7 +78,7 @@ TEST(ExtendedXyz, ABoxWithoutOriginBeginsAtZero) {
     EXPECT_THAT(names(frame.grains), ElementsAre("x", "y", "z"));
 }
 
-// Sources of these: chemfiles' list of bad properties.
+// The examples are from chemfiles' list of bad properties.
 TEST(ExtendedXyz, BadPropertiesAreRefused) {
     const auto said = [](const std::string& properties) {
         return complaint_of(xyz_format(), "1\nProperties=" + properties + "\nH 1 2 3 4\n");
