@@ -102,6 +102,7 @@ TEST_F(Collections, BackslashesInNames) {
               3);
 }
 
+// Hand-written lists give both files of a time the part 0.
 TEST_F(Collections, FilesOfOneTimeAndPartWithOtherStems) {
     const auto file = open(
         "a.pvd", pvd({{"timestep=\"0\" part=\"0\"", "g0.vtp"}, {"timestep=\"0\" part=\"0\"", "w0.vtp"}}));

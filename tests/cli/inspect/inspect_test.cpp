@@ -581,7 +581,7 @@ TEST_F(InspectedMoment, WhatSaysHowAPictureIsDrawnNeedsOne) {
     EXPECT_THAT(refusal({"--film-time", "1 s"}), HasSubstr("--film-time: says what a picture shows"));
 }
 
-// A CSV table has no room for words, so they are in a file beside it.
+// A CSV table has no room for words, so they are printed to stderr.
 TEST_F(InspectedMoment, ACsvHasItsMomentAndNotesBesideIt) {
     const Ended ended = inspect({"--at", "0.0731 s", "--no-replay", "--where", "id < 3", "--csv"});
     EXPECT_THAT(ended.out, testing::StartsWith("species,grains,of,share\n"));

@@ -205,7 +205,8 @@ TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
     EXPECT_THAT(ended.err, HasSubstr("warning: run/run.json: is missing; "));
 }
 
-// One line a file, and the page is made all the same; a file that contradicts the others is refused.
+// Each file that is missing or damaged gets a line, and the page is made nevertheless. A file that
+// contradicts the others is refused.
 TEST_F(ReportProgram, SaysWhichFilesLackOrAreDamaged) {
     run({"--set", "output.contacts=true"});
     EXPECT_THAT(program({"report", "run"}).err, Not(HasSubstr("warning")));
