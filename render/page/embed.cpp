@@ -104,7 +104,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
 }
 
 std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes) {
-    constexpr int level = 6;  // higher ones gain less than 1 % on places
+    constexpr int level = 6;  // higher levels save less than 1 % on places
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
         libdeflate_alloc_compressor(level), libdeflate_free_compressor);
     if (!compressor) throw RunError("report: no memory to pack the page's bytes");

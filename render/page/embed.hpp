@@ -1,5 +1,6 @@
-// What a page is put together from: text and data inside HTML, bytes as text, packed bytes, the HTML files
-// that the build puts into the program, and how far the page is. Nothing here knows of runs.
+// Tools by which a page is put together: text and data inside HTML, bytes as text, packed bytes, the HTML
+// files that the build puts into the program, and the progress of making a page. Nothing here knows about
+// runs.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,21 +15,21 @@
 
 namespace grainreel {
 
-// Text as HTML shows it: no sign of it means anything, and control characters other than line ends and tabs
-// are replaced by U+FFFD.
+// Escapes text for HTML, so that all its characters are shown as they are. Control characters other than line
+// ends and tabs are replaced by U+FFFD.
 std::string html_text(std::string_view text);
 
-// JSON for a <script> element: as it is, with < written as \u003c, so that nothing in it can end the element.
+// Makes JSON fit for a <script> element: < is written as \u003c, so that nothing in it can end the element.
 std::string json_in_html(std::string json);
 
 // A relative link to a file of that name: percent-encoded, never a scheme or a path.
 std::string file_link(std::string_view name);
 
-// The template with each {{name}} replaced by its text. What is put in is not looked at again. A check fails
-// for a name that has no text.
+// The template with each {{name}} replaced by its text. Names inside the inserted text are not replaced. A
+// check fails for a name that has no text.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& texts);
 
-// Base64 of RFC 4648 with padding, in one line. None of its signs means anything in HTML.
+// Base64 of RFC 4648 with padding, in one line. None of its characters has a meaning in HTML.
 std::string base64(std::span<const std::uint8_t> bytes);
 
 // Reads a file of moderate size. Throws RunError when it cannot be read, or has more bytes than a page may
@@ -41,8 +42,8 @@ std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes);
 
 // The files of render/page/html, which the build puts into the program.
 
-// Page, parts and style are as they lie there. The scripts are joined by the build (embed_page.cmake), uPlot
-// first.
+// Page, parts and style are contained unchanged. The scripts are joined by the build (embed_page.cmake), with
+// uPlot first.
 struct PageFiles {
     std::string_view page, body, variant, bed, charts, fields, live, style;
     std::string_view script_before, mesh_script, script_after;
@@ -54,10 +55,10 @@ struct PageFiles {
 };
 const PageFiles& page_files();
 
-// Whoever makes a page tells how far that is, and may be stopped. Told the share that is done; false: stop.
+// Functions that make a page call this with the share that is done. Returning false stops them.
 using PageProgress = std::function<bool(double)>;
 
-// Thrown where one said stop; write_report() catches it.
+// Thrown when progress returned false; write_report() catches it.
 struct PageStopped {};
 
 inline const PageProgress kNoPageProgress = [](double) { return true; };

@@ -28,13 +28,13 @@ namespace fs = std::filesystem;
 
 constexpr int most_threads_of_copy = 8;
 
-// "" of what not every browser of today plays.
+// The MIME type; "" for a format that not every browser of today plays.
 std::string type_of(FilmFormat format) {
     if (!plays_in_browsers(format)) return "";
     return format == FilmFormat::mp4 ? "video/mp4" : "video/webm";
 }
 
-// A folder that is gone when the page is made.
+// A folder that is removed when the page is made.
 class ScratchFolder {
   public:
     ScratchFolder() {
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> smaller_copy(const FilmedScene& scene, const fs::path&
     return read_bytes(settings.path);
 }
 
-// Why the file is not the film that the run wrote; "" where it is. frames: that were written, where known.
+// Why the file is not the film that the run wrote; "" when it is. frames: number that was written, if known.
 std::string damage_of(const fs::path& film, std::optional<std::int64_t> frames) {
     try {
         const std::int64_t whole = pictures_in(film);
@@ -146,7 +146,7 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
     };
     const std::uintmax_t kept = fs::file_size(folder / kPageCopy, error);
     try {
-        // One that is too large is as large when it is made again.
+        // A copy that was too large would be as large when made again.
         if (error || kept == 0)
             film.bytes = smaller_copy(scene, folder / name, picture_taken);
         else if (kept <= most_bytes)
@@ -183,7 +183,7 @@ std::vector<std::uint8_t> page_poster(const fs::path& folder) {
 
 namespace {
 
-// The frames of the film as planned, with those that hold a caption.
+// The times of the film's frames as planned, with those that hold a caption.
 std::vector<double> planned_times(const FilmedScene& scene, double first) {
     const Plan plan = plan_with_film(scene);
     std::vector<double> times;
@@ -195,7 +195,7 @@ std::vector<double> planned_times(const FilmedScene& scene, double first) {
     return times;
 }
 
-// Whether the run may have left out frames on its way.
+// Whether the run may have left out frames.
 bool may_lack_frames(const FilmedScene& scene) {
     return scene.drive.present && scene.film.periods == 0 &&
            std::any_of(scene.film.segments.begin(), scene.film.segments.end(),
@@ -258,7 +258,7 @@ std::vector<std::uint8_t> as_jpeg(AVFrame& picture) {
     codec->pix_fmt = AV_PIX_FMT_YUVJ420P;
     codec->time_base = {1, 1};
     codec->flags |= AV_CODEC_FLAG_QSCALE;
-    constexpr int quality = 4;  // of 1 to 31, the best first; small digits read
+    constexpr int quality = 4;  // from 1 (best) to 31; small digits can be read
     codec->global_quality = quality * FF_QP2LAMBDA;
     picture.quality = codec->global_quality;
     if (avcodec_open2(codec.get(), encoder, nullptr) < 0) return {};

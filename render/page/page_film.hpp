@@ -17,37 +17,37 @@ namespace grainreel {
 struct PageFilm {
     std::vector<std::uint8_t> bytes;  // empty where the page has none
     std::string type;                 // "video/mp4"
-    std::string file;                 // in the run's folder: "movie.mp4"; empty without a film
-    bool whole_in_folder = false;     // the file is the film, and plays
-    std::string note;  // a sentence for the page where it shows something else than that file, or nothing
+    std::string file;                 // name in the run's folder: "movie.mp4"; empty without a film
+    bool whole_in_folder = false;     // whether the file is the whole film and plays
+    std::string note;  // a sentence for the page when it shows something else than that file, or nothing
 };
 
-// The run's own film where browsers play it and it is small enough; else a copy in H.264, of 720 lines at
-// most, which the run has made or which is made here; none where that is too large too, or cannot be made.
-// frames: of the film, where they are known; for the progress of a copy. Writes nothing into the run's
+// The run's own film when browsers play it and it is small enough. Otherwise a copy in H.264 of 720 lines at
+// most, which the run has made or which is made here. None when the copy is too large too or cannot be made.
+// frames: number of the film's frames, if known, for the progress of a copy. Writes nothing into the run's
 // folder.
 PageFilm page_film(const FilmedScene& scene, const std::filesystem::path& folder,
                    std::optional<std::int64_t> frames = {}, const PageProgress& progress = kNoPageProgress,
                    std::size_t most_bytes = kMostFilmOnPage);
 
-// poster.png as a JPEG, 960 pixels wide at most. Empty without one, or where it cannot be read.
+// poster.png as a JPEG of at most 960 pixels width. Empty when there is none or it cannot be read.
 std::vector<std::uint8_t> page_poster(const std::filesystem::path& folder);
 
 struct FilmTimes {
-    std::vector<double> times;  // s, one a frame; empty where they are not known
-    std::string why_not;        // then: a sentence for the page
+    std::vector<double> times;  // s, one for each frame; empty when they are not known
+    std::string why_not;        // a sentence for the page when they are not known
 };
 
-// As the run's own table has them (film_times.csv), where it agrees with the number of frames and its times
-// rise.
+// The times in the run's own table (film_times.csv), if its number of frames is right and its times rise.
 std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, std::int64_t frames);
 
-// Without it: made from the scene as the run made it. frames: of the film, as run.json has them. first: s,
-// where the run began. Known only where the number of frames agrees: a film may leave out locked frames of a
-// bed that repeats itself every other period, as the run finds out. whole: the run was complete.
+// The times without that table: they are made from the scene, as the run made them. They are known only when
+// the number of frames agrees: a film may leave out locked frames when the run finds that the bed repeats
+// itself only every other period. frames: number of the film's frames in run.json. first: time in s at which
+// the run began. whole: whether the run was complete.
 FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole);
 
-// A JPEG, 960 pixels wide at most, of a frame that this decoder gave. Empty where none can be made. Throws
+// A JPEG, at most 960 pixels wide, of a frame from this decoder. Empty when none can be made. Throws
 // RunError.
 std::vector<std::uint8_t> small_jpeg(const AVCodecContext& decoder, AVFrame& frame);
 

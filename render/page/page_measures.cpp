@@ -19,7 +19,8 @@ namespace grainreel {
 namespace {
 
 constexpr std::size_t most_charts = 4;
-// What a bed is looked at for: how two species part, how loose it is, how high it lies, how hot it is.
+// The measures that usually matter: how two species separate, how loose the bed is, how high it lies, how
+// large its granular temperature is.
 constexpr const char* usual[] = {"height_difference", "unlike_neighbours", "centre_z_m", "contact_number",
                                  "kinetic_J"};
 
@@ -83,12 +84,12 @@ namespace {
 namespace fs = std::filesystem;
 using Values = std::vector<double>;
 
-constexpr std::size_t most_cells = 4'000'000;         // of the file, in a record
-constexpr std::size_t most_plain_bytes = 20'000'000;  // of the page's, before they are packed
+constexpr std::size_t most_cells = 4'000'000;         // cells of a record in the file
+constexpr std::size_t most_plain_bytes = 20'000'000;  // bytes of the page's fields before they are packed
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double steps = 254;
 
-// As FieldsWriter names a species' variable.
+// The name as FieldsWriter uses it in a species' variable.
 std::string in_variable(const std::string& name) {
     std::string text = name;
     for (char& c : text)
@@ -127,7 +128,7 @@ class FieldsFile {
         return {ends[0], ends[1]};
     }
 
-    // The values in the plane: in three dimensions the mean over the depth, or the sum.
+    // The values in the plane. For a grid in three dimensions they are the mean over the depth, or the sum.
     Values plane(const std::string& name, std::size_t record, bool sum = false) const {
         const int variable = file_.find_variable(name);
         if (nx_ == 1) return read(variable, record);
@@ -160,7 +161,7 @@ class FieldsFile {
     std::size_t records_ = 0, nx_ = 1, ny_ = 0, nz_ = 0;
 };
 
-// A quantity and how its plane comes from a record.
+// A quantity, and how its plane is made from a record.
 struct Made {
     FieldQuantity about;
     std::function<Values(const FieldsFile&, std::size_t)> of;
@@ -172,7 +173,7 @@ Values combined(const Values& a, const Values& b, double (*of)(double, double)) 
     return result;
 }
 
-// A third of the trace of both stresses.
+// The pressure: a third of the trace of both stresses.
 Values pressure(const FieldsFile& file, std::size_t record) {
     Values sum(file.cells(), 0.0);
     for (const char* part : {"kinetic_stress_xx", "kinetic_stress_yy", "kinetic_stress_zz",
@@ -230,7 +231,8 @@ void append(std::vector<std::uint8_t>& bytes, const FieldQuantity& quantity, con
     }
 }
 
-// The first record's: the container stands still on the grid.
+// Appends the share of each cell inside the container, from the first record: the container does not move on
+// the grid.
 void append_room(std::vector<std::uint8_t>& bytes, const FieldsFile& file) {
     const bool sum = true;
     const Values room = file.plane("free_volume", 0, sum);

@@ -12,25 +12,25 @@
 namespace grainreel {
 
 struct PageColumn {
-    std::string name;   // as in measures.csv
+    std::string name;   // name in measures.csv
     std::string label;  // in words
     std::string unit;   // SI; empty for pure numbers
 };
 
 struct PageMeasures {
     std::vector<PageColumn> columns;   // all of measures.csv, in its order
-    std::vector<std::size_t> charted;  // of them those with a chart at first
-    std::vector<std::size_t> rows;     // those that the page has at once, evenly spread
-    std::size_t time = 0;              // the column of time
+    std::vector<std::size_t> charted;  // those of them that have a chart at first
+    std::vector<std::size_t> rows;     // rows that the page has at once, evenly spread
+    std::size_t time = 0;              // index of the column of time
 };
 
-// At most `most` of so many rows, evenly spread, the first and the last among them.
+// At most `most` of so many rows, evenly spread, with the first and the last.
 std::vector<std::size_t> spread_rows(std::size_t rows, std::size_t most);
 
 constexpr std::size_t kMostRowsAtOnce = 2000;
 
-// The film's plots come first, then the measures that usually matter, as far as they have values that change.
-// Nothing is charted without a column of time.
+// Chooses columns and charts. The film's plots come first, then the measures that usually matter, if their
+// values change. Without a column of time nothing is charted.
 PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table);
 
 // The fields of a run as a page has them: the plane that the film looks at, a byte a cell and quantity.
@@ -46,7 +46,7 @@ struct FieldQuantity {
     std::string name;   // "speed"
     std::string label;  // "speed of the flow"
     std::string unit;
-    double low = 0, high = 0;  // of all records
+    double low = 0, high = 0;  // range over all records
 };
 
 struct PageFields {
@@ -58,18 +58,18 @@ struct PageFields {
         double begin = 0, end = 0;  // s
     };
     Axis y, z;
-    std::vector<Record> records;  // those that the page has
+    std::vector<Record> records;  // the records that the page has
     std::size_t all_records = 0;
     std::vector<FieldQuantity> quantities;
     std::vector<std::uint8_t> packed;
-    std::string why_not;  // a sentence, where the run has fields that the page has not
+    std::string why_not;  // a sentence, when the run has fields that the page lacks
     bool present() const { return !packed.empty(); }
 };
 
 constexpr std::size_t kMostFieldBytes = 1'000'000;  // packed
 
-// The fields of fields.nc in a run's folder; with a grid in three dimensions means over the depth. Nothing
-// where the run kept none.
+// The fields of fields.nc in a run's folder. A grid in three dimensions gives means over the depth. Empty
+// when the run kept none.
 PageFields page_fields(const FilmedScene& scene, const std::filesystem::path& folder);
 
 }  // namespace grainreel

@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using Lines = std::vector<std::pair<std::string, std::string>>;
 
-constexpr std::size_t most_files = 60;            // that the page lists
-constexpr std::size_t most_scene_text = 200'000;  // bytes
+constexpr std::size_t most_files = 60;            // files that the page lists
+constexpr std::size_t most_scene_text = 200'000;  // bytes of the scene's text that the page shows
 
-// A line without a name goes on with the one before.
+// The lines as a list. A line without a name continues the one before.
 std::string list_html(const Lines& lines) {
     std::string html = "<dl>\n";
     for (const auto& [name, text] : lines) {
@@ -114,7 +114,7 @@ const char* words_of(Container::Shape shape) {
     return "in empty space";
 }
 
-// "in the vessel “drum” with “screw”" where walls come from files.
+// Where the grains are; "in the vessel “drum” with “screw”" when walls come from files.
 std::string place_words(const FilmedScene& scene) {
     const bool vessel = scene.container.shape == Container::Shape::mesh;
     std::vector<std::string> others;
@@ -131,7 +131,7 @@ std::string place_words(const FilmedScene& scene) {
     return words + " with " + named;
 }
 
-// "400 sand (and 300 more that are fed)"
+// The number of grains in words: "400 sand (and 300 more that are fed)".
 std::string number_words(const Species& species) {
     if (species.fed == 0) return fmt::format("{} {}", species.count, species.name);
     if (species.count == 0) return fmt::format("{} {} that are fed", species.fed, species.name);
@@ -154,7 +154,7 @@ std::string drive_words(const FilmedScene& scene) {
 std::string lead_html(const FilmedScene& scene) {
     std::string species;
     for (const Species& one : scene.species)
-        if (one.all() > 0)  // else it is glued to walls
+        if (one.all() > 0)  // otherwise all its grains are glued to walls
             species += fmt::format("{}{}", species.empty() ? "" : " and ", number_words(one));
     return fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
                        html_text(place_words(scene)), drive_words(scene));

@@ -1,4 +1,4 @@
-// The parts of the page that are words: HTML, made of facts.
+// Writes the parts of the page that are words, as HTML.
 #pragma once
 
 #include <filesystem>
@@ -14,27 +14,28 @@
 
 namespace grainreel {
 
-// What the run is, in a sentence.
+// A sentence that says what the run is.
 std::string lead_html(const FilmedScene& scene);
 
-// How a run ended that did not come to its end, and where (s); empty for one that did.
+// How a run ended that did not come to its end. until: the time in s that it reached. Empty for a run that
+// came to its end.
 std::string end_html(const FilmedScene& scene, const RunFacts& facts, double until);
 
-// The film's element and what is to be said of it. poster: a JPEG, or nothing. why_not_tied: empty where the
-// film goes with charts and bed. n: what the ids of elements end in. beside: the page lies beside the film's
-// file.
+// The film's element and the words about it. poster: a JPEG, or empty. why_not_tied: why the film does not
+// move together with charts and bed; empty when it does. n: ending of the ids of elements. beside: whether
+// the page lies beside the film's file.
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
                       const std::string& why_not_tied, const std::string& n = "", bool beside = true);
 
-// What the page has of the bed's moments, and how exactly.
+// Says which of the bed's moments the page has, and how exact they are.
 std::string bed_about(const BedFrames& bed, const PageMeshes& meshes, const FilmedScene& scene);
 
-// The scene's captions, each a button that goes there; empty without any.
+// The scene's captions as buttons that go to their moments; empty without captions.
 std::string story_html(const FilmedScene& scene);
 
-// The plan in words, contacts, methods and sources, provenance, scene and files. page_name: of the page,
-// which lies in the run's folder; without one there are no links to its files. n: what the ids of elements
-// end in.
+// The chapters: the plan in words, contacts, methods and sources, provenance, scene and files. page_name:
+// name of the page in the run's folder; without it there are no links to the folder's files. n: ending of the
+// ids of elements.
 std::string chapters_html(const FilmedScene& scene, const RunFacts& facts,
                           const std::optional<PlannedScene>& planned, const std::filesystem::path& folder,
                           const std::string& page_name, const std::string& n = "");

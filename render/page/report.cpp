@@ -16,8 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using Texts = std::vector<std::pair<std::string_view, std::string>>;
 
-constexpr std::size_t most_film_bytes = 12'000'000;  // of all runs together
-constexpr double films_share = 0.7;  // of the time: a film that has to be made smaller takes most
+constexpr std::size_t most_film_bytes = 12'000'000;  // bytes of the films of all runs together
+constexpr double films_share =
+    0.7;  // share of the progress for films: making a film smaller takes most of the time
 
 class Page {
   public:
@@ -66,7 +67,7 @@ class Page {
             taken += part.taken();
             done += each;
         }
-        // Before base64; nothing at all still gives one moment.
+        // Bytes before base64. Even with no room the page gets one moment.
         const std::size_t room =
             taken >= kMostPageBytes ? 1 : (kMostPageBytes - taken) / parts_.size() / 4 * 3;
         done = 0;
@@ -133,14 +134,14 @@ class Page {
              {"blobs", beds + late}});
     }
 
-    // Where the name says something else.
+    // A line with the folder, when the run's name says something else.
     static std::string folder_line(const RunPart& part) {
         const std::string folder = part.folder().filename().string();
         return part.name() == folder ? ""
                                      : fmt::format("<p class=\"faint\">Folder {}</p>\n", html_text(folder));
     }
 
-    // "Brazil nut: " where all runs have that title, and names that say what differs.
+    // The common title of all runs, "Brazil nut: ", when their names say what differs.
     std::string common_title() const {
         const std::string& title = parts_.front().scene().title;
         const bool common =
@@ -155,7 +156,7 @@ class Page {
         return differences_html(scenes);
     }
 
-    // The facts of all runs: from the first one's beginning to the last one's end.
+    // The facts of all runs. Their time goes from the earliest beginning to the latest end.
     std::string facts() const {
         Span all = parts_.front().span();
         std::string runs;

@@ -18,18 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_table_bytes = 2'000'000;  // of measures.csv, packed
+constexpr std::size_t most_table_bytes = 2'000'000;  // bytes of measures.csv, packed
 
 constexpr std::size_t most_chosen_keys = 40, most_chosen_pairs = 500'000, pairs_a_grain = 3;
 
-// As an element that no browser runs or shows.
+// Puts bytes into an element that no browser runs or shows.
 std::string blob(const std::string& id, const std::vector<std::uint8_t>& bytes) {
     if (bytes.empty()) return "";
     return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
                        base64(bytes));
 }
 
-// Nothing of a table that is too long.
+// The packed table; empty when it is too long.
 std::vector<std::uint8_t> packed_table(const fs::path& file) {
     try {
         std::vector<std::uint8_t> packed = zlib_packed(read_bytes(file));
@@ -40,7 +40,7 @@ std::vector<std::uint8_t> packed_table(const fs::path& file) {
     }
 }
 
-// Those of the run, and of one that kept contacts at all moments some more.
+// The key moments of the run, and some more when the run kept contacts at all moments.
 std::vector<std::size_t> key_moments_of(const AllMoments& all) {
     std::vector<std::size_t> known, keys;
     for (std::size_t k = 0; k < all.moments().size(); ++k)
@@ -122,7 +122,7 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         bed_news_ = all.news();
         bed_ = bed_frames(all, most_bytes, progress, contacts);
     } catch (const UserError& problem) {
-        // A frame beside the trajectory is damaged: the trajectory does without it.
+        // A frame in a file beside the trajectory is damaged, so only the trajectory is used.
         bed_news_.push_back(
             fmt::format("{}; the page has the moments of trajectory.nc alone", problem.what()));
         const std::unique_ptr<FilmColours> film = coloured(run_.run->frames());
@@ -184,7 +184,7 @@ std::string RunPart::fields(int level) const {
                   {{"n", n_}, {"level", std::to_string(level)}, {"about", html_text(about)}});
 }
 
-// Whoever reads the page knows no other place: "measures.csv:3: ...".
+// The line without the folder's path, which readers of the page do not know: "measures.csv:3: ...".
 std::string RunPart::in_folder(const std::string& line) const {
     const std::string start = folder().string() + "/";
     return line.starts_with(start) ? line.substr(start.size()) : line;
@@ -224,14 +224,14 @@ std::string RunPart::late_blobs() const {
     return late_blobs_;
 }
 
-// Why there is no trajectory.
+// A sentence that says why there is no trajectory.
 std::string RunPart::no_moments() const {
     if (record_.trajectory_frames > 0)
         return "The trajectory.nc that the run wrote is no longer in its folder";
     return "The run kept no moment of its grains";
 }
 
-// Files that the scene or what lies beside them says were there.
+// Lines about missing files that the scene or other files mention.
 std::vector<std::string> RunPart::lacking_files() const {
     std::vector<std::string> lines;
     const auto check = [&](const char* name, bool expected, const char* lost) {

@@ -1,4 +1,4 @@
-// The part of a page that shows one run: everything that report.cpp puts in for it.
+// The part of a page that shows one run: all texts that report.cpp puts in for it.
 #pragma once
 
 #include <cstddef>
@@ -18,35 +18,35 @@ namespace grainreel {
 
 class RunPart {
   public:
-    // n: what the ids of its elements end in; "" on a page of one run. most_film: bytes that its film may
-    // have.
+    // n: ending of the ids of its elements; "" on a page of one run. most_film: largest number of bytes of
+    // its film.
     RunPart(const PageRun& run, std::string name, std::string n, std::size_t most_film);
 
-    // Film, measures and words. Throws PageStopped.
+    // Reads film, measures and words. Throws PageStopped.
     void read(const PageProgress& progress);
-    // Bytes of the page that read() has taken.
+    // Bytes of the page that the results of read() take.
     std::size_t taken() const;
-    // Grains, into so many packed bytes. Throws as above.
+    // Reads the grains into at most `most_bytes` packed bytes. Throws as above.
     void read_bed(std::size_t most_bytes, const PageProgress& progress);
 
     const FilmedScene& scene() const { return run_.scene; }
     const std::filesystem::path& folder() const { return run_.folder; }
     const std::string& name() const { return name_; }
     std::string title() const;  // HTML
-    Span span() const;          // of the trajectory and the film
+    Span span() const;          // span of the trajectory and the film
     bool tied() const { return !times_.times.empty(); }
 
     std::string lead() const { return lead_; }
-    std::string film(bool beside) const;  // beside: the page lies beside the film's file
+    std::string film(bool beside) const;  // beside: whether the page lies beside the film's file
     std::string bed() const;
-    std::string fields(int level) const;  // of its heading; empty where the run kept none
+    std::string fields(int level) const;  // level: of its heading; empty when the run kept no fields
     std::string charts_about() const;
-    // on_page_of_its_own: with links to the files beside it, and their names.
+    // on_page_of_its_own: whether the page has links to the files beside it, with their names.
     std::string chapters(const std::filesystem::path& page, bool on_page_of_its_own) const;
     std::string facts() const;     // JSON
-    std::string bed_blob() const;  // in the order of the page's end
+    std::string bed_blob() const;  // the blobs, in their order at the page's end
     std::string late_blobs() const;
-    std::vector<std::string> news() const;  // what the user is to know
+    std::vector<std::string> news() const;  // lines that the user should see
 
   private:
     void read_table(const std::filesystem::path& file);
@@ -54,7 +54,7 @@ class RunPart {
     std::vector<std::string> lacking_files() const;
     std::string in_folder(const std::string& line) const;
     std::string no_moments() const;
-    Span kept_span() const;  // of moments and measures
+    Span kept_span() const;  // span of moments and measures
 
     const PageRun& run_;
     const std::string name_, n_;
@@ -71,7 +71,7 @@ class RunPart {
     PageFields fields_;
     std::string lead_, late_blobs_;
     bool whole_table_ = false, table_of_film_is_odd_ = false;
-    std::string no_charts_, table_fault_;  // why there are none; what is wrong with measures.csv
+    std::string no_charts_, table_fault_;  // why there are no charts; what is wrong with measures.csv
 };
 
 }  // namespace grainreel

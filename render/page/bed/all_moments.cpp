@@ -51,12 +51,12 @@ AllMoments::AllMoments(const RunArchive& run, bool with_contacts)
     }
 }
 
-// All of the file or nothing.
+// Merges all moments of a file into the list, or none of them.
 void AllMoments::merge(const FrameArchive& file, std::optional<std::size_t> Place::*of,
                        const std::string& name) {
     std::vector<Frame> moments;
     std::vector<Place> places;
-    std::size_t next = 0;  // of those that are there
+    std::size_t next = 0;  // index among the moments that are there already
     const auto take_until = [&](std::int64_t step) {
         for (; next < moments_.size() && moments_[next].step <= step; ++next) {
             moments.push_back(moments_[next]);
@@ -115,7 +115,7 @@ FilmColours::FilmColours(const FilmedScene& scene, const FrameArchive& run, cons
     if (by_ == GrainValue::start_height) quantities_.start_from(run.grains(run.nearest(start)));
 }
 
-// From the moment a period earlier, where the page has it.
+// Adds the displacement since the moment a period earlier, when the page has that moment.
 bool FilmColours::add_displacement(std::size_t index, Frame& frame) const {
     const Frame& now = run_.moments()[index];
     if (frequency_ <= 0 || clock_.step <= 0) return false;

@@ -21,8 +21,8 @@ namespace grainreel {
 
 class AllMoments final : public FrameArchive {
   public:
-    // The run outlives it. with_contacts: its frames come with touches. Files beside the trajectory that are
-    // damaged or of another run are left out.
+    // The run must outlive this object. with_contacts: the run's frames come with touches. Files beside the
+    // trajectory that are damaged or of another run are left out.
     AllMoments(const RunArchive& run, bool with_contacts);
 
     const std::filesystem::path& path() const override { return run_.path(); }
@@ -32,7 +32,7 @@ class AllMoments final : public FrameArchive {
     Frame grains(std::size_t index) const override;
     int periods() const override { return run_.periods(); }
 
-    // None where the run did not keep it.
+    // The touches of a moment; none when the run did not keep them.
     std::optional<std::vector<Touch>> touches(std::size_t index) const override;
     bool has_touches(std::size_t index) const;
     bool is_key(std::size_t index) const { return places_[index].key.has_value(); }
@@ -40,7 +40,7 @@ class AllMoments final : public FrameArchive {
     std::vector<std::string> news() const override { return news_; }
 
   private:
-    struct Place {  // in each of the files that has the moment
+    struct Place {  // index of the moment in each file that has it
         std::optional<std::size_t> trajectory, film, key;
     };
     void merge(const FrameArchive& file, std::optional<std::size_t> Place::*of, const std::string& name);
@@ -59,13 +59,13 @@ class AllMoments final : public FrameArchive {
 
 class FilmColours {
   public:
-    // start: s, of the film's first picture, from which start heights count. The run outlives it. For a film
-    // whose grains are coloured by a quantity (film_has_scale).
+    // For a film whose grains are coloured by a quantity (film_has_scale). start: time in s of the film's
+    // first picture, from which start heights are counted. The run must outlive this object.
     FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start);
 
-    // Colours of the grains of a moment of the run, in the frame's order: 0 where the quantity is not known,
-    // else 1 to 255 from the low end of the film's range to its high end, of bands their middle. touches: of
-    // that moment, where they are known.
+    // Colours of the grains at a moment of the run, in the frame's order: 0 when the quantity is not known,
+    // else 1 to 255 from the low end of the film's range to its high end. A film with colour bands gets the
+    // middle of the band. touches: those of the moment, if they are known.
     std::vector<std::uint8_t> of(std::size_t index, Frame& frame,
                                  const std::optional<std::vector<Touch>>& touches);
 
@@ -78,7 +78,7 @@ class FilmColours {
     const FrameArchive& run_;
     const Clock clock_;
     const GrainValue by_;
-    const double depth_, frequency_;  // m, of a periodic container; Hz
+    const double depth_, frequency_;  // period of a periodic container in m; frequency of the drive in Hz
     const ColourScale scale_;
     Quantities quantities_;
 };

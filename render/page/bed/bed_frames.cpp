@@ -13,19 +13,19 @@ namespace grainreel {
 
 namespace {
 
-constexpr double steps = 65535;  // of 16 bits
+constexpr double steps = 65535;  // steps of a 16-bit number
 constexpr std::uint8_t most_contacts = 254, unknown_contacts = 255;
-constexpr double usual_packed = 7;  // bytes a grain and moment: what shaken beds take is 6.2 to 6.6
+constexpr double usual_packed = 7;  // bytes a grain and moment: shaken beds take 6.2 to 6.6
 
 // A grain that the page has.
 struct Kept {
     std::int32_t id = 0;
     std::int32_t species = 0;
     double radius = 0;       // m
-    double from_middle = 0;  // m, |x| where it was first seen
+    double from_middle = 0;  // m, |x| at the moment when it was first seen
 };
 
-// Evenly spread over 0 ... count - 1, both ends among them.
+// Numbers evenly spread over 0 ... count - 1, with both ends.
 std::vector<std::size_t> spread(std::size_t count, std::size_t wanted) {
     std::vector<std::size_t> chosen;
     wanted = std::clamp<std::size_t>(wanted, 1, count);
@@ -34,7 +34,7 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t wanted) {
     return chosen;
 }
 
-// Evenly spread, the first and the last among them.
+// Elements evenly spread over the list, with the first and the last.
 std::vector<std::size_t> those_of(const std::vector<std::size_t>& list, std::size_t wanted) {
     std::vector<std::size_t> those;
     if (wanted == 0) return those;
@@ -42,7 +42,7 @@ std::vector<std::size_t> those_of(const std::vector<std::size_t>& list, std::siz
     return those;
 }
 
-// Numbers in the machine's order; x86 and ARM are little-endian, as the page wants it.
+// Appends a number in the machine's byte order. x86 and ARM are little-endian, as the page needs it.
 template <class Number>
 void append(std::vector<std::uint8_t>& bytes, Number number) {
     static_assert(std::endian::native == std::endian::little);
@@ -51,7 +51,7 @@ void append(std::vector<std::uint8_t>& bytes, Number number) {
     bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
-// Both rise, and so does what comes out.
+// Merges two rising lists into one rising list.
 std::vector<std::size_t> merged(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
     std::vector<std::size_t> all;
     std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
@@ -63,7 +63,7 @@ class BedWriter {
     BedWriter(const FrameArchive& run, const PageProgress& progress, const BedContacts& contacts)
         : run_(run), progress_(progress), contacts_(contacts) {}
 
-    // keys: of these, those whose pairs are kept.
+    // keys: the chosen moments whose pairs are kept.
     BedFrames write(const std::vector<std::size_t>& chosen, const std::vector<std::size_t>& keys) {
         survey(chosen);
         bytes_.clear();
@@ -92,7 +92,7 @@ class BedWriter {
         return wanted && contacts_.touches ? contacts_.touches(index) : std::nullopt;
     }
 
-    // Who is there, in which box, and how fast.
+    // Finds the grains, the box around them, and the range of their speeds.
     void survey(const std::vector<std::size_t>& chosen) {
         bed_ = BedFrames();
         bed_.has_film_colours = contacts_.film != nullptr;
@@ -201,10 +201,10 @@ class BedWriter {
     const BedContacts& contacts_;
     bool boxed_ = false;
     BedFrames bed_;
-    std::vector<Kept> kept_;  // by rising id
+    std::vector<Kept> kept_;  // the grains, by rising id
     std::map<std::int32_t, std::size_t> slot_;
     std::vector<std::uint8_t> bytes_;
-    std::vector<std::uint16_t> before_;  // places, three a grain
+    std::vector<std::uint16_t> before_;  // places at the moment before, three numbers for each grain
 };
 
 std::size_t most_grains_at_once(const FrameArchive& run) {
@@ -241,7 +241,7 @@ BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes, const Page
             return static_cast<std::size_t>(fits * static_cast<double>(count));
         };
         wanted = std::max<std::size_t>(1, less(wanted));
-        // Key moments give way where they take more than half.
+        // Some key moments are dropped when all of them would take more than half of the bytes.
         if (2 * keys.size() * static_cast<std::size_t>(a_moment) > most_bytes)
             keys = those_of(keys, less(keys.size()));
     }
@@ -251,7 +251,7 @@ namespace {
 
 constexpr std::uint32_t most_bodies = 0xffffff;
 
-// Bytes of numbers below 2^24, plane by plane.
+// Appends numbers below 2^24: first all low bytes, then all middle ones, then all high ones.
 void append_planes(std::vector<std::uint8_t>& bytes, const std::vector<std::uint32_t>& numbers) {
     for (const int shift : {0, 8, 16})
         for (const std::uint32_t number : numbers)

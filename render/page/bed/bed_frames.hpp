@@ -1,4 +1,4 @@
-// The bed as the page carries it: places of grains in 16 bits an axis, moment by moment.
+// The bed as the page carries it: the places of grains, in 16 bits for each axis, moment by moment.
 //
 // The bytes, before they are packed, are for N grains and K moments, little-endian:
 //   ids, N int32; species, N uint16; radii in m, N float32;
@@ -23,16 +23,16 @@
 
 namespace grainreel {
 
-// Who pushes whom, and how hard, at key moments: what the page draws as force chains.
+// Which grains push each other, and how hard, at key moments. The page draws this as force chains.
 //
 // The bytes, before they are packed, are for each key moment of P pairs: low, middle and high bytes of the
 // first grain's place in the list of grains, as its difference from the pair before (P each); the same three
-// bytes of the second grain's place itself, or of 2^24 - 1 - face for a wall; P bytes of normal force, as
-// speed_byte() of bed_frames.hpp has speeds. render/page/html/pair_forces.js reads them.
+// bytes of the second grain's place itself, or of 2^24 - 1 - face for a wall; P bytes of normal force, coded
+// as speed_byte() codes speeds. render/page/html/pair_forces.js reads them.
 
 struct PairForces {
     struct Moment {
-        std::size_t moment = 0;  // of those that the page has
+        std::size_t moment = 0;  // index among the moments of the page
         std::size_t pairs = 0;
     };
     std::vector<Moment> moments;
@@ -42,7 +42,8 @@ struct PairForces {
 
 class PairForcesWriter {
   public:
-    // The next key moment. Pairs with a grain that the page lacks are left out. slots: of ids.
+    // Adds the next key moment. Pairs with a grain that the page lacks are left out. slots: for each id, the
+    // grain's place in the list of grains.
     void add(std::size_t moment, const std::vector<Touch>& touches,
              const std::map<std::int32_t, std::size_t>& slots);
     PairForces written() const;
@@ -58,41 +59,42 @@ class PairForcesWriter {
 
 struct BedFrames {
     std::vector<std::uint8_t> packed;             // in zlib's format
-    std::vector<Frame> moments;                   // those that the page has, without grains
+    std::vector<Frame> moments;                   // the moments that the page has, as frames without grains
     std::size_t grains = 0;                       // N
     std::size_t all_grains = 0, all_moments = 0;  // of the run
-    Vec3 low{0, 0, 0}, high{0, 0, 0};             // m, the box that 16 bits span: of all centres
+    Vec3 low{0, 0, 0}, high{0, 0, 0};             // m, the box of all centres, which 16 bits span
     double lowest_speed = 0, highest_speed = 0;   // m/s, what the speed's bytes 1 and 254 stand for
-    std::size_t counted = 0;                      // moments whose contact numbers are known
+    std::size_t counted = 0;                      // number of moments whose contact numbers are known
     bool has_film_colours = false;
-    std::size_t film_coloured = 0;  // moments at which the film's quantity is known of a grain
+    std::size_t film_coloured = 0;  // number of moments at which the film's quantity is known for some grain
     PairForces forces;
 
-    // m, along each axis: half a step of 16 bits, and what rounding of the box's numbers adds.
+    // The error of a place along each axis in m: half a step of 16 bits.
     Vec3 error() const { return (high - low) / (2 * 65535.0); }
     std::size_t bytes() const { return packed.size() + forces.packed.size(); }
 };
 
-// What a page has beside places and speeds.
+// What a page has besides places and speeds.
 struct BedContacts {
-    // Contacts of a moment, by its index; nothing where they are not known.
+    // Gives the contacts of a moment by its index; none when they are not known.
     std::function<std::optional<std::vector<Touch>>(std::size_t)> touches;
-    std::vector<std::size_t> keys;  // moments whose pairs the page is to have; by rising index
-    FilmColours* film = nullptr;    // null where the film shows the species
+    std::vector<std::size_t> keys;  // moments whose pairs the page should have, by rising index
+    FilmColours* film = nullptr;    // null when the film shows the species
 };
 
 constexpr std::size_t kMostGrainsOnPage = 100000;
 
-// As many evenly spread moments of the run as fit into so many packed bytes, the first and the last among
-// them, and besides those of key moments; at least one. Of more grains than kMostGrainsOnPage those that lie
-// nearest to the plane x = 0 when they are first seen. Throws DamagedFrame.
+// The page's frames: as many evenly spread moments of the run as fit into `most_bytes` packed bytes, with the
+// first and the last, and the key moments besides; at least one. When there are more grains than
+// kMostGrainsOnPage, the page has those that lie nearest to the plane x = 0 when they are first seen. Throws
+// DamagedFrame.
 BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes,
                      const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
 // The page's frames of these moments, by rising index into the run's.
 BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
 
-constexpr double kByteSpan = 1e5;  // highest over lowest speed, or force, that a byte tells
+constexpr double kByteSpan = 1e5;  // ratio of the highest to the lowest speed, or force, that a byte can tell
 
 // The byte that stands for a speed: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
 std::uint8_t speed_byte(double speed, double lowest, double highest);

@@ -18,9 +18,9 @@ namespace {
 
 using Edge = std::array<std::int32_t, 2>;
 
-constexpr double steps = 65535;  // of 16 bits
+constexpr double steps = 65535;  // steps of a 16-bit number
 constexpr std::size_t least_triangles =
-    200;  // a mesh of fewer than these after thinning is nothing to look at
+    200;  // a mesh with fewer triangles after thinning is left out, since its shape is lost
 
 // What is known of a mesh before it is thinned.
 struct Shape {
@@ -41,7 +41,7 @@ std::vector<Shape> shapes_of(const FilmedScene& scene) {
     return shapes;
 }
 
-// Small meshes have all of theirs, large ones share what is left.
+// Triangles for each mesh: small meshes keep all of theirs, large ones share the rest.
 std::vector<std::size_t> shares(const std::vector<Shape>& shapes, std::size_t most) {
     std::vector<std::size_t> order(shapes.size()), share(shapes.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -67,7 +67,7 @@ void append_planes(std::vector<std::uint8_t>& bytes, const std::vector<std::uint
             bytes.push_back(static_cast<std::uint8_t>(number >> (8 * plane) & 0xff));
 }
 
-// Corner by corner, as differences.
+// Appends the corners one after another, as differences.
 template <std::size_t corners>
 void append_corners(std::vector<std::uint8_t>& bytes,
                     const std::vector<std::array<std::int32_t, corners>>& list) {
@@ -99,7 +99,7 @@ void append_vertices(std::vector<std::uint8_t>& bytes, const std::vector<Vec3>& 
     }
 }
 
-// Those of the whole mesh, where they have not shrunk to a point. The longest, if they are too many.
+// The edges of the whole mesh that have not shrunk to a point. When they are too many, only the longest.
 std::vector<Edge> edges_of(const MeshShape& shape, const ThinnedMesh& thin, std::size_t most) {
     std::vector<Edge> edges;
     for (const MeshShape::Edge& edge : shape.edges) {
@@ -123,7 +123,8 @@ std::vector<Edge> edges_of(const MeshShape& shape, const ThinnedMesh& thin, std:
     return edges;
 }
 
-// Solid ones, glass ones, and those that differ from side to side, the solid one on the side of the normal.
+// The triangles in the page's order: solid ones, glass ones, and those that are solid on the side of their
+// normal only.
 std::vector<TriangleMesh::Triangle> triangles_of(const MeshShape& shape, const ThinnedMesh& thin,
                                                  PageMesh& page) {
     using Face = MeshShape::Face;
@@ -234,7 +235,7 @@ double area_of(const TriangleMesh& mesh) {
     return area;
 }
 
-// The vertices of a cell become one.
+// Thins the mesh: all vertices in a cell become one.
 ThinnedMesh clustered(const TriangleMesh& mesh, const Vec3& low, double cell) {
     ThinnedMesh thin;
     thin.vertex_into.reserve(mesh.vertices.size());

@@ -28,21 +28,21 @@ struct PageMesh {
     std::int32_t body = 0;  // engine/state/body.hpp
     std::string name;
     std::size_t vertices = 0, triangles = 0, glass = 0, sided = 0, edges = 0;
-    std::size_t all_triangles = 0;     // of the scene's mesh
-    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, the box that 16 bits span
+    std::size_t all_triangles = 0;     // number of triangles of the scene's mesh
+    Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, the box which 16 bits span
     bool whole() const { return triangles == all_triangles; }
 };
 
 struct PageMeshes {
-    std::vector<PageMesh> meshes;      // one without triangles is left out of the page
-    std::vector<std::uint8_t> packed;  // in zlib's format; empty without any
-    // Sentences on meshes that are thinned or left out.
+    std::vector<PageMesh> meshes;      // a mesh without triangles is left out of the page
+    std::vector<std::uint8_t> packed;  // in zlib's format; empty without meshes
+    // Sentences about meshes that are thinned or left out.
     std::vector<std::string> notes() const;
 };
 
 constexpr std::size_t kMostTrianglesOnPage = 60000;
 
-// In so many packed bytes at most, all together. Solid and glass are as the film has them.
+// The meshes in at most `most_bytes` packed bytes, all together. They are solid and glass as in the film.
 PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes,
                        std::size_t most_triangles = kMostTrianglesOnPage);
 
@@ -56,11 +56,12 @@ void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& mome
 struct ThinnedMesh {
     TriangleMesh mesh;
     std::vector<std::int32_t>
-        triangle_from;                      // of each triangle, the one of the whole mesh that it comes from
-    std::vector<std::int32_t> vertex_into;  // of each vertex of the whole mesh, the one that has taken it
+        triangle_from;  // for each triangle, the triangle of the whole mesh from which it comes
+    std::vector<std::int32_t>
+        vertex_into;  // for each vertex of the whole mesh, the vertex into which it was merged
 };
 
-// At most so many triangles. A mesh that has no more comes back as it is.
+// The mesh with at most `most_triangles` triangles. A mesh that has no more is returned unchanged.
 ThinnedMesh thinned(const TriangleMesh& mesh, std::size_t most_triangles);
 
 }  // namespace grainreel

@@ -11,14 +11,14 @@ namespace grainreel {
 namespace {
 
 constexpr int round_steps = 48;          // pieces of a round wall
-constexpr double floor_thickness = 1.4;  // over that of walls, as the film has it
+constexpr double floor_thickness = 1.4;  // relative to that of walls, as in the film
 
 std::vector<Vec3> lifted(std::vector<Vec3> corners, double by) {
     for (Vec3& corner : corners) corner.z() += by;
     return corners;
 }
 
-// The floor, and where it has an outlet the floor with its hole from the time on when that opens.
+// Adds the floor. A floor with an outlet is replaced by the floor with its hole when the outlet opens.
 // opened: pieces of the floor around the open outlet.
 void add_floor(std::vector<Slab>& slabs, const Container& container, const std::vector<Vec3>& whole,
                const Pieces& opened) {
@@ -48,7 +48,7 @@ Pieces floor_around_outlet(const Container& container, double half_depth, double
 void add_prism(std::vector<Slab>& slabs, const Container& container) {
     const double x = 0.5 * container.depth;
     const auto at = [](double depth, const Eigen::Vector2d& p) { return Vec3(depth, p.x(), p.y()); };
-    std::vector<Eigen::Vector2d> section;  // of the room inside
+    std::vector<Eigen::Vector2d> section;  // corners of the room inside
     for (const double side : {-1.0, 1.0}) {
         const WallProfile wall = wall_profile(container, side);
         const auto strip = [&](const std::vector<Eigen::Vector2d>& line, std::size_t i) {

@@ -18,16 +18,16 @@ struct Slab {
     std::vector<Vec3> inner;      // corners of the side towards the grains, in order around it
     std::vector<Vec3> outer;      // the other side of its thickness, corner by corner; empty for a pane
     std::vector<int> seams = {};  // sides of `inner`, by their first corner, that go on in the next piece
-    std::optional<double> from, until;  // s, when it is there, where that changes
+    std::optional<double> from, until;  // s, from when until when it is there, if that changes
 };
 
-// Slabs of container, floor and planes, as thick as the film draws them.
+// Slabs of container, floor and planes, with the thickness that they have in the film.
 std::vector<Slab> slabs_of(const FilmedScene& scene);
 
-// What the slabs at rest take up; of a scene without any the box of what is looked at.
+// The box around the slabs at rest; for a scene without slabs, the box of what the film looks at.
 Extent box_of(const std::vector<Slab>& slabs, const FilmedScene& scene);
 
-// Makes the box hold the slabs of bodies that are turned, where they are at these moments.
+// Enlarges the box so that it holds the slabs of bodies that are turned, at these moments.
 void take_turned(Extent& box, const std::vector<Slab>& slabs, const std::vector<Frame>& moments);
 
 }  // namespace grainreel

@@ -21,7 +21,7 @@ Json of_vector(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-// Place, and where it is turned a unit quaternion w, x, y, z behind it.
+// The place of a body; for a turned body it is followed by a unit quaternion w, x, y, z.
 Json of_pose(const BodyPose& pose) {
     Json numbers = of_vector(pose.place);
     const Quaternion& turn = pose.rotation;
@@ -44,7 +44,7 @@ std::string of_colour(const Colour& colour) {
     return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.red), byte(colour.green), byte(colour.blue));
 }
 
-// Six digits are more than a chart shows.
+// Rounds to six digits, which are more than a chart shows.
 double rounded(double value) {
     return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
@@ -109,7 +109,7 @@ Json forces_json(const PairForces& forces) {
     return {{"moments", moments}, {"pairs", pairs}, {"lowest", forces.lowest}, {"highest", forces.highest}};
 }
 
-// What the film's colour bar says; nothing where its colours are those of the species.
+// The data of the film's colour bar; empty when the colours are those of the species.
 Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
     if (!bed.has_film_colours) return {};
     const GrainColouring& colouring = scene.film.shows.colour;
@@ -140,7 +140,7 @@ Json bed_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& 
     }
     const Camera& camera = scene.film.camera;
     const bool upright = camera.up == Vec3(0, 0, 1);
-    constexpr double usual_field_of_view = 25;  // degrees, where the film has none (orthographic)
+    constexpr double usual_field_of_view = 25;  // degrees, used when the film has none (orthographic)
     Json json = {{"grains", bed.grains},
                  {"times", times},
                  {"low", of_vector(bed.low)},
@@ -197,7 +197,7 @@ Json column_json(const PageColumn& column) {
     return {{"name", column.name}, {"label", column.label}, {"unit", column.unit}};
 }
 
-// The columns that are wanted, and the time before them.
+// The wanted columns, with the time as the first one.
 Json measures_json(const MeasureTable& table, const PageMeasures& measures,
                    const std::vector<std::size_t>& wanted) {
     std::vector<std::size_t> shown = {measures.time};

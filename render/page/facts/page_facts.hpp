@@ -1,4 +1,4 @@
-// What the page's scripts read: JSON.
+// Makes the JSON that the page's scripts read.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@
 namespace grainreel {
 
 struct PageFacts {
-    std::string name;    // of the run, where the page has several
-    std::string folder;  // its name
+    std::string name;    // name of the run, when the page has several
+    std::string folder;  // name of the run's folder
     const FilmedScene& scene;
     Span span;
     const PageFilm& film;
@@ -28,11 +28,11 @@ struct PageFacts {
     const PageFields& fields;
 };
 
-// For main.js, which names the members. Numbers that are none become null.
+// The facts for main.js, which explains the members. NaN becomes null.
 std::string facts_json(const PageFacts& facts);
 
-// For live.js: what is known of a run before it has measured anything; its newest moments of the bed; the
-// rows of its measures, of all columns.
+// The facts for live.js: what is known of a run before it has measured anything; the newest moments of its
+// bed; the rows of its measures, with all columns.
 std::string live_facts_json(const FilmedScene& scene);
 std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes);
 std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);

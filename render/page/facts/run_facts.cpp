@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Members one inside the other; null where there is none.
+// Follows a path of nested members; null when one is missing.
 const Json* member(const Json& record, std::initializer_list<const char*> path) {
     const Json* at = &record;
     for (const char* name : path) {
@@ -32,13 +32,13 @@ const Json* member(const Json& record, std::initializer_list<const char*> path) 
     return at;
 }
 
-// The words for a text, a number or a truth; empty for anything else.
+// A string, number or boolean in words; empty for anything else.
 std::string text_of(const Json* value) {
     if (value == nullptr || value->is_structured() || value->is_null()) return "";
     return value->is_string() ? value->get<std::string>() : value->dump();
 }
 
-// fault: what is wrong with the file, if something is.
+// Parses a file. fault: becomes what is wrong with the file, if anything is.
 Json parsed(const std::filesystem::path& path, std::string& fault) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
@@ -108,7 +108,7 @@ RunFacts run_facts(const std::filesystem::path& folder) {
 
 namespace {
 
-// As docs/reference/theory.md names them.
+// A source, as docs/reference/theory.md names it.
 struct Source {
     const char* key;
     const char* entry;
@@ -150,7 +150,7 @@ constexpr Source sources[] = {
      "  year = {1998}\n}\n"},
 };
 
-// A sentence for each law that a contact of the plan has, and the keys of its sources.
+// Writes a sentence for each law of the plan's contacts, with the keys of its sources.
 class LawWords {
   public:
     explicit LawWords(const Plan& plan) {
@@ -213,7 +213,7 @@ const char* name_of(Integrator integrator) {
     return "Gear's predictor-corrector scheme";
 }
 
-// The texts of that name, and of the lines without a name that go on after it.
+// The texts of the line with that name and of the nameless lines that continue it.
 std::string words_of(const std::vector<std::pair<std::string, std::string>>& lines, const std::string& name) {
     std::vector<std::string> texts;
     bool inside = false;
@@ -224,7 +224,7 @@ std::string words_of(const std::vector<std::pair<std::string, std::string>>& lin
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// "0.3" or "0.3 to 0.8".
+// A range as text: "0.3" or "0.3 to 0.8".
 template <class Value>
 std::string range_text(const Plan& plan, const Value& value) {
     std::vector<double> values;
@@ -235,7 +235,7 @@ std::string range_text(const Plan& plan, const Value& value) {
     return *low == *high ? fmt::format("{:.3g}", *low) : fmt::format("{:.3g} to {:.3g}", *low, *high);
 }
 
-// "drum (drum.stl, 720 triangles, XXH64 0123456789abcdef)"
+// The meshes in words: "drum (drum.stl, 720 triangles, XXH64 0123456789abcdef)".
 std::string meshes_text(const FilmedScene& scene) {
     std::vector<std::string> texts;
     for (const SceneMesh& mesh : scene.meshes)

@@ -1,4 +1,4 @@
-// What run.json says of a run, as far as it can be read, and the methods paragraph that follows from it.
+// Reads what run.json says about a run, as far as it can be read, and writes the methods paragraph from it.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,12 @@
 namespace grainreel {
 
 struct RunFacts {
-    // "complete"; "broken off" where nobody works on a run that was not finished, "unknown" without run.json.
+    // "complete" and so on; "broken off" for an unfinished run on which no program works, "unknown" without
+    // run.json.
     std::string status;
-    std::string error;                                       // of a run that failed
+    std::string error;                                       // error of a run that failed
     std::vector<std::pair<std::string, std::string>> lines;  // name and text of its provenance
-    std::string version, commit;                             // of the program that ran it
+    std::string version, commit;                             // version and commit of the program that ran it
     std::string finished;                                    // UTC, ISO 8601; or when it started
     std::string state_hash;
     std::optional<std::int64_t> film_frames;
@@ -28,18 +29,18 @@ struct RunFacts {
     std::string fault;  // why nothing is known: "run.json: is missing"
 };
 
-// Whatever the file lacks or has in another form is left out: nothing of it is trusted.
+// Reads run.json. Nothing in it is trusted: what it lacks, or has in another form, is left out.
 RunFacts run_facts(const std::filesystem::path& folder);
 
-// What an author pastes into a paper: the methods in a paragraph, and the sources as BibTeX.
+// Text that an author can paste into a paper: the methods in a paragraph, and the sources as BibTeX.
 
 struct Methods {
-    std::string paragraph;  // keys of the sources in brackets: "[Walton1986]"
+    std::string paragraph;  // sources are given by their keys in brackets: "[Walton1986]"
     std::string bibtex;
 };
 
-// lines: the plan in words, by name, as `grainreel check` has them; grains, container and drive are told in
-// the same words.
+// lines: the plan in words, by name, as `grainreel check` prints them. The paragraph describes grains,
+// container and drive in the same words.
 Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& facts,
                 const std::vector<std::pair<std::string, std::string>>& lines);
 

@@ -18,16 +18,16 @@ namespace grainreel {
 namespace {
 
 using Names = std::vector<std::string>;
-using Values = std::vector<std::string>;  // of a key, one a run
+using Values = std::vector<std::string>;  // values of a key, one for each run
 
-constexpr std::size_t most_said = 3;  // keys in a name
+constexpr std::size_t most_said = 3;  // largest number of keys in a name
 
 bool all_differ(const Names& names) {
     const std::set<std::string> set(names.begin(), names.end());
     return set.size() == names.size() && set.count("") == 0;
 }
 
-// "species.2.count" -> "species[1].count", as the list of keys knows it.
+// The key's path in the list of keys: "species[1].count" for "species.2.count".
 std::string path_of(const std::string& key) {
     std::string path;
     for (std::size_t begin = 0; begin <= key.size();) {
@@ -40,11 +40,12 @@ std::string path_of(const std::string& key) {
     return path;
 }
 
-// Whether a key says what the run was, and neither how it is shown nor what followed from other keys.
+// Whether a key describes the run itself. Keys that say how it is shown, or that follow from other keys, do
+// not.
 bool tells(const std::string& key) {
     for (const char* other : {"film.", "output.", "title", "run.threads"})
         if (key.starts_with(other)) return false;
-    if (key.starts_with("mesh.") && key.ends_with("hash")) return false;  // of a file that its path names
+    if (key.starts_with("mesh.") && key.ends_with("hash")) return false;  // the path names that file already
     const Key* known = find_key(path_of(key), filmed_scene_keys());
     return known == nullptr || !known->often_chosen;
 }
@@ -61,7 +62,7 @@ std::string value_text(const std::string& key, const std::string& value) {
                        has_unit ? fmt::format(" {}", text_of(known->dimension).unit) : "");
 }
 
-// Name and values of each key that differs; keys of one name with the same values come once.
+// Name and values of each key that differs. Keys with the same name and the same values are listed once.
 std::vector<std::pair<std::string, Values>> differences(const std::vector<RunToName>& runs) {
     std::map<std::string, Values> all;
     for (std::size_t k = 0; k < runs.size(); ++k)
@@ -82,7 +83,7 @@ std::vector<std::pair<std::string, Values>> differences(const std::vector<RunToN
     return differing;
 }
 
-// Experimenters speak of Γ rather than of the amplitude.
+// Replaces the amplitude by Γ, which experimenters prefer.
 void say_as_level(const std::vector<RunToName>& runs,
                   std::vector<std::pair<std::string, Values>>& differing) {
     const auto amplitude = std::find_if(differing.begin(), differing.end(),
@@ -97,7 +98,7 @@ void say_as_level(const std::vector<RunToName>& runs,
             fmt::format("{:.3g}", runs[k].scene.drive.g_level(runs[k].scene.gravity.norm()));
 }
 
-// Nothing where too much differs, or too little.
+// Names made from the keys that differ; empty when too many or too few keys differ.
 Names names_by_keys(const std::vector<RunToName>& runs) {
     std::vector<std::pair<std::string, Values>> differing;
     try {
@@ -135,8 +136,7 @@ std::string_view trimmed(std::string_view text) {
     return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
 }
 
-// What a line of a resolved scene says after its value is a comment; no value of it has a # outside of
-// quotes.
+// The line of a resolved scene without the comment behind its value. No value has a # outside of quotes.
 std::string_view without_comment(std::string_view line) {
     char quote = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -147,7 +147,7 @@ std::string_view without_comment(std::string_view line) {
     return trimmed(line);
 }
 
-// Numbers to six digits: what differs by rounding is the same.
+// A value as it is shown. Numbers get six digits, so that values which differ only by rounding look the same.
 std::string shown(const std::string& value) {
     char* end = nullptr;
     const double number = std::strtod(value.c_str(), &end);
@@ -166,7 +166,7 @@ std::map<std::string, std::string> keys_of_file(const std::filesystem::path& fil
 
 std::map<std::string, std::string> keys_of_scene(std::string_view text) {
     std::map<std::string, std::string> keys;
-    std::map<std::string, int> tables;  // of [[name]], how many there were
+    std::map<std::string, int> tables;  // for each [[name]], how many there were so far
     std::string table, last;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -182,7 +182,7 @@ std::map<std::string, std::string> keys_of_scene(std::string_view text) {
             last = table + std::string(trimmed(line.substr(0, equals)));
             keys[last] = std::string(trimmed(line.substr(equals + 1)));
         } else if (!line.empty() && !last.empty()) {
-            keys[last] += std::string(line);  // a value that goes on
+            keys[last] += std::string(line);  // the value continues on this line
         }
     }
     return keys;

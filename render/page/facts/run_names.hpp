@@ -1,4 +1,4 @@
-// What the runs of a page are called, and in what their scenes differ.
+// Finds names for the runs of a page, and tells in what their scenes differ.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,9 @@ struct RunToName {
     const FilmedScene& scene;
 };
 
-// The titles of the scenes, where no two are the same. Else what differs between the scenes, "frequency = 20
-// Hz", where that tells all of them apart and is short. Else the folders' names; their whole paths where two
-// have the same.
+// Names for runs: the titles of the scenes when no two are the same. Otherwise what differs between the
+// scenes, "frequency = 20 Hz", when this is short and different for all of them. Otherwise the names of the
+// folders, or their whole paths when two folders have the same name.
 std::vector<std::string> names_of_runs(const std::vector<RunToName>& runs);
 
 struct NamedScene {
@@ -26,10 +26,11 @@ struct NamedScene {
     std::filesystem::path file;  // scene.toml of a run
 };
 
-// A table of the keys whose values are not all the same, a column a scene; or that there are none.
+// A table of the keys whose values are not all the same, with a column for each scene; or a sentence that
+// there are none.
 std::string differences_html(const std::vector<NamedScene>& scenes);
 
-// Keys and values of a resolved scene, as text: "drive.frequency" -> "20", "species.2.count" -> "10".
+// The keys and values of a resolved scene as text: "drive.frequency" -> "20", "species.2.count" -> "10".
 std::map<std::string, std::string> keys_of_scene(std::string_view text);
 
 }  // namespace grainreel

@@ -30,10 +30,11 @@ namespace {
 namespace fs = std::filesystem;
 using Steady = std::chrono::steady_clock;
 
-constexpr std::size_t most_rows = 400;                    // of measures, evenly spread
-constexpr double picture_share = 0.05;                    // of the time, that reading pictures may take
-constexpr std::chrono::duration<double> looked_back{60};  // for the speed
-constexpr std::chrono::duration<double> settled_rate{3};  // until a speed is known from what was seen
+constexpr std::size_t most_rows = 400;  // rows of measures that are shown, evenly spread
+constexpr double picture_share = 0.05;  // largest share of the time that reading pictures may take
+constexpr std::chrono::duration<double> looked_back{60};  // time over which the speed is taken
+constexpr std::chrono::duration<double> settled_rate{
+    3};  // time that must have been seen before a speed is known
 
 LiveSnapshot::Bytes shared(std::string text) {
     return std::make_shared<const std::string>(std::move(text));
@@ -51,8 +52,8 @@ std::uintmax_t size_of(const fs::path& file) {
     return error ? 0 : size;
 }
 
-// The first moment, the one before the last, and the last: what colours by height at the start and by rise
-// need.
+// The moments that are read: the first one, the one before the last, and the last. Colours by start height
+// and by rise need these.
 std::vector<std::size_t> shown_of(std::size_t moments) {
     std::vector<std::size_t> shown = {0};
     for (const std::size_t from_end : {2u, 1u})
@@ -111,7 +112,7 @@ void LiveRun::read_scene_again() {
         meshes_.reset();
         page_status_.clear();
     } catch (const UserError&) {
-        // Half written, perhaps; the next look tells.
+        // The file may be half written; the next look will tell.
     }
 }
 
@@ -126,7 +127,8 @@ void LiveRun::read_measures_again() {
     rows_ = table->rows();
     begin_ = table->values(measures.time, 0, 1).front();
     time_ = table->values(measures.time, rows_ - 1, rows_).front();
-    if (!seen_.empty() && time_ < seen_.back().simulated) seen_.clear();  // another run of that name
+    if (!seen_.empty() && time_ < seen_.back().simulated)
+        seen_.clear();  // this is another run with the same folder
     seen_.push_back({time_, Steady::now()});
     while (seen_.size() > 2 && seen_.back().at - seen_[1].at > looked_back) seen_.pop_front();
     measures.rows = spread_rows(rows_, most_rows);
@@ -156,12 +158,12 @@ void LiveRun::read_bed_again() {
         const std::scoped_lock lock(mutex_);
         now_.bed = std::move(bytes);
     } catch (const UserError&) {
-        // No whole moment yet.
+        // There is no complete moment yet.
     } catch (const RunError&) {
     }
 }
 
-// Shapes never change, so they are made once.
+// Makes the meshes once, since shapes never change.
 void LiveRun::make_meshes(const FilmedScene& scene) {
     if (meshes_) return;
     constexpr std::size_t most_bytes = 2'000'000;
@@ -202,7 +204,7 @@ void LiveRun::make_page() {
     now_.page = std::move(page);
 }
 
-// s of wall time, by the speed of the last minute; negative while that is not known.
+// Remaining wall time in s, from the speed of the last minute; negative while that is not known.
 double LiveRun::remaining(double time, double end) const {
     if (seen_.size() < 2 || over_) return -1;
     const std::chrono::duration<double> passed = seen_.back().at - seen_.front().at;
@@ -272,12 +274,12 @@ std::string waiting_page(const std::string& title) {
 
 namespace {
 
-// The packets from the last key frame on: reading the others without decoding them costs next to nothing.
+// The packets from the last key frame on. Reading the others without decoding them takes almost no time.
 std::vector<PacketPtr> last_packets(AVFormatContext& film, int stream) {
     std::vector<PacketPtr> packets;
     while (true) {
         PacketPtr packet(av_packet_alloc());
-        // What is not whole yet ends the film.
+        // A packet that is not complete yet ends the film.
         if (!packet || av_read_frame(&film, packet.get()) < 0) return packets;
         if (packet->stream_index != stream) continue;
         if ((packet->flags & AV_PKT_FLAG_KEY) != 0) packets.clear();

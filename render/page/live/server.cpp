@@ -24,16 +24,16 @@ namespace grainreel {
 namespace {
 
 constexpr unsigned most_connections = 256;
-constexpr unsigned longest_silence = 20;          // s, until a connection is cut off
-constexpr std::size_t most_header_bytes = 16384;  // of a request, and of what is remembered of it
-// An answer is held as long as the slowest visitor takes. Of large ones there are no more than so many at
-// once.
+constexpr unsigned longest_silence = 20;          // s until a silent connection is closed
+constexpr std::size_t most_header_bytes = 16384;  // bytes of a request's headers, also in memory
+// An answer stays in memory until its visitor has received it, which may take long. So the number of large
+// answers at one time is limited.
 constexpr std::size_t large_answer = 65536;  // bytes
 constexpr int most_large_answers = 64;
 
 struct Held {
     std::shared_ptr<const std::string> body;
-    std::atomic<int>* count;  // of large answers; null for a small one
+    std::atomic<int>* count;  // counts the large answers; null for a small one
 };
 
 void let_go(void* held) {
@@ -64,8 +64,8 @@ struct WatchServer::Impl {
         MHD_Response* response = made(answer_now);
         if (response == nullptr) return MHD_NO;
         MHD_add_response_header(response, MHD_HTTP_HEADER_CONTENT_TYPE, answer_now.type.c_str());
-        // Nothing of the page may come from elsewhere or go there, and nobody may put it into a page of
-        // theirs.
+        // The page may not load anything from other servers or send anything to them, and no other page may
+        // embed it.
         MHD_add_response_header(response, "Content-Security-Policy",
                                 "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
                                 "img-src 'self' data: blob:; media-src 'self' blob:; connect-src 'self'; "
@@ -89,7 +89,7 @@ struct WatchServer::Impl {
             held->count = &large_answers;
             ++large_answers;
         }
-        auto* bytes = const_cast<char*>(held->body->data());  // which libmicrohttpd only reads
+        auto* bytes = const_cast<char*>(held->body->data());  // libmicrohttpd only reads them
         const std::size_t size = held->body->size();
         Held* const given = held.release();
         MHD_Response* response =
@@ -98,8 +98,7 @@ struct WatchServer::Impl {
         return response;
     }
 
-    // Called when the headers are there. The answer is given at once, so that whatever else a request has is
-    // cut off.
+    // Called when the headers have come. The answer is given at once; the rest of the request is ignored.
     MHD_Result handle(MHD_Connection* connection, const char* url, std::string_view method) {
         if (method != "GET" && method != "HEAD") {
             WatchAnswer refused =
@@ -126,7 +125,7 @@ struct WatchServer::Impl {
         try {
             return static_cast<Impl*>(self)->handle(connection, url, method);
         } catch (const std::exception&) {
-            return MHD_NO;  // ends the connection; the next one may fare better
+            return MHD_NO;  // ends the connection; the visitor may try again
         }
     }
 };
@@ -157,7 +156,7 @@ unsigned WatchServer::connections() const {
 
 namespace {
 
-constexpr int waiting_at_most = 64;  // connections that nobody has taken yet
+constexpr int waiting_at_most = 64;  // largest number of connections that are not accepted yet
 
 struct FreeAddresses {
     void operator()(addrinfo* list) const { ::freeaddrinfo(list); }

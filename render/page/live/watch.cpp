@@ -24,11 +24,12 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr auto look_interval = std::chrono::milliseconds(100);
 constexpr Seconds refresh_interval{0.5};
-constexpr double refresh_share = 0.1;  // of the time, that reading the run may take
-constexpr Seconds visitor_stays{5};    // after whose last question nobody looks any more
-constexpr Seconds farewell{3};         // without a question: all visitors have heard that the run is over ...
-constexpr Seconds longest_farewell{15};  // ... or nobody waits for them
-constexpr int priority = 10;             // of 19: whoever computes goes first
+constexpr double refresh_share = 0.1;  // largest share of the time that reading the run may take
+constexpr Seconds visitor_stays{5};    // time after a visitor's last request until he counts as gone
+constexpr Seconds farewell{
+    3};  // time without a request after which all visitors know that the run is over ......
+constexpr Seconds longest_farewell{15};  // ... and the longest time that is waited for them
+constexpr int priority = 10;             // nice value, of 19: programs that compute go first
 
 constexpr const char* html = "text/html; charset=utf-8";
 
@@ -86,7 +87,7 @@ class Watch {
         if (run_.is_gone() && !was_gone) gone_at_ = refreshed_;
     }
 
-    // The run's own process closes its end of the pipe when the run's files are closed.
+    // Whether the run has ended: its process closes its end of the pipe when the run's files are closed.
     bool is_to_end() {
         if (until_ < 0) return false;
         if (!ending_) {
@@ -106,7 +107,7 @@ class Watch {
                                    visitors_.keyed() ? " (good for one visitor; a new one follows)" : ""));
     }
 
-    // On the server's thread.
+    // Answers a request, on the server's thread.
     WatchAnswer answer(const WatchRequest& request) {
         {
             const std::scoped_lock lock(mutex_);
@@ -161,7 +162,7 @@ Listening listen_at(const WatchPlace& place) {
 }
 
 int watch_run(WatchTask request, const Planner& planner, RunListener& listener) {
-    ::setpriority(PRIO_PROCESS, 0, priority);  // as far as the system lets it
+    ::setpriority(PRIO_PROCESS, 0, priority);  // as far as the system allows it
     return Watch(request, planner, listener).serve(std::move(request.listening));
 }
 
@@ -169,7 +170,7 @@ namespace {
 
 constexpr std::size_t most_visitors = 256;
 
-// 128 bits that nobody guesses, as hex digits.
+// 128 random bits that nobody can guess, as hex digits.
 std::string secret() {
     std::array<std::uint8_t, 16> bytes;
     if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
@@ -179,7 +180,7 @@ std::string secret() {
     return text;
 }
 
-// Takes as long whatever the texts are.
+// Compares texts in a time that does not depend on where they differ.
 bool same(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
     unsigned differing = 0;
@@ -194,7 +195,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// An address of IPv6 stands in brackets.
+// The host as it stands in an address: IPv6 needs brackets.
 std::string in_address(const std::string& host) {
     return host.find(':') == std::string::npos || host.front() == '[' ? host : "[" + host + "]";
 }

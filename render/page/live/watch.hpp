@@ -1,5 +1,5 @@
-// Shows a run while it goes, to browsers on this machine or, when asked to, on others; and decides who may
-// look.
+// Shows a run while it is computed, to browsers on this machine or, if asked for, on others; and decides who
+// may look.
 #pragma once
 
 #include <deque>
@@ -15,43 +15,44 @@
 namespace grainreel {
 
 struct WatchPlace {
-    std::string host = "127.0.0.1";  // that visitors use
-    std::optional<int> port;         // without one: the usual one, or any that is free
+    std::string host = "127.0.0.1";  // host name that visitors use
+    std::optional<int> port;         // none: the usual port, or any free one
 };
 
-// Throws UserError when the place cannot be had.
+// Opens the socket. Throws UserError when the place cannot be had.
 Listening listen_at(const WatchPlace& place);
 
 struct WatchTask {
     std::filesystem::path run;
     std::string host;
     Listening listening;
-    int until =
-        -1;  // a descriptor: once its other end is closed the run has ended, and so does this soon after
+    int until = -1;  // file descriptor of a pipe whose other end is closed when the run ends; watching then
+                     // ends soon after
 };
 
-// Tells `listener` the address, and shows the run until a signal comes, or until the run is over where
-// `until` says so. Returns the exit status: 0; 1 when the folder has gone; 128 + the signal.
+// Tells `listener` the address, and shows the run until a signal comes or, with `until`, until the run is
+// over. Returns the exit status: 0; 1 when the folder is gone; 128 + the signal's number.
 int watch_run(WatchTask request, const Planner& planner, RunListener& listener);
 
-// Who may look: by the name under which the page is asked for, and, where others than this machine can reach
-// it, by a key.
+// Decides who may look: by the host name in the request, and, when other machines can reach the page, by a
+// key.
 
 class Visitors {
   public:
-    // host: the name that the page is asked for under. keyed: whether it takes a key.
+    // host: the name under which visitors ask for the page. keyed: whether a key is needed.
     Visitors(std::string host, int port, bool keyed);
 
-    // Whether a Host header names this page. One that does not comes from a page of somebody else's whose
-    // name leads here.
+    // Whether a Host header names this page. A request with another name comes from a foreign page whose name
+    // was made to lead here.
     bool knows_host(std::string_view header) const;
 
     bool keyed() const { return keyed_; }
     // "http://host:port/", with the key that is good now.
     std::string address() const;
-    // Takes the key: what the visitor is known by from then on. A key is good once; there is a new one then.
+    // Takes a key and returns the text by which the visitor is known from then on. A key works once; then
+    // there is a new one.
     std::optional<std::string> admit(std::string_view key);
-    // Whether a Cookie header has what one was admitted by.
+    // Whether a Cookie header has a text that admit() returned.
     bool admitted(std::string_view cookies) const;
 
   private:
