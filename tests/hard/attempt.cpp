@@ -1,4 +1,4 @@
-// One run of the program within its limits, and what no run may do.
+// Runs the program once within limits, and checks what no run may do.
 #include <signal.h>
 
 #include <chrono>
@@ -18,10 +18,10 @@ using test::Program;
 
 namespace {
 
-constexpr int kSeconds = 10;                    // of processor time
+constexpr int kSeconds = 10;                    // s of processor time
 constexpr std::size_t kMemory = 6'000'000'000;  // bytes
 constexpr auto kAsleep =
-    std::chrono::minutes(3);  // a run that does nothing: of real time, with room for a busy machine
+    std::chrono::minutes(3);  // of real time, for a run that does nothing; leaves room for a busy machine
 constexpr std::size_t kLongestMessage = 3000;  // bytes
 
 std::string what_is_wrong(int status, int signal_sent, const std::string& err) {

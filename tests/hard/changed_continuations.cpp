@@ -1,4 +1,5 @@
-// Continuations in changed scenes: the same run goes on, everything else is refused by the name of the key.
+// Cases of continuations in changed scenes: the same run continues, and every other change is refused with
+// the name of the key.
 #include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 
 struct Change {
     std::vector<std::string> sets;
-    std::string key;  // that the message names; empty: goes on
+    std::string key;  // the key that the message names; empty: the run continues
 };
 
 const std::vector<Change>& changes() {

@@ -1,4 +1,4 @@
-// Trajectories with one thing wrong: refused, or drawn as the whole one is.
+// Cases of trajectories with one thing wrong: they are refused, or drawn as the whole one is.
 #include <cstring>
 #include <limits>
 
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// NetCDF's classic format has its numbers in the network's order.
+// NetCDF's classic format has big-endian numbers.
 template <class Word>
 void put(std::string& bytes, std::size_t at, Word word) {
     for (std::size_t k = 0; k < sizeof word; ++k)
@@ -63,7 +63,7 @@ std::string damaged(std::string bytes, Dice& dice) {
     return bytes;
 }
 
-// Among the first bytes, which say where everything is, as often as anywhere else.
+// Damages one place. Half of the places are among the first bytes, which say where everything is.
 std::string damaged_somewhere(const std::string& bytes, Dice& dice) {
     constexpr std::size_t kHeader = 4096;
     if (dice.one_in(2) || bytes.size() < 2 * kHeader) return damaged(bytes, dice);
@@ -98,7 +98,7 @@ Group damaged_trajectories(const Ground& ground) {
                                         here);
                 if (!ran.problem.empty()) return {"", ran.problem};
                 if (ran.status != 0) return {"refused", ""};
-                // Without damaged frames the others are drawn, under other words of how fast they play.
+                // If damaged frames are left out, the others are drawn with other words about the playback.
                 const bool named = ran.err.find("left out") != std::string::npos;
                 if (named && pictures_in(here / "drawn/frames") < pictures_in(ground.pictures))
                     return {"drawn without the damaged, which are named", ""};

@@ -1,4 +1,4 @@
-// Runs that are killed, or whose disk is full.
+// Cases of runs that are killed, or whose disk is full.
 #include <signal.h>
 #include <sys/mount.h>
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// An hour of shaking.
+// The command for an hour of shaking.
 std::vector<std::string> long_run(const fs::path& here, const std::string& out) {
     test::write_small_scene(here);
     return {"movie", "fifty.toml", "--duration", "3600 s", "--out", out};
@@ -39,8 +39,8 @@ std::string status_in(const fs::path& run) {
     return record.is_object() && record.contains("status") ? record["status"].get<std::string>() : "no JSON";
 }
 
-// With the folder of a run that cannot have reached its end, and may not even be there; empty: nothing. Needs
-// a folder to draw in.
+// What is wrong with the folder of a run that cannot have reached its end, and may not even exist; empty if
+// nothing is. here: a folder in which pictures can be drawn.
 std::string what_is_wrong_with(const fs::path& run, const fs::path& here) {
     constexpr std::uintmax_t kBegun = 50'000;  // bytes of film that surely hold a picture
     const std::string status = status_in(run);
@@ -92,7 +92,7 @@ Group killed_runs(const Ground&) {
             }};
 }
 
-// On a file system of its own where the machine lets us make one; else no file may grow beyond a limit.
+// The run has a file system of its own if the machine allows it; otherwise no file may grow beyond a limit.
 Group full_disks(const Ground& ground) {
     return {
         "full disks", 10, [=](int number, Dice& dice, const fs::path& here) -> Outcome {

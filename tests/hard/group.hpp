@@ -1,6 +1,6 @@
-// The hard day in small: groups of cases in which something is wrong with what the program gets. It may
-// refuse, or go on and be right; it may not crash, hang, eat all memory, or say that all is well when it is
-// not.
+// The hard day in small: groups of cases in which something is wrong with the program's input. The program
+// may refuse, or go on and be right. It may not crash, hang, use up memory, or report success when something
+// is wrong.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace grainreel::hard {
 
-// The same numbers for the same seed, group and case, on every machine.
+// Random numbers that are the same for the same seed, group and case, on every machine.
 class Dice {
   public:
     Dice(std::uint64_t seed, const std::string& group, int number);
@@ -38,35 +38,36 @@ struct Outcome {
 struct Group {
     std::string name;
     int cases;
-    // In an empty folder of its own, which is kept when there is a problem.
+    // Runs a case in an empty folder of its own, which is kept if there is a problem.
     std::function<Outcome(int number, Dice& dice, const std::filesystem::path& here)> run;
 };
 
-// A finished run of fifty grains, and the pictures that are drawn of it: what the cases begin with.
+// A finished run of fifty grains and pictures of it, with which the cases begin.
 struct Ground {
     std::filesystem::path run;       // the run's folder
     std::filesystem::path pictures;  // the folder of its pictures
-    std::filesystem::path full;      // where a small file system may be laid over; empty: not allowed here
+    std::filesystem::path
+        full;  // a folder over which a small file system may be laid; empty: not allowed here
 };
-// Throws std::runtime_error when the program cannot do even that.
+// Makes the ground. Throws std::runtime_error when the program cannot do even that.
 Ground lay_ground(const std::filesystem::path& folder);
 
-// The program's end within 10 s of processor time and 6 GB. `problem`: what no run may do, whatever it is
-// given.
+// The end of the program within 10 s of processor time and 6 GB. `problem`: something that no run may do,
+// whatever its input.
 struct Ran {
     int status = 0;
     std::string out, err, problem;
 };
 Ran attempt(const std::vector<std::string>& words, const std::filesystem::path& folder,
             std::size_t file_size_limit = 0);
-// Waits for the end of a program that was started with such limits; see attempt().
+// Waits for the end of a program that was started with these limits; see attempt().
 Ran end_of(test::Program& program, int signal_sent = 0);
 test::Program::Setting limits(const std::filesystem::path& folder);
 
-// For messages; long words are cut.
+// A command for messages; long words are cut.
 std::string command_text(const std::vector<std::string>& words);
 
-// The error of a run's messages, or their beginning.
+// The error among a run's messages, or the beginning of the messages.
 std::string first_line(const std::string& text);
 
 Group damaged_trajectories(const Ground& ground);

@@ -1,4 +1,4 @@
-// hard_day [GROUP [CASE]] [--seed N]: all groups, or one, or one case of it.
+// The program hard_day [GROUP [CASE]] [--seed N] runs all groups, one group, or one case of it.
 #include <sched.h>
 #include <sys/mount.h>
 #include <unistd.h>
@@ -27,7 +27,7 @@ struct Wanted {
     std::uint64_t seed = 1;
 };
 
-// Where problems are kept until somebody has looked at them.
+// The folder where problems are kept until somebody has looked at them.
 fs::path kept_folder() {
     return fs::temp_directory_path() / "grainreel-hard";
 }
@@ -37,7 +37,7 @@ class Run {
     Run(const Group& group, const Wanted& wanted, const fs::path& base)
         : group_(group), wanted_(wanted), base_(base) {}
 
-    // Whether all went well.
+    // Runs all cases. Returns whether all went well.
     bool all() {
         const auto started = std::chrono::steady_clock::now();
         std::thread other([this] { work(); });
@@ -99,7 +99,7 @@ class Run {
     int problems_ = 0;
 };
 
-// Mounts of our own, that nobody else sees and that go with us: only where we may.
+// Tries to get mounts that only this process sees and that end with it. Returns whether this is allowed.
 bool may_mount() {
     return ::unshare(CLONE_NEWNS) == 0 && ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
 }
@@ -119,7 +119,7 @@ Wanted read_words(int count, char** words) {
 
 int day(const Wanted& wanted) {
     const test::TemporaryFolder folder;
-    const bool mounts = may_mount();  // before there are threads
+    const bool mounts = may_mount();  // asked before there are threads
     Ground ground = lay_ground(folder.path());
     if (mounts) ground.full = folder / "full";
     bool well = true, any = false;

@@ -1,4 +1,5 @@
-// Scenes with something wrong or absurd: `check` answers soon, and what it lets pass `movie` begins.
+// Cases of scenes with something wrong or absurd: `check` answers soon, and `movie` begins what `check`
+// accepts.
 #include <signal.h>
 
 #include <chrono>
@@ -67,7 +68,7 @@ std::string absurd(Dice& dice) {
     return dice.of(kAbsurd);
 }
 
-// A value of the right kind, so that more than the reader's first look comes to see it.
+// A value of the right kind, so that not only the reader's first look is tested.
 std::string plausible(const Key& key, Dice& dice) {
     switch (key.kind) {
         case KeyKind::flag:
@@ -149,7 +150,7 @@ std::string mutated(const std::string& text, Dice& dice) {
     return result;
 }
 
-// Half of them the small scene, which runs in no time.
+// Any scene; half of them are the small one, which runs in no time.
 std::string any_scene(const std::vector<std::string>& shipped, Dice& dice) {
     return dice.one_in(2) ? test::small_scene_text : dice.of(shipped);
 }
@@ -164,7 +165,7 @@ std::vector<std::string> shipped_scenes() {
     return texts;
 }
 
-// Begins the run, and stops it when it has gone on for a moment.
+// Begins the run, and stops it after a moment.
 Ran begin(std::vector<std::string> words, const fs::path& here) {
     words[0] = "movie";
     words.insert(words.end(), {"--out", "run"});

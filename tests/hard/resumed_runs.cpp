@@ -1,4 +1,4 @@
-// Runs that are killed at random moments and taken up again: they end as one that was left alone.
+// Cases of runs that are killed at random moments and resumed: they end like a run that was left alone.
 #include <signal.h>
 
 #include <chrono>
@@ -34,7 +34,7 @@ Words movie(const fs::path& here, const std::string& out) {
             out};
 }
 
-// A run with everything that a checkpoint carries, long enough for several checkpoints.
+// A run with everything that a checkpoint holds, long enough for several checkpoints.
 Words busy_movie(const fs::path& here, const std::string& out) {
     test::write_text(here / "busy.toml", test::busy_scene_text);
     return {"movie",    "busy.toml", "--duration", "1 s", "--set", "output.trajectory_interval=20 ms",
@@ -49,8 +49,8 @@ std::size_t checkpoints_in(const fs::path& run) {
     return count;
 }
 
-// Kills the program as soon as its run has so many checkpoints, and so long after that; says whether it was
-// still there.
+// Kills the program a given time after its run has so many checkpoints. Returns whether the program was still
+// running.
 bool kill_at(std::size_t checkpoints, const Words& words, const fs::path& here,
              std::chrono::milliseconds later) {
     test::Program program(words, limits(here));
@@ -64,7 +64,7 @@ bool kill_at(std::size_t checkpoints, const Words& words, const fs::path& here,
     return killed;
 }
 
-// Kills the program after a while, unless it has ended by itself; says whether it was killed.
+// Kills the program after a while, unless it has ended by itself. Returns whether it was killed.
 bool kill_after(const Words& words, const fs::path& here, std::chrono::milliseconds while_) {
     test::Program program(words, limits(here));
     const auto end = std::chrono::steady_clock::now() + while_;
@@ -81,7 +81,7 @@ std::string engine_hash(const fs::path& run) {
     return record.is_object() ? record["engine"]["state_hash"].dump() : "no run.json";
 }
 
-// The first thing in which the two runs differ; empty: none.
+// The first difference between the two runs; empty if there is none.
 std::string difference(const fs::path& whole, const fs::path& run) {
     if (engine_hash(whole) != engine_hash(run)) return "another end state";
     for (const char* file : {"trajectory.nc", "measures.csv", "contacts.nc", "fields.nc", "film_moments.nc",
@@ -96,9 +96,9 @@ std::string difference(const fs::path& whole, const fs::path& run) {
     return "";
 }
 
-// At a random time of a run that takes about as long as `took`.
+// Kills a run, which takes about as long as `took`, at a random time.
 Outcome killed_at_any_time(int number, Dice& dice, const fs::path& here, std::chrono::milliseconds took) {
-    // As long as the run takes here and now, so that most kills meet it on its way.
+    // The time is as long as the run takes on this machine, so that most kills come during the run.
     const auto some_time = [&] {
         return std::chrono::milliseconds(dice.below(static_cast<std::uint64_t>(took.count()) + 1));
     };
@@ -119,7 +119,7 @@ Outcome killed_at_any_time(int number, Dice& dice, const fs::path& here, std::ch
             difference(here / "whole", here / "run")};
 }
 
-// When it has several checkpoints, and a second time when it has some more.
+// Kills a run when it has several checkpoints, and a second time when it has some more.
 Outcome killed_late(Dice& dice, const fs::path& here) {
     std::size_t checkpoints = 2 + dice.below(5);
     const auto some_time = [&] { return std::chrono::milliseconds(dice.below(30)); };

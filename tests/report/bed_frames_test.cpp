@@ -1,4 +1,4 @@
-// The bed as the page carries it, read back by the form that bed_frames.hpp describes.
+// Tests of the bed in the page, read back in the form that bed_frames.hpp describes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double period = 0.05;  // s, between two moments
 
-// A record in memory.
+// An archive in memory.
 class MadeRun final : public FrameArchive {
   public:
     explicit MadeRun(std::vector<Frame> frames) : frames_(std::move(frames)) {
@@ -44,7 +44,7 @@ class MadeRun final : public FrameArchive {
     std::vector<Frame> frames_, moments_;
 };
 
-// Grains anywhere in a box of 0.2 m, of any speed over five decades.
+// Grains lie anywhere in a box of 0.2 m, with speeds over five decades.
 std::vector<Frame> random_frames(std::size_t moments, std::int32_t grains) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-0.1, 0.1), decade(-5, 0);
@@ -70,14 +70,14 @@ struct Grain {
     int speed = 0, contacts = 0, film = 0;
 };
 
-// Moment by moment, by id.
+// The grains of each moment by their ids.
 std::vector<std::map<int, Grain>> read_back(const BedFrames& bed) {
     const std::size_t n = bed.grains, k = bed.moments.size();
     const std::size_t each = bed.has_film_colours ? 10 : 9;
     std::vector<std::uint8_t> bytes(10 * n + each * n * k);
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
         libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-    // Null for the size that there was: the bytes must be just so many.
+    // Null stands for the size: there must be exactly so many bytes.
     EXPECT_EQ(libdeflate_zlib_decompress(unpacker.get(), bed.packed.data(), bed.packed.size(), bytes.data(),
                                          bytes.size(), nullptr),
               LIBDEFLATE_SUCCESS);
@@ -136,7 +136,7 @@ TEST(BedFrames, PlacesAreWithinTheStatedErrorForEveryGrainOfTenMoments) {
         }
 }
 
-// Bytes lie evenly in the logarithm: half a step of (1e5)^(1/253) is 2.3 %.
+// Bytes are even in the logarithm: half a step of (1e5)^(1/253) is 2.3 %.
 TEST(BedFrames, SpeedsAreWithinTheStatedError) {
     const double step = std::pow(1e5, 1 / 253.0);
     EXPECT_LT(std::sqrt(step) - 1, 0.0231);
@@ -148,10 +148,10 @@ TEST(BedFrames, SpeedsAreWithinTheStatedError) {
         EXPECT_LE(std::max(told / speed, speed / told), std::sqrt(step) * (1 + 1e-9));
     }
     EXPECT_EQ(speed_byte(0.99e-5, 1e-5, 1), 0);
-    EXPECT_EQ(speed_byte(0, 0, 0), 0);  // nothing ever moved
+    EXPECT_EQ(speed_byte(0, 0, 0), 0);  // nothing moved at any moment
 }
 
-// The scale of all moments goes by the fastest grain of all, which here is in the first one.
+// The scale of all moments follows the fastest grain of all, which is in the first moment here.
 TEST(BedFrames, SpeedsAreByTheFastestGrainOfAllMoments) {
     std::vector<Frame> frames = random_frames(3, 20);
     frames[0].velocity[4] = Vec3(3, 0, 4);
@@ -184,7 +184,7 @@ TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
     EXPECT_FALSE(read[0].at(10).present || read[2].at(0).present);
 }
 
-// Where frames have no contact numbers, as those of earlier versions.
+// Frames have no contact numbers, like those of earlier versions.
 TEST(BedFrames, ContactsAreThoseThatPushWallsIncluded) {
     const std::vector<Frame> frames = random_frames(2, 3);
     BedContacts contacts;
@@ -209,7 +209,7 @@ TEST(BedFrames, ContactNumbersOfTheFramesAreTaken) {
     const auto read = read_back(bed);
     EXPECT_EQ(read[0].at(0).contacts, 7);
     EXPECT_EQ(read[0].at(10).contacts, 0);
-    EXPECT_EQ(read[0].at(20).contacts, 254);  // the most that a byte tells
+    EXPECT_EQ(read[0].at(20).contacts, 254);  // the largest number that a byte can express
 }
 
 TEST(BedFrames, KeyMomentsAreThereWithTheirPairsWhateverElseIsLeftOut) {
@@ -246,7 +246,8 @@ TEST(BedFrames, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
     EXPECT_EQ(bed_frames(MadeRun(frames), 1).moments.size(), 1u);
 }
 
-// A byte over the film's range, of bands their middle; 0 of a grain that was not there at the film's start.
+// A byte covers the film's range, and bands have the byte of their middle. A grain that was not there at the
+// film's start has 0.
 TEST(BedFrames, HaveTheFilmsColours) {
     std::vector<Frame> frames = random_frames(3, 40);
     frames[2].id.push_back(1000);
@@ -282,7 +283,7 @@ TEST(BedFrames, HaveTheFilmsColours) {
         }
 }
 
-// How far a grain came since a moment a period earlier, where there is one.
+// The displacement of a grain since a moment a period earlier, if there is such a moment.
 TEST(BedFrames, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
     std::vector<Frame> frames = random_frames(3, 5);
     FilmedScene scene;
@@ -316,7 +317,8 @@ TEST(BedFrames, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {
         frames[0].id.push_back(id);
         frames[0].species.push_back(0);
         frames[0].radius.push_back(1e-3);
-        frames[0].position.emplace_back((id % 2 ? 1 : -1) * (extra - id), 0, 0);  // the last are nearest
+        frames[0].position.emplace_back((id % 2 ? 1 : -1) * (extra - id), 0,
+                                        0);  // the grains that come last are nearest
         frames[0].velocity.emplace_back(0, 0, 0);
     }
     const BedFrames bed = bed_frames(MadeRun(frames), plenty);

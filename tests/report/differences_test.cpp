@@ -1,4 +1,4 @@
-// In what scenes differ.
+// Tests of the differences between scenes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(Differences, OnlyWhatDiffersIsInTheTable) {
                 HasSubstr("The scenes are the same."));
 }
 
-// Two meshes of one name are told apart by what is in their files.
+// Two meshes with the same name are told apart by the content of their files.
 TEST(Differences, MeshesDifferByTheirHash) {
     const test::TemporaryFolder here;
     const char* mesh = "[[mesh]]\nname = \"drum\"\nfile = \"meshes/drum.stl\"\nhash = \"{}\"\n";

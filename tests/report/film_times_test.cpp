@@ -1,4 +1,4 @@
-// Which moment of the run each frame of the film shows.
+// Tests of which moment of the run each frame of the film shows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// Shaken at 20 Hz for 1 s; film: what stands below [film].
+// A scene that is shaken at 20 Hz for 1 s. film: the text after [film].
 FilmedScene scene_with(const std::string& film) {
     const std::string text = R"(
 [[species]]
@@ -39,8 +39,8 @@ rate = 30
     return read_filmed_scene_text(text, "made.toml", {}, measurable_in);
 }
 
-// What the run itself wrote needs no plan: a bed that lands every second period leaves out frames nobody
-// foresaw.
+// A table that the run itself wrote needs no plan: if a bed lands every second period, frames are left out
+// that nobody foresaw.
 TEST(FilmTimes, TheRunsOwnTableIsTakenWhereItIsWhole) {
     const test::TemporaryFolder here;
     EXPECT_FALSE(kept_film_times(here.path(), 3));
@@ -48,9 +48,9 @@ TEST(FilmTimes, TheRunsOwnTableIsTakenWhereItIsWhole) {
     Frame frame;
     for (const double time : {0.0, 0.05, 0.15, 0.25}) {
         frame.time = time;
-        table.add(frame, time == 0.05 ? 2 : 1);  // one is held for a caption
+        table.add(frame, time == 0.05 ? 2 : 1);  // one moment is held for a caption
     }
-    table.write(here / kFilmTimes, 4);  // the last picture never came into the film
+    table.write(here / kFilmTimes, 4);  // the last picture is not in the film
     const auto kept = kept_film_times(here.path(), 4);
     ASSERT_TRUE(kept);
     EXPECT_THAT(kept->times, testing::ElementsAre(0.0, 0.05, 0.05, 0.15));
@@ -80,7 +80,7 @@ text = "look"
 hold = "0.1 s"
 )";
     const FilmTimes film = film_times(scene_with(locked + held), 11 + 3, 0, true);
-    ASSERT_THAT(film.times, SizeIs(14));  // 0.1 s of film are 3 frames more
+    ASSERT_THAT(film.times, SizeIs(14));  // 0.1 s of film are 3 more frames
     for (std::size_t k = 4; k < 8; ++k) EXPECT_NEAR(film.times[k], 0.4, 1e-9);
     EXPECT_NEAR(film.times[8], 0.5, 1e-9);
 }
@@ -93,7 +93,7 @@ TEST(FilmTimes, AFilmOfAnotherLengthHasNone) {
 
 TEST(FilmTimes, OfAStoppedRunTheFirstFramesAreKnown) {
     EXPECT_THAT(film_times(scene_with(locked), 6, 0, false).times, SizeIs(6));
-    // Here the run may have found out that the bed repeats itself every second period, and left out frames.
+    // Here the run may have found that the bed repeats itself every second period, and left out frames.
     const FilmedScene open = scene_with("[[film.segment]]\nkind = \"locked\"\n");
     EXPECT_THAT(film_times(open, 6, 0, false).times, IsEmpty());
 }

@@ -1,4 +1,4 @@
-// Text and data inside HTML.
+// Tests of text and data inside HTML.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(Filled, PutsTextsInPlaceAndLooksAtThemNoMore) {
               "<h1>x</h1>{{title}}!");
 }
 
-// RFC 4648, section 10.
+// The vectors are those of RFC 4648, section 10.
 TEST(Base64, GivesTheVectorsOfTheStandard) {
     const auto of = [](const std::string& text) {
         return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});

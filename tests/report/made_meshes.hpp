@@ -10,7 +10,7 @@
 
 namespace grainreel::test {
 
-// Two triangles; the normal is (b - a) x (d - a), where a, b, c, d go round.
+// Adds two triangles. The normal is (b - a) x (d - a), where a, b, c, d go round.
 inline void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
     for (const Vec3& corner : {a, b, c, d}) mesh.vertices.push_back(corner);
@@ -18,7 +18,7 @@ inline void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec
     mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-// Normals out of it; m.
+// Adds a box with its normals outwards; m.
 inline void add_box(TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
     const auto at = [&](int x, int y, int z) {
         return Vec3(x ? high.x() : low.x(), y ? high.y() : low.y(), z ? high.z() : low.z());
@@ -31,7 +31,7 @@ inline void add_box(TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
     add_quad(mesh, at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1));
 }
 
-// The mantle of a cylinder about the x axis, open at both ends, normals outwards.
+// The mantle of a cylinder about the x axis, open at both ends, with normals outwards.
 inline TriangleMesh tube(int facets, double radius, double length) {
     TriangleMesh mesh;
     for (int k = 0; k < facets; ++k) {

@@ -1,4 +1,4 @@
-// Fields as the page carries them, read back by the form that page_fields.hpp describes.
+// Tests of fields in the page, read back in the form that page_fields.hpp describes.
 #include "render/page/page_measures.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@
 namespace grainreel {
 namespace {
 
-// A grid of 2 cells across and 3 high, and in space of 2 in depth; all values of a cell come from its number.
+// A grid of 2 cells across and 3 in height, and, if it is in space, 2 in depth. All values of a cell follow
+// from its number.
 struct MadeFields {
     test::TemporaryFolder here;
     FilmedScene scene;
@@ -37,7 +38,7 @@ struct MadeFields {
             set.fields.push_back({name, name, "1", "", axes});
     }
     std::size_t cells() const { return 6 * deep; }
-    // value(field, record, cell) for each.
+    // The page's fields, where value(field, record, cell) gives each value.
     PageFields page(const std::function<double(const std::string&, int, std::size_t)>& value) {
         FieldsWriter to(here / "fields.nc", {&set}, "made", "1");
         for (const int record : {0, 1}) {
@@ -60,7 +61,7 @@ const FieldQuantity& quantity(const PageFields& page, const std::string& name) {
     return *found;
 }
 
-// The value of a quantity, record and cell of the plane; NaN where there is none.
+// The value of a quantity in a record and a cell of the plane; NaN if there is none.
 double on_page(const PageFields& page, const std::string& name, std::size_t record, std::size_t cell) {
     const std::size_t cells = page.y.count * page.z.count, kinds = page.quantities.size();
     std::vector<std::uint8_t> bytes(cells * (1 + kinds * page.records.size()));
@@ -105,7 +106,7 @@ TEST(PageFields, SpeedAndPressureFollowFromTheFields) {
     EXPECT_TRUE(std::isnan(on_page(page, "density", 0, 2)));
 }
 
-// The first of two cells behind each other has three times as much room.
+// The first of two cells that lie behind each other has three times as much free room.
 TEST(PageFields, InSpaceTheyAreMeansOverTheFreeVolume) {
     MadeFields made(true);
     const PageFields page = made.page([](const std::string& name, int, std::size_t cell) {

@@ -1,4 +1,4 @@
-// The film and its picture as a page can hold them.
+// Tests of the film and its picture in a form that a page can hold.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST_F(PageFilmTest, ASmallFilmThatBrowsersPlayIsTakenAsItIs) {
     EXPECT_EQ(film.note, "");
 }
 
-// A film of another format, with 800 lines, gets a copy of 720, frame by frame.
+// A film of another format with 800 lines gets a copy of 720 lines, frame by frame.
 TEST_F(PageFilmTest, AnotherFormatIsCopied) {
     make_film(FilmFormat::ffv1, 96, 800);
     const PageFilm film = page_film(scene, here.path());
@@ -64,7 +64,7 @@ TEST_F(PageFilmTest, AnotherFormatIsCopied) {
     FilmReader reader(here / "copy.mp4");
     EXPECT_EQ(reader.codec().height, 720);
     EXPECT_EQ(reader.codec().width, 86);  // 96 x 720 / 800 = 86.4, even
-    // Grey of level g has the luma 16 + 219 g / 255.
+    // A grey of level g has the luma 16 + 219 g / 255.
     int frames = 0;
     while (const AVFrame* frame = reader.next()) {
         const double luma = 16 + 219 * (40 + 10 * frames++) / 255.0;
@@ -86,7 +86,7 @@ class PageCopyTest : public PageFilmTest {
     bool is_there(const char* file) const { return std::filesystem::exists(here / file); }
 };
 
-// The picture is that of the film, and the page takes it as it is.
+// The picture is that of the film, and the page takes it unchanged.
 TEST_F(PageCopyTest, TheRunsCopyIsTaken) {
     copy(FilmFormat::ffv1, 96, 800);
     ASSERT_TRUE(is_there(kPageCopy));

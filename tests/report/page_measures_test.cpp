@@ -1,4 +1,4 @@
-// Which measures have charts, and what run.json says.
+// Tests of which measures have charts, and of what run.json says about them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

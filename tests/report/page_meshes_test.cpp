@@ -1,4 +1,4 @@
-// Meshes as the page carries them, read back by the form that page_meshes.hpp describes.
+// Tests of meshes in the page, read back in the form that page_meshes.hpp describes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -47,7 +47,7 @@ class Reader {
         bytes_.resize(size);
         const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
             libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-        // Null for the size that there was: the bytes must be just so many.
+        // Null stands for the size: there must be exactly so many bytes.
         EXPECT_EQ(libdeflate_zlib_decompress(unpacker.get(), page.packed.data(), page.packed.size(),
                                              bytes_.data(), size, nullptr),
                   LIBDEFLATE_SUCCESS);
@@ -128,7 +128,7 @@ TEST(PageMeshes, ComeBackWithinHalfAStepTheVesselSolidInside) {
     EXPECT_THAT(page.notes(), IsEmpty());
 }
 
-// A ball: many triangles, none of which is sharp.
+// A ball of many triangles; none of its edges is sharp.
 TriangleMesh ball(int rings) {
     TriangleMesh mesh;
     const auto at = [&](int i, int k) {

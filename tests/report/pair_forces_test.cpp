@@ -1,4 +1,4 @@
-// Force chains as the page carries them, read back by the form that pair_forces.hpp describes.
+// Tests of force chains in the page, read back in the form that pair_forces.hpp describes.
 #include "render/page/bed/bed_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ std::vector<std::vector<Pair>> read_back(const PairForces& forces) {
     return moments;
 }
 
-// Ids 10, 20, ... have the places 0, 1, ...
+// The places of grains by their ids: ids 10, 20, ... have the places 0, 1, ...
 std::map<std::int32_t, std::size_t> places(std::size_t grains) {
     std::map<std::int32_t, std::size_t> slots;
     for (std::size_t i = 0; i < grains; ++i) slots[static_cast<std::int32_t>(10 * (i + 1))] = i;
@@ -68,7 +68,7 @@ TEST(PairForces, PairsAndForcesAreReadBack) {
     for (auto& touches : moments)
         for (int k = 0; k < 500; ++k)
             touches.push_back({10 * id(random), 10 * id(random), std::pow(10, decade(random))});
-    moments[1].push_back({10, -1, 1.0});  // the strongest
+    moments[1].push_back({10, -1, 1.0});  // the strongest contact
     moments[1].push_back({10, -6, 0.5});
     PairForcesWriter writer;
     const auto slots = places(90'000);

@@ -1,4 +1,4 @@
-// What the runs of a page are called.
+// Tests of the names that a page gives to its runs.
 #include "render/page/facts/run_names.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// Runs of the small scene with some other values.
+// Runs of the small scene with other values for some keys.
 struct Runs {
     test::TemporaryFolder here;
     std::vector<FilmedScene> scenes;
@@ -43,14 +43,14 @@ TEST(RunNames, AreTheTitlesWhereTheyDiffer) {
     EXPECT_THAT(runs.names(), ElementsAre("Calm", "Wild"));
 }
 
-// What follows from the drive (stiffness, step) and how the film looks does not count.
+// Values that follow from the drive (stiffness, step) do not count, nor how the film looks.
 TEST(RunNames, SayWhatDiffersUnderOneTitle) {
     Runs level, frequency, two, wall;
     level.add("a", {"drive.g_level=2"});
     level.add("b", {"drive.g_level=3", "film.rate=25"});
     EXPECT_THAT(level.names(), ElementsAre("Γ = 2", "Γ = 3"));
     frequency.add("a", {"contact.friction=0.4"});
-    frequency.add("b", {"contact.friction=0.2"});  // the same of all pairs, so it is said once
+    frequency.add("b", {"contact.friction=0.2"});  // all pairs have the same friction, so it stands once
     EXPECT_THAT(frequency.names(), ElementsAre("friction = 0.4", "friction = 0.2"));
     two.add("a", {"run.seed=1", "species.big.diameter=6 mm"});
     two.add("b", {"run.seed=2", "species.big.diameter=6 mm"});

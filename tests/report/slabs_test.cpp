@@ -1,4 +1,4 @@
-// Walls as flat pieces in space.
+// Tests of walls as flat pieces in space.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,8 @@ TEST(Slabs, OfAWedgeEnclosesTheRoomThatTheGrainsHave) {
     for (const Slab& slab : slabs) {
         expect_flat(slab);
         EXPECT_TRUE(slab.outer.empty() || slab.outer.size() == slab.inner.size());
-        // A point inside is on the inner side of each: by the half-width at its height and half the depth.
+        // A point inside is on the inner side of each piece, by the half-width at its height and half the
+        // depth.
         const Vec3 inside(0, 0, 0.05);
         const Vec3 away =
             slab.outer.empty() ? Vec3(slab.inner[0].x(), 0, 0) : Vec3(slab.outer[0] - slab.inner[0]);

@@ -1,4 +1,4 @@
-// Points, tables and charts of made results.
+// Tests of points, tables and charts of made-up results.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,8 @@ struct Made {
     }
 };
 
-// Two seeds of a setting have the values m and m + 1: mean m + 1/2, s = 1/sqrt 2, half = t_1 s / sqrt 2.
+// Two seeds of a setting have the values m and m + 1: the mean is m + 1/2, s = 1/sqrt 2, and half the
+// interval is t_1 s / sqrt 2.
 TEST(StudyChartPoints, AreMeansOverSeedsAlone) {
     Made made(small_study);
     const std::vector<ChartSeries> series =
@@ -108,7 +109,7 @@ TEST(PrintedCurve, HasARowAPointAndAnEmptyLineForAGap) {
     EXPECT_EQ(curve_table(0, {0, 0.5}, {}, ""), "");
 }
 
-// Those of 100 times as many points stay that are seen: both ends, a lone peak, a lone pit, a lone gap.
+// Of 100 times as many points those remain that are visible: both ends, a lone peak, a lone pit, a lone gap.
 TEST(PrintedCurve, KeepsWhatIsSeenOfManyPoints) {
     const std::size_t count = 100 * kMostCurvePoints;
     std::vector<double> x(count), y(count, 0.25);
@@ -125,7 +126,7 @@ TEST(PrintedCurve, KeepsWhatIsSeenOfManyPoints) {
     EXPECT_LE(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), kMostCurvePoints + 2);
 }
 
-// A doubled quote at a text's beginning, or two of them in a row, end it for gnuplot (5.4).
+// For gnuplot 5.4 a doubled quote at the beginning of a text, or two of them in a row, would end the text.
 TEST(StudyCharts, AreDrawnWhereverNamesHaveQuotes) {
     for (const std::string name : {"'", "'quoted'", "a''b", "' ' \"`ls` \\n @x $y"}) {
         Made made(small_study);
@@ -139,7 +140,7 @@ TEST(StudyCharts, AreDrawnWhereverNamesHaveQuotes) {
     }
 }
 
-// Names that mean something to gnuplot, SVG, HTML or a shell: they show, and nothing is run.
+// The names mean something to gnuplot, SVG, HTML or a shell: they appear as text, and no command is run.
 TEST(StudyCharts, AreDrawnWhateverTheNames) {
     const std::string hostile = "x'; system(\"touch hit\"); `touch hit` $(touch hit) <script>&@{}_^%";
     Made made(small_study);

@@ -1,4 +1,4 @@
-// Student's t against closed forms and a printed table.
+// Tests of Student's t against closed forms and a printed table.
 #include "engine/measure/interval.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 namespace grainreel {
 namespace {
 
-// With one degree of freedom T is Cauchy's: P(|T| <= t) = 2/pi atan t. With two it is t / sqrt(2 + t^2).
+// With one degree of freedom T has Cauchy's distribution: P(|T| <= t) = 2/pi atan t. With two it is t /
+// sqrt(2 + t^2).
 TEST(Student, ClosedForms) {
     for (const double p : {0.1, 0.5, 0.9, 0.95, 0.999}) {
         EXPECT_NEAR(student_t(p, 1) / std::tan(std::numbers::pi * p / 2), 1, 1e-11) << p;
@@ -26,7 +27,7 @@ TEST(Student, PrintedTable) {
     for (const auto& [freedom, t] : table) EXPECT_NEAR(student_t(0.95, freedom), t, 5.01e-4) << freedom;
 }
 
-// 1, 2, 3: s = 1, and t for two degrees of freedom.
+// For 1, 2, 3 s is 1, and t has two degrees of freedom.
 TEST(Student, IntervalOfThree) {
     const MeanInterval interval = mean_interval({3, 1, 2});
     EXPECT_EQ(interval.count, 3u);

@@ -41,7 +41,7 @@ TEST(StudyMembers, GoThroughTheGridSeedBySeed) {
     EXPECT_EQ(names.size(), members.size());
 }
 
-// What `movie --set ...` makes of the scene.
+// Members have the same scene as `movie --set ...`.
 TEST(StudyMembers, HaveTheSceneThatSetWouldMake) {
     const StudyFolderOfTest folder;
     const Study study = folder.read("set = [\"run.duration=0.1 s\"]\n" + small_study);
@@ -61,7 +61,7 @@ TEST(StudyMembers, KeepTheirNamesWhileTheirRunIsTheSame) {
     EXPECT_NE(name_of_first(folder, with_line(small_study, "[2, 3]", "[2.5, 3]")), first);
 }
 
-// TOML has numbers that are none.
+// TOML has values such as nan that are no numbers.
 TEST(StudyMembers, ValuesThatAreNoNumberHaveTheirPlace) {
     const StudyFolderOfTest folder;
     for (const char* value : {"nan", "-nan", "inf"}) {

@@ -42,7 +42,7 @@ TEST(StudyReader, ChartsEachMeasureWhenNoneIsAskedFor) {
 
 struct Mistake {
     std::string line, other;
-    std::string place;  // in study.toml
+    std::string place;  // line and column in study.toml
     std::string words;
 };
 

@@ -1,4 +1,4 @@
-// Reductions against what their definitions give by hand.
+// Tests of reductions against results of their definitions, computed by hand.
 #include "render/app/study/results/reduction.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,8 @@ TEST(Reduction, SlopeIsThatOfLeastSquares) {
     EXPECT_DOUBLE_EQ(slope_of({0, 1, 2, 3}, {0, 1, 4, 9}), 3);
 }
 
-// The squares of 1, 2, 3, 4 about 5/2 sum to 5, over n - 1 = 3. NaN and rows outside the window are left out.
+// The squares of 1, 2, 3, 4 about 5/2 add up to 5, which is divided by n - 1 = 3. NaN and rows outside the
+// window are left out.
 TEST(Reduction, MaxMinAndDeviation) {
     const std::vector<double> times{0, 1, 2, 3, 4, 5}, values{-9, 1, 2, nan, 3, 4};
     const auto of = [&](Kind kind, double from) {
@@ -51,7 +52,7 @@ TEST(Reduction, SlopeNeedsTwoTimes) {
     EXPECT_TRUE(std::isnan(slope_of({1}, {2})));
 }
 
-// v = a + b t comes to the threshold at (threshold - a) / b, wherever the rows are.
+// v = a + b t reaches the threshold at (threshold - a) / b, wherever the rows are.
 TEST(Reduction, FirstPassageIsInterpolated) {
     for (const double slope : {2.0, -2.0}) {
         const double offset = -slope * 0.9;
@@ -80,13 +81,13 @@ TEST(Reduction, ThresholdWhereTheValuesBegin) {
     EXPECT_EQ(first_passage(3, {2, 3}, {3, 4}), 2);
 }
 
-// The mean of t over 0.25 <= t <= 1.5: (0.25 + 0.7 + 1.5) / 3.
+// The mean of t over 0.25 <= t <= 1.5 is (0.25 + 0.7 + 1.5) / 3.
 TEST(Reduction, WindowTakesItsEnds) {
     EXPECT_DOUBLE_EQ(reduce({Kind::mean, 0.25, 1.5, 0}, uneven, uneven), (0.25 + 0.7 + 1.5) / 3);
     EXPECT_EQ(reduce({Kind::end, 0, 1.5, 0}, uneven, uneven), 1.5);
     EXPECT_EQ(reduce({Kind::end}, uneven, uneven), 1.6);
     EXPECT_TRUE(std::isnan(reduce({Kind::mean, 2, 3, 0}, uneven, uneven)));
-    // 0.1 + 0.2 is a bit more than 0.3, and means it.
+    // 0.1 + 0.2 is slightly larger than 0.3, but means 0.3.
     EXPECT_EQ(reduce({Kind::end, 0, 0.3, 0}, {0, 0.1 + 0.2}, {1, 2}), 2);
     EXPECT_DOUBLE_EQ(reduce({Kind::slope, 0.1, 1.6, 0}, uneven, line(uneven, 1, 4)), 4);
     EXPECT_DOUBLE_EQ(reduce({Kind::first_passage, 1, 4, 1}, {0, 1, 2, 3, 4}, {0, 2, 0, 2, 2}), 1.5);

@@ -1,4 +1,4 @@
-// Studies with [[variant]]: settings that are no grid.
+// Tests of studies with [[variant]], whose settings are no grid.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,8 @@ TEST(StudyVariants, HaveTheSceneThatSetWouldMake) {
     EXPECT_EQ(resolved_scene(scene, make_plan(scene)), resolved_scene(typed, make_plan(typed)));
 }
 
-// Another name, or one variant more: the runs that are there are found by the hash at the end of their names.
+// If a name changes or a variant is added, runs that exist are still found by the hash at the end of their
+// names.
 TEST(StudyVariants, KeepTheirHash) {
     const StudyFolderOfTest folder;
     const auto hash = [&](const std::string& text) {
