@@ -66,7 +66,7 @@ struct PageFields {
     bool present() const { return !packed.empty(); }
 };
 
-constexpr std::size_t kMostFieldBytes = 1'000'000;  // packed
+constexpr std::size_t kMostFieldBytes = 1'000'000;  // bytes when packed
 
 // The fields of fields.nc in a run's folder. A grid in three dimensions gives means over the depth. Empty
 // when the run kept none.

@@ -50,7 +50,7 @@ class AllMoments final : public FrameArchive {
     std::unique_ptr<FrameArchive> film_, keys_;
     std::optional<ContactsReader> key_contacts_;
     std::vector<Frame> moments_;
-    std::vector<Place> places_;  // of each
+    std::vector<Place> places_;  // places of these moments in the files
     std::vector<std::string> news_;
 };
 

@@ -61,7 +61,7 @@ struct BedFrames {
     std::vector<std::uint8_t> packed;             // in zlib's format
     std::vector<Frame> moments;                   // the moments that the page has, as frames without grains
     std::size_t grains = 0;                       // N
-    std::size_t all_grains = 0, all_moments = 0;  // of the run
+    std::size_t all_grains = 0, all_moments = 0;  // numbers in the run
     Vec3 low{0, 0, 0}, high{0, 0, 0};             // m, the box of all centres, which 16 bits span
     double lowest_speed = 0, highest_speed = 0;   // m/s, what the speed's bytes 1 and 254 stand for
     std::size_t counted = 0;                      // number of moments whose contact numbers are known

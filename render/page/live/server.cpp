@@ -28,7 +28,7 @@ constexpr unsigned longest_silence = 20;          // s until a silent connection
 constexpr std::size_t most_header_bytes = 16384;  // bytes of a request's headers, also in memory
 // An answer stays in memory until its visitor has received it, which may take long. So the number of large
 // answers at one time is limited.
-constexpr std::size_t large_answer = 65536;  // bytes
+constexpr std::size_t large_answer = 65536;  // bytes from which an answer is large
 constexpr int most_large_answers = 64;
 
 struct Held {
