@@ -20,7 +20,7 @@ namespace grainreel {
 // crosses show a flat face. It goes with the container.
 struct FilmCut {
     bool present = false;
-    Vec3 normal{1, 0, 0};  // unit, towards what is taken away
+    Vec3 normal{1, 0, 0};  // unit, towards the part that is taken away
     double at = 0;         // m: distance of the plane from the origin, along the normal
     double thickness = 0;  // m: thickness of the slab that is kept; 0: all behind the plane is kept
     bool operator==(const FilmCut&) const = default;
@@ -28,8 +28,8 @@ struct FilmCut {
 
 // How meshes are drawn.
 struct FilmWalls {
-    // plain: as walls look. Otherwise colours show what the grains do to each triangle: how hard they press
-    // on it, or how much they wear it.
+    // plain: walls have their usual look. Otherwise colours show what the grains do to each triangle: how
+    // hard they press on it, or how much they wear it.
     enum class Colour { plain, pressure, wear };
     Colour colour = Colour::plain;
     // Pa or J/m2: the range of the colours for the whole film. It has no meaning where walls are plain.
@@ -84,9 +84,9 @@ struct GrainColouring {
     GrainValue by = GrainValue::species;
     // The following have no meaning when grains are coloured by species.
     ColourMap map = ColourMap::viridis;
-    std::array<double, 2> range{0, 1};  // of the quantity, for the whole film
+    std::array<double, 2> range{0, 1};  // SI: range of the quantity for the whole film
     bool fixed = false;                 // the range is the user's
-    std::string unit;                   // of the colour bar; empty for pure numbers
+    std::string unit;                   // unit on the colour bar; empty for pure numbers
     int layers = 5;                     // bands of start_height
     bool as_field = false;     // shows means as a layer before pale grains, in place of coloured grains
     bool logarithmic = false;  // equal ratios have equal distances on the bar; the range is positive
@@ -107,11 +107,11 @@ enum class ProfileOf {
 // A plot beside the grains: a column of measures.csv against time, or a profile.
 struct FilmPlot {
     std::string column;  // its name in the file: "height_difference", "centre_z_m"
-    std::string label;   // in words, without the unit
+    std::string label;   // the quantity in words, without the unit
     std::optional<std::array<double, 2>>
         range;  // SI; when it is empty, the range of a column grows with the data
     Dimension dimension = Dimension::number;
-    ProfileOf profile = ProfileOf::nothing;  // in place of a column
+    ProfileOf profile = ProfileOf::nothing;  // the profile shown in place of a column
     bool across = false;                     // a profile runs over the width, else over the height
     bool period = false;  // velocities and columns are means over the last period of the drive
     bool is_profile() const { return profile != ProfileOf::nothing; }
@@ -133,7 +133,7 @@ struct FilmArrows {
 struct FilmStreamlines {
     int across = 0;      // lines across the container's width; 0: none
     double speed = 0;    // m/s: lines have their full width from this speed on
-    bool period = true;  // as for arrows
+    bool period = true;  // over the last period of the drive, else of this moment
     bool operator==(const FilmStreamlines&) const = default;
 };
 
@@ -264,7 +264,7 @@ struct FilmLabel {
     bool operator==(const FilmLabel&) const = default;
 };
 
-// Where the camera is at one moment of the film. What is empty follows from the other keys.
+// Where the camera is at one moment of the film. Members that are empty follow from the other keys.
 struct CameraKey {
     double time = 0;  // s of film
     std::optional<double> azimuth, elevation, zoom;
@@ -307,7 +307,7 @@ struct Film {
     double rate = 30;   // frames a second of film
     std::string title;  // shown on the frame; empty: no title
     std::vector<FilmSegment> segments;
-    std::vector<FilmCaption> captions;  // by rising time, one after the other
+    std::vector<FilmCaption> captions;  // by rising time; they do not overlap
     std::vector<FilmLabel> labels;
     int periods =
         0;  // periods of the drive that locked frames, displacements and means count by; 0: those of the bed

@@ -1,4 +1,4 @@
-// Warnings that the film gives beside those of the plan. They need the engine's plan, so this is a file of
+// Warnings that the film adds to the warnings of the plan. They need the engine's plan, so this is a file of
 // its own: programs that only draw do not link it.
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@ namespace grainreel {
 // Words and the value that follows them. The last words have no value.
 struct LiveWords {
     std::string words;
-    std::string column;    // of measures.csv; empty: no value
+    std::string column;    // column of measures.csv; empty: no value
     std::string unit;      // shown after the value; empty for a pure number
     double unit_size = 1;  // SI
     bool operator==(const LiveWords&) const = default;
@@ -27,7 +27,7 @@ const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, cons
 // "lacey, kinetic_J, ...": the names of the columns that are always there.
 std::string column_names(const std::vector<MeasureColumn>& columns);
 
-// Throws UserError that says what is wrong with the text.
+// Splits a text into words and values. Throws a UserError that says what is wrong with the text.
 std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns);
 
 // Writes the text with its values. value(column): the value of a column in the row to show; none when there

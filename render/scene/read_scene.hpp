@@ -11,7 +11,7 @@
 
 namespace grainreel {
 
-// All keys of a scene file: those of the engine and those of [film].
+// All keys of a scene file: the engine's keys and the keys of [film].
 const std::vector<Key>& filmed_scene_keys();
 
 // These read as read_scene() of engine/scene/scene_file.hpp does, and also [film] and the species' colours.

@@ -17,8 +17,8 @@ namespace {
 // The solid fraction of a bed between walls that are not far apart, with its corners and its rough surface.
 constexpr double packing = 0.5;
 
-// m/s: the speed of the drive. Without a drive it is that of the fastest listed grain, or of a fall through
-// the container.
+// m/s: the speed of the drive. Without a drive it is the speed of the fastest listed grain, or of a fall
+// through the container.
 double speed_scale(const Scene& scene) {
     if (scene.drive.present) return scene.drive.top_speed();
     double fastest = std::sqrt(2 * scene.gravity.norm() * scene.container.height);
@@ -193,8 +193,8 @@ namespace {
 // The solid fraction of a bed at rest.
 constexpr double resting_packing = 0.6;
 
-// m: the height of the grains in the container. Without a container it is that of a heap that is as high as
-// it is wide.
+// m: the height of the grains in the container. Without a container it is the height of a heap that is as
+// high as it is wide.
 double bed_height(const Scene& scene) {
     if (scene.container.shape != Container::Shape::none) return fill_height(scene, resting_packing);
     return std::cbrt(solid_volume(scene) / resting_packing);
@@ -225,8 +225,8 @@ double top_speed(const Scene& scene, const SceneMesh& mesh) {
     return speed;
 }
 
-// m/s: the speed at which grains rub on meshes. Where all meshes stand, it is that of grains that fall by
-// their diameter.
+// m/s: the speed at which grains rub on meshes. Where all meshes stand still, it is the speed of grains that
+// fall by their diameter.
 double rubbing_speed(const Scene& scene) {
     double speed = 0;
     for (const SceneMesh& mesh : scene.meshes)

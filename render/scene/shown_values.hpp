@@ -74,8 +74,8 @@ std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
 // N: from this force on, the line of a contact has its full width.
 double widest_chain_force(const Scene& scene);
 // m/s. period: the speed of a fast circulation, a grain's diameter in five periods. Otherwise, for velocities
-// of a moment, the speed of the drive, or that of a fall from the outlet's half-width if it is larger. 0 when
-// the scene gives no scale.
+// of a moment, the speed of the drive, or the speed of a fall from the outlet's half-width if that is larger.
+// 0 when the scene gives no scale.
 double usual_flow_speed(const Scene& scene, bool period);
 // The range of the values' axis of a profile that has no range of its own.
 std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot);

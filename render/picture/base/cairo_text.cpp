@@ -293,7 +293,7 @@ void rounded(cairo_t* on, const Rectangle& box, double radius) {
     cairo_close_path(on);
 }
 
-// Lays a pixel over another. The upper one is multiplied by its alpha, the lower one is not.
+// Lays a pixel over another. The upper pixel is multiplied by its alpha, and the lower pixel is not.
 void lay_pixel(std::uint32_t upper, std::uint8_t* out) {
     const unsigned alpha = upper >> 24;
     if (alpha == 0) return;

@@ -1,5 +1,5 @@
-// From a quantity's value to a colour: the colour maps, the scale that uses them, and what the colour bar
-// needs of it. A new map is an array of colours in colour_scale.cpp.
+// Turns a quantity's value into a colour: the colour maps, the scale that uses them, and the values that the
+// colour bar needs. A new map is an array of colours in colour_scale.cpp.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ class ColourScale {
     explicit ColourScale(const GrainColouring& colouring);
     explicit ColourScale(const FilmWalls& walls);  // whose colour is not plain
 
-    // The sRGB colour of a value (SI). Beyond the range it is that of the nearer end.
+    // The sRGB colour of a value (SI). Beyond the range it is the colour of the nearer end.
     Colour at(double value) const { return at_share(share_of(value)); }
     // Where a value lies in the range: 0 at the low end, 1 at the high end.
     double share_of(double value) const;

@@ -39,8 +39,8 @@ inline double contrast(const Colour& a, const Colour& b) {
 
 struct Palette {
     Colour background, ink, faint_ink, solid, accent;
-    Colour force;       // of lines between grains, and of arrows at one of them
-    Colour wall_force;  // of arrows at walls
+    Colour force;       // lines between grains, and arrows at one grain
+    Colour wall_force;  // arrows at walls
 };
 
 inline Palette make_palette(const Colour& background) {

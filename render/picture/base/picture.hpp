@@ -47,7 +47,7 @@ TypeScale type_scale(const Film& film, double shrink = 1);
 // Which parts of the picture are gutters for words, and which part shows the container.
 struct PictureLayout {
     bool stacked = false;               // gutters above and below instead of left and right
-    TypeScale type{};                   // of the words
+    TypeScale type{};                   // sizes of the words
     Rectangle first;                    // left or top: title, legend, scale
     Rectangle second;                   // right or bottom: time, drive, playback
     Rectangle port;                     // the container

@@ -27,7 +27,7 @@ struct Spread {
 // from the origin, c is its shift, and k is the slope of the frustum's side. So c must lie between max(u - k
 // z) - k D and min(u + k z) + k D, which gives the least D and then c.
 struct Side {
-    Spread rising, falling;  // of u + k z, u - k z
+    Spread rising, falling;  // spreads of u + k z and of u - k z
     double slope;
     void take(double u, double z) {
         rising.take(u + slope * z);

@@ -46,7 +46,7 @@ struct View {
 View looking(double azimuth, double elevation, const Vec3& up = Vec3(0, 0, 1));
 
 // The direction towards the eye at azimuth and elevation 0: the part of z across `up` where `up` is nearly
-// level, else that of x.
+// level, else the part of x across `up`.
 Vec3 front_of(const Vec3& up);
 
 // Pixels for one unit of x/z at the camera's field of view, without its zoom; 1 for an orthographic camera.

@@ -65,7 +65,7 @@ void CameraPath::frame_by_itself(const FilmedScene& scene) {
     if (leaves_aside(scene, part)) keep_sides(scene, part);
 }
 
-// Returns pixels a metre at the middle of what is framed.
+// Returns pixels a metre at the middle of the framed part.
 double CameraPath::frame_part(const FilmedScene& scene, const FramedPart& part) {
     if (camera_.target || moves()) {
         keep_distance(scene, part);

@@ -72,8 +72,8 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);
 }
 
-// Free walls are planes. The piece of each plane is drawn that lies in the container, or else in the box of
-// what is looked at.
+// Free walls are planes. The piece of each plane is drawn that lies in the container, or without a container
+// in the box of everything that the camera looks at.
 
 namespace {
 
@@ -121,7 +121,7 @@ std::vector<Vec3> inside(std::vector<Vec3> piece, const Container& container) {
         for (const double side : {-1.0, 1.0})
             piece = clipped(piece, {0, side * container.floor_half_width(), 0}, {0, -side * cosine, sine});
     }
-    constexpr int kSides = 96;  // of a circle
+    constexpr int kSides = 96;  // sides of the polygon that stands for a circle
     for (int k = 0; container.shape == Container::Shape::cylinder && k < kSides; ++k) {
         const double angle = 2 * std::numbers::pi * k / kSides;
         const Vec3 outward(std::cos(angle), std::sin(angle), 0);

@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int steps = 96;  // of a full circle
+constexpr int steps = 96;  // steps of a full circle
 
 Vec3 on_circle(double radius, double angle, double z) {
     return {radius * std::cos(angle), radius * std::sin(angle), z};

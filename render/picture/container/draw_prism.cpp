@@ -25,7 +25,7 @@ Plate floor_plate(const Container& container) {
     return {-half, half, -1.4 * t, 0};
 }
 
-// The floor's plate, or the two that an open slot leaves of it.
+// The floor's plate, or the two plates that an open slot leaves of it.
 std::vector<Plate> floor_plates(const Container& container) {
     const Plate whole = floor_plate(container);
     if (!container.outlet || container.outlet->shape != Outlet::Shape::slot) return {whole};

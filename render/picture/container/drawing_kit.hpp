@@ -107,8 +107,9 @@ struct Sketches {
 void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 
-// The piece of a plane that lies in the container, or in the box of what is looked at, when the plane has
-// moved by `offset`: its corners in order, m. Empty when there is no such piece.
+// The piece of a plane that lies in the container, or without a container in the box of everything that the
+// camera looks at, when the plane has moved by `offset`: its corners in order, m. Empty when there is no such
+// piece.
 std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset);
 void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes);

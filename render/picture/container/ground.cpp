@@ -82,7 +82,7 @@ void ShadowMap::place_around_extent(const Vec3& to_key) {
     low_ = middle.array() - 0.5 * side_;
 }
 
-// Adds the floor's plate, or that of the tray where there is one. It is dense at its foot.
+// Adds the floor's plate, or the tray's plate where there is a tray. Its shadow is dense at its foot.
 void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
     const double half = outer_floor_half_width(foot_), cell = side_ / kSide;
     const bool round = foot_.shape == Container::Shape::cylinder;
@@ -258,7 +258,7 @@ void Ground::shade(int y, std::uint32_t* pixels) const {
     if (y < part_.y || y >= part_.y + part_.height) return;
     const Vec3 first = seen_at(part_.x + 0.5, y + 0.5), step = seen_at(part_.x + 1.5, y + 0.5) - first;
     // The middle of the first cell lies half a cell from the corner of the map, and one and a half cells from
-    // that of `dark_`.
+    // the corner of `dark_`.
     const Vec3 shifted = first + 0.5 * first.z() * Vec3(1, 1, 0),
                shifted_step = step + 0.5 * step.z() * Vec3(1, 1, 0);
     shade_row({dark_.data(), kStride}, {shifted.cast<float>(), shifted_step.cast<float>()},

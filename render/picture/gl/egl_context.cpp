@@ -33,7 +33,7 @@ struct Library {
     PFNEGLMAKECURRENTPROC make_current = nullptr;
     PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display = nullptr;
     PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;  // null without the device platform
-    std::string extensions;                             // of the client
+    std::string extensions;                             // extensions of the client
 };
 
 bool lists(const std::string& extensions, const std::string& name) {

@@ -40,7 +40,7 @@ class ShownGrains {
   private:
     bool any() const { return !left_out_.empty() || !only_.empty() || cut_.present; }
 
-    std::vector<bool> left_out_;      // by species; empty: none
+    std::vector<bool> left_out_;      // for each species; empty: none is left out
     std::vector<std::int32_t> only_;  // ids; empty: all
     FilmCut cut_;                     // the cut that leaves grains out
     std::vector<std::size_t> kept_;

@@ -49,7 +49,7 @@ Lamp lamp_of(const FilmLook& look, bool colours_are_read);
 class SpherePainter {
   public:
     // width, height: pixels of the port. ghosts: paint only grains of the scene's ghost species, where
-    // nothing else stands before them; otherwise paint all grains that are taken.
+    // nothing else stands before them; otherwise paint all grains of the frame.
     SpherePainter(const FilmedScene& scene, int width, int height, Team& team, bool ghosts);
 
     // Paints all grains but these as ghosts, whatever their species. ids rise.
@@ -84,7 +84,7 @@ class SpherePainter {
     GrainColours grain_colours_;
     GluedSpheres glued_;
     Team& team_;
-    std::vector<std::uint8_t> painted_;      // by species; empty: all of them
+    std::vector<std::uint8_t> painted_;      // for each species; empty: all are painted
     std::vector<std::int32_t> not_painted_;  // ids; empty: by species
     SphereLayer layer_;
     Spheres spheres_;

@@ -17,8 +17,8 @@ namespace {
 constexpr double strength = 0.8;   // alpha of the layer; the grains are seen through it
 constexpr double full_from = 0.3;  // from this solid fraction on the layer has its full strength
 
-// The kernel is wider than that of fields in files, since this field is of a single moment. The cells are
-// finer, for the eye.
+// The kernel is wider than the kernel of fields in files, since this field shows a single moment. The cells
+// are finer, for the eye.
 FieldOutput resolution(const FilmedScene& scene) {
     const double diameter = mean_diameter(scene);
     return picture_fields(scene, 0.75 * diameter, 0.25 * diameter);
@@ -125,9 +125,9 @@ namespace {
 
 constexpr double longest_arrow = 1.5;            // cells
 constexpr double streamline_reach = 1.5;         // distances between seeds, to either side of the seed
-constexpr double slow = 0.1;                     // of the speed of full width; slower lines fade out
+constexpr double slow = 0.1;                     // share of the speed of full width; slower lines fade out
 constexpr double thin = 0.6, thick = 2;          // widths of lines, pens
-const double side_over_width = std::sqrt(12.0);  // of a square and of its spread along one side
+const double side_over_width = std::sqrt(12.0);  // side of a square over its spread along that side
 
 // m: the kernel is as wide as an arrow's cell, and no narrower than half a grain.
 double arrow_kernel(const FilmedScene& scene) {

@@ -72,7 +72,7 @@ class WallForceMarks {
   private:
     struct Wall {
         Face face;
-        std::string name;  // as in the names of columns
+        std::string name;  // the wall's name in the names of columns
     };
     void draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const;
 

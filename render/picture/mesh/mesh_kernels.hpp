@@ -35,7 +35,7 @@ struct ScreenTriangle {
     ScreenPlane near, shade;
     float colour[3], brighter[3];        // 0 to 255: colour at shade 0, and what shade 1 adds to it
     float tint = 0;                      // thickness of glass, in panes seen straight on
-    std::uint32_t number = 0;            // of the triangle's plane in MeshProjection, from 1 on
+    std::uint32_t number = 0;            // number of its plane in MeshProjection, from 1 on
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels that it may touch; high ends excluded
 };
 

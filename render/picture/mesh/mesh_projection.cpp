@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-constexpr float kKeyShare = 0.62f;  // of the light on walls; the sky gives the rest
+constexpr float kKeyShare = 0.62f;  // share of the key light on walls; the sky gives the rest
 
 // The share of its strength that a colour keeps where the surface is turned away from the light. The colour
 // must still be found on the colour bar.
@@ -123,7 +123,7 @@ void MeshProjection::take_mesh(const DrawnMesh& mesh, Team& team) {
     add_sections(shares);
 }
 
-// Joins the shares in the order of the members, which is that of the triangles.
+// Joins the shares in the order of the members, which is also the order of the triangles.
 void MeshProjection::join(std::vector<Share>& shares) {
     for (Share& share : shares) {
         const auto first = static_cast<std::uint32_t>(planes_.size());

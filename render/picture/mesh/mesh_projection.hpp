@@ -73,14 +73,14 @@ class MeshProjection {
     struct Seen {
         Face face;
         bool front;
-        float cosine;  // of the angle between its normal and the line of sight, > 0
+        float cosine;  // of the angle between its normal and the line of sight; > 0
     };
     // The part of a mesh that one thread projects.
     struct Share {
         std::vector<ScreenTriangle> solid, glass;
         std::vector<Plane> planes;
         std::vector<ScreenLine> lines;
-        std::array<std::vector<MeshSection::Edge>, 3> sections;  // by half-space
+        std::array<std::vector<MeshSection::Edge>, 3> sections;  // one for each half-space
     };
 
     void take_mesh(const DrawnMesh& mesh, Team& team);

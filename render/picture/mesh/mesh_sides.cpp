@@ -215,12 +215,12 @@ class SideFinder {
             sides_[static_cast<std::size_t>(t)] = {front, back};
         });
     }
-    // Settles a closed part: it gets the look of the side that its normals point to, or of the other one.
+    // Settles a closed part. out, in: the looks of its outer side, which can be seen, and of its inner side.
     void settle_closed(std::size_t part, Face out, Face in) {
         settle(part, visible_front_[part] ? out : in, visible_front_[part] ? in : out);
     }
 
-    // Settles an open sheet. One side of it may look into what the sheet holds.
+    // Settles an open sheet. One of its sides may look into the room that the sheet holds.
     void settle_sheet(std::size_t part) {
         const double front = part_seen_[part].front_share(), back = part_seen_[part].back_share();
         const double least = look_ == MeshLook::vessel ? kDiffersInVessel : kDiffers;

@@ -28,7 +28,7 @@ bool set_edge(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Eige
     return true;
 }
 
-// The plane through three values. area: twice that of the triangle, with its sign.
+// The plane through three values. area: twice the triangle's area, with its sign.
 ScreenPlane plane_through(const Eigen::Vector3f (&at)[3], const std::array<float, 3>& value, double area) {
     const double x1 = static_cast<double>(at[1].x()) - at[0].x(),
                  y1 = static_cast<double>(at[1].y()) - at[0].y();

@@ -49,7 +49,8 @@ struct PortSize {
     int width, height;
 };
 
-// Fills in all of a triangle but colours and number. Returns false where nothing of it can be seen.
+// Fills in all members of a triangle except colours and number. Returns false where no part of the triangle
+// can be seen.
 bool set_up(const Sight& sight, const PortSize& port, const LitCorner& a, const LitCorner& b,
             const LitCorner& c, ScreenTriangle& triangle);
 

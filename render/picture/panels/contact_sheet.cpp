@@ -150,7 +150,7 @@ void ContactSheet::draw_tile(cairo_t* on, const Tile& tile, std::size_t place, i
     const double x = gap + column * (width_ + gap), y = gap + row * (height_ + label_ + gap);
     cairo_set_source_surface(on, tile.picture.get(), x, y);
     cairo_paint(on);
-    // A thin line around the tile, for films whose background is that of the page.
+    // A thin line around the tile, for films whose background is the page's colour.
     set_colour(on, ink_, 0.25);
     cairo_set_line_width(on, 1);
     cairo_rectangle(on, x - 0.5, y - 0.5, width_ + 1, height_ + 1);

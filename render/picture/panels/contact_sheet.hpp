@@ -38,7 +38,7 @@ class ContactSheet {
     void draw_tile(_cairo* on, const Tile& tile, std::size_t place, int decimals) const;
 
     int columns_, rows_;
-    int width_, height_;  // of a tile, pixels
+    int width_, height_;  // pixels, size of a tile
     double letters_;      // pixels
     int label_;           // pixels of the times under the tiles; 0 without them
     Colour background_, ink_;

@@ -172,7 +172,7 @@ double seen_height(const Panel& panel, const PanelLayout::Place& place) {
 // containers.
 void close_up(const std::vector<Panel>& panels, const Film& film, const WordHeights& words,
               Planned& planned) {
-    constexpr double most_plots = 0.4;  // of a panel
+    constexpr double most_plots = 0.4;  // share of a panel's height
     PanelLayout& layout = planned.layout;
     PlotGrid plots = planned.plots;
     const int gap = static_cast<int>(panel_type(film).gap), rows = layout.places.back().row + 1;

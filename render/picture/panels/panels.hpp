@@ -29,7 +29,7 @@ struct Common {
     bool clock = true;  // frequency, phase and ramp are equal, so that one dial shows all cycles
     bool frequency = true, g_level = true, amplitude = true;  // all drives agree in this
     bool species = true;
-    bool exaggerated = true;  // by one factor
+    bool exaggerated = true;  // all motion is exaggerated by one factor
     bool colours = true;      // one colour bar, or none
     MarkKinds marks;          // kinds that mean the same everywhere; arrows also need one scale
     bool playback = true;
@@ -57,7 +57,7 @@ struct PanelLayout {
         Rectangle caption, pace, port, note;  // pace: caption of time; note: live words
         std::vector<Rectangle> plots;
         Rectangle foot;   // has height 0 when everything is written below the panels
-        double zoom = 1;  // of the panel's camera
+        double zoom = 1;  // zoom of the panel's camera
         int row = 0;
     };
     std::vector<Place> places;  // in rows from the top; empty when the picture is too small for them

@@ -109,7 +109,7 @@ struct SideBySide::Impl {
     std::vector<std::unique_ptr<Renderer>> renderers;
     std::vector<WordBlock> blocks;
     PanelPlots plots;
-    std::vector<FilmedScene> scenes;                 // of the panels
+    std::vector<FilmedScene> scenes;                 // one for each panel
     std::vector<std::vector<std::string>> playback;  // captions of time of each panel in each segment
     std::vector<std::string> notes, paces;           // words that are in the picture now
     bool plots_drawn = false;

@@ -34,7 +34,7 @@ class ProfilePlot final : public SidePlot {
   private:
     struct Axis {
         std::array<double, 2> span;  // SI
-        std::string name;            // with the unit
+        std::string name;            // name of the quantity with its unit
         double unit = 1;             // SI
     };
     Axis place_axis() const;

@@ -1,4 +1,4 @@
-// The hot loops of drawing spheres, and what they take: spheres, lines of sight and cuts. View coordinates
+// The hot loops of drawing spheres, and their arguments: spheres, lines of sight and cuts. View coordinates
 // (m) have x to the right, y up and z away from the eye; pixels count from the top left of the port. The
 // loops work on many pixels at once and are compiled for each instruction set; they are written in the files
 // *-inl.hpp of this folder.

@@ -60,8 +60,8 @@ void Visibility::place(const Sight& sight, const Cut& cut, const std::vector<Vie
     });
 }
 
-// Sorts grains coarsely by their nearest points. The order only serves speed: what is drawn first hides what
-// comes later.
+// Sorts grains coarsely by their nearest points. The order only serves speed: grains drawn first hide grains
+// that come later.
 void Visibility::sort_nearest_first(const std::vector<ViewSphere>& spheres) {
     constexpr std::size_t kSlices = 4096;
     float low = kNothing, high = -kNothing;

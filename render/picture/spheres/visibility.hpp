@@ -20,7 +20,7 @@ namespace grainreel {
 // The marked pixels of a row.
 class RowBits {
   public:
-    // Gives room for a row of `width` pixels. All of them must be written before they are read.
+    // Gives room for a row of `width` pixels. All pixels must be written before they are read.
     std::uint64_t* room(int width) {
         width_ = width;
         words_.resize(static_cast<std::size_t>(width) / 64 + 1);

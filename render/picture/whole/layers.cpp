@@ -158,7 +158,7 @@ void SideLayer::bind(const Rectangle& part) {
     gl_.Viewport(-part.x, -part.y, width_, height_);
 }
 
-// Clears what was drawn before where nothing will be drawn now.
+// Clears pixels that were drawn before and will not be drawn now.
 void SideLayer::forget_beside(const Rectangle& part) {
     for (int y = 0; y < height_; ++y) {
         Layer::Span& span = layer_.spans[static_cast<std::size_t>(y)];

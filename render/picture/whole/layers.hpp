@@ -28,7 +28,7 @@ struct Layers {
     const Layer* meshes_before;  // under `before`; may be null
     const Layer& before;
     const Layer* marks;                           // over all others; may be null
-    const std::vector<std::uint32_t>& strengths;  // of grains, 0 to 255, by row; empty: full
+    const std::vector<std::uint32_t>& strengths;  // strength of grains in each row, 0 to 255; empty: full
 };
 
 // Puts the layers into the port's part of the picture.
@@ -68,7 +68,7 @@ class SideLayer {
 
     const gl::Functions& gl_;
     const int width_, height_;
-    std::optional<gl::Framebuffer> target_;  // of a part of the layer
+    std::optional<gl::Framebuffer> target_;  // target for a part of the layer
     Shapes last_;
     Layer layer_;
 };

@@ -110,7 +110,8 @@ struct Renderer::Impl {
         covered;  // pixels of `before` and their colours before the change
     std::optional<Ground> ground;
     Team team;
-    // The grains that are not hidden, those of them that are no ghosts, and those that have marks.
+    // The grains that are not hidden, the grains among them that are no ghosts, and the grains that have
+    // marks.
     ShownGrains shown, solid, beside_cut;
     SceneMeshes meshes;
     MeshProjection mesh_projection;
@@ -184,7 +185,7 @@ void Renderer::Impl::point_out(PointedOut what) {
     solid = ShownGrains::only(scene, std::move(what.grains));
 }
 
-// Copies the words. Most of them are there already in a picture that has been drawn into before.
+// Copies the words. A picture that has been drawn into before already has most of them.
 void Renderer::Impl::copy_words(Picture& into) const {
     const bool fits = into.width == words.width && into.height == words.height;
     if (!fits) into = words;
@@ -203,7 +204,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
     into.moving.push_back(port);
 }
 
-// In all moments of an open shutter the marks are those of the frame itself.
+// Draws all moments of an open shutter. The marks of each moment are the marks of the frame itself.
 void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch) {
     if (!exposure) exposure.emplace(port);
     const Frame marked = to_be_marked(shown.of(exaggeration.shown(frame)));
@@ -260,8 +261,8 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::readback);
 }
 
-// Draws the walls before the grains, without what grains hide of them, and the marks over them. Where grains
-// hide parts of the walls, the marks are a layer of their own, which is returned.
+// Draws the walls before the grains, without the parts that grains hide, and the marks over them. Where
+// grains hide parts of the walls, the marks are a layer of their own, which is returned.
 const Layer* Renderer::Impl::draw_before() {
     const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();
     const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });

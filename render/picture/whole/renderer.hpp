@@ -38,7 +38,7 @@ class Renderer {
     // the renderer on one thread. raster_threads: threads of the software rasteriser, >= 1. Throws RunError
     // when there is no context.
     Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
-    // Takes a layout other than that of plan_layout(): bare_layout() leaves out all words.
+    // Takes another layout than plan_layout() would give: bare_layout() leaves out all words.
     Renderer(const FilmedScene& scene, const PictureLayout& layout, int raster_threads,
              gl::Provider provider);
     ~Renderer();

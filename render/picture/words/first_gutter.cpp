@@ -220,7 +220,7 @@ FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View*
     const TypeScale& type = writer.type;
     const double inner = std::max(1.0, width - (layout.stacked ? 2.0 : 1.5) * type.margin);
     const double room = layout.first.height > 0 ? layout.first.height - type.margin : endless_room;
-    // The scale holds at the depth of the middle of what is framed.
+    // The scale holds at the depth of the middle of the framed part.
     const Blocks blocks(scene, view, view ? view->pixels_per_metre(framed_middle(scene)) : 1);
     if (!layout.stacked) return column_part(writer, blocks, inner, room);
     const Writer measure{nullptr, type, writer.palette};

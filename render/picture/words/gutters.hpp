@@ -34,7 +34,7 @@ struct WordPoint {
 
 // Where time, dial, drive, caption, notes and plots lie in the second gutter; pixels from its corner.
 struct NumbersPlan {
-    double radius = 0;  // of the dial
+    double radius = 0;  // radius of the dial
     WordPoint clock, caption, note, dial, drive, arrows;
     double caption_wrap = 1, note_wrap = 1;
     int caption_lines = 0;

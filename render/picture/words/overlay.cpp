@@ -181,7 +181,7 @@ namespace {
 struct Placed {
     const FilmLabel* label;
     double x, y, radius;  // pixels of the port: centre and radius of the grain
-    Rectangle box;        // of the words, in the port
+    Rectangle box;        // box of the words, in the port
 };
 
 bool overlap(const Rectangle& a, const Rectangle& b) {

@@ -1,5 +1,5 @@
-// The keys of [film] itself: those of the picture and of the file, and what goes with each format of the
-// file. Keys that only show more have files of their own (film_keys.hpp).
+// The keys of [film] itself, about the picture and the file, and the rules of each file format. Keys that
+// only show more have files of their own (film_keys.hpp).
 #include "render/scene/keys/film_keys.hpp"
 
 #include <fmt/format.h>
@@ -89,8 +89,8 @@ void tell_what_stays(const Document& document, FilmedScene& scene) {
                         document.place("film.for"), purpose->name, fmt::join(stays, ", ")));
 }
 
-// Refuses what does not go with the film's format, and fits the rate to it. Size, rate and file must have
-// been read.
+// Refuses settings that do not go with the film's format, and fits the rate to it. Size, rate and file must
+// have been read.
 void settle_film_file(const Document& document, FilmedScene& scene) {
     check_max_size(document, scene.film);
     check_transparent(document, scene.film);
@@ -264,7 +264,7 @@ const KeyTable<Film>& file_table() {
     return table;
 }
 
-// Keys of what is drawn beside grains and walls, and of how the walls' motion is shown.
+// Keys for things drawn beside grains and walls, and for how the walls' motion is shown.
 const KeyTable<Film>& scenery_table() {
     static const KeyTable<Film> table{
         choice("words", &Film::words, word_place_words, initial(),

@@ -34,7 +34,7 @@ void read_film_walls(Document& document, FilmedScene& scene);
 void write_film_walls(SceneText& out, const FilmedScene& scene);
 
 // list_marks and write_marks are for the keys that hide and ring grains, write_text for `text`. The functions
-// of "shows" also call those of colours, plots, arrows and trails.
+// of "shows" also call the functions of colours, plots, arrows and trails.
 void list_marks(keys::Keys& all);
 void list_shows(keys::Keys& all);
 void read_shows(Document& document, FilmedScene& scene);

@@ -1,4 +1,4 @@
-// The keys of style and light, which are part of [film], and those of [film.cut] and [film.walls].
+// The keys of style and light, which are part of [film], and the keys of [film.cut] and [film.walls].
 
 #include <fmt/format.h>
 #include <algorithm>

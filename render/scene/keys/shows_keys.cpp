@@ -1,4 +1,4 @@
-// The keys of [film.colour], which say what the colour of a grain stands for, and those keys of [film] that
+// The keys of [film.colour], which say what the colour of a grain stands for, and the keys of [film] that
 // hide and ring grains, draw forces and write words beside the grains.
 
 #include <fmt/format.h>

@@ -25,7 +25,7 @@ struct Lamp {
     bool occlusion = true, shadows = true;
 };
 
-// From linear light to 8-bit sRGB (IEC 61966-2-1), by a table of 4096 steps. Each of them is at most 0.8 of a
+// Converts linear light to 8-bit sRGB (IEC 61966-2-1) by a table of 4096 steps. Each step is at most 0.8 of a
 // byte's step wide.
 class ToneTable {
   public:

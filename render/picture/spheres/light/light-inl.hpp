@@ -106,7 +106,7 @@ void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGra
             falls *= unshadowed(p, lamp, grain.casters);
             const Triple<F> halfway = key + p.to_eye;
             const F gloss = larger(p.normal.dot(halfway), F(0)) * inverse_root(halfway.squared());
-            F power = gloss * gloss;  // to the 32nd
+            F power = gloss * gloss;  // squared again below, up to the 32nd power
             power *= power, power *= power, power *= power, power *= power;
             shine = F(lamp.shine) * power * smaller(falls * F(4), F(1)) * (F(1) - p.cap);
         }

@@ -15,8 +15,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr int kManyNeighbours =
-    40;  // with more of them, a few pixels at a time are lit by the nearest ones only
+constexpr int kManyNeighbours = 40;  // neighbours; with more of them, only the nearest light a few pixels
 
 // number: index + 1 of a grain, or 0.
 bool paints(const PaintJob& job, std::uint32_t number) {
@@ -200,7 +199,7 @@ void BandPainter::light(const PaintJob& job, std::uint32_t grain, const LitPoint
     }
 }
 
-// Finds those of a large grain's many neighbours that take light from these few points.
+// Finds, among a large grain's many neighbours, the neighbours that take light from these few points.
 NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, const NeighbourSpan& all,
                                    const LitPoints& points) {
     const auto slope = [&](float px, float py) {
