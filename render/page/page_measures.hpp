@@ -41,7 +41,6 @@ PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table);
 //   then for each record and quantity Ny Nz bytes: 0 to 254 from the quantity's lowest value to its highest,
 //   255 where there is none.
 // render/page/html/fields.js reads them.
-
 struct FieldQuantity {
     std::string name;   // "speed"
     std::string label;  // "speed of the flow"

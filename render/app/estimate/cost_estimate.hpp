@@ -47,7 +47,6 @@ MachineFigures machine_figures(const FilmedScene& scene, const Plan& plan, const
                                bool film = true);
 
 // What a run will leave on disk.
-
 struct DiskEstimate {
     std::int64_t trajectory_frames = 0, measures_rows = 0;
     double trajectory = 0, measures = 0, film = 0;  // bytes

@@ -64,7 +64,6 @@ std::string progress_json(const Progress& progress);
 
 // Shows the progress of work that reports the share done (charts and benches), with the time left, and says
 // whether to go on.
-
 class ShareWatcher {
   public:
     ShareWatcher(Reporter& reporter, Progress::Stage stage)

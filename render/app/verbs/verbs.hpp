@@ -13,7 +13,6 @@ namespace grainreel {
 
 // A verb of the command line: its name, its options, and what it does. Each verb is one file of this folder
 // and one word of the table in verbs.cpp.
-
 class Verb {
   public:
     // about: a line for --help. footer: the text below the options in the verb's own help.

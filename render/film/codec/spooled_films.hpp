@@ -27,7 +27,6 @@ namespace grainreel {
 
 // A folder next to the film for files that are needed while it is made. It is removed together with the
 // writer. If another folder has got its name meanwhile, that one is left alone.
-
 class WorkFolder {
   public:
     // Throws RunError.
@@ -101,7 +100,6 @@ class CappedFilm final : public FilmWriter {
 
 // A GIF's 256 colours are chosen when all pictures are known. Until then the pictures lie on disk as an exact
 // copy, movie.work/spool.mkv, which plays when the run is killed. Under a cap the GIF gets fewer colours.
-
 struct GifColours {
     int count;
     const char *dither, *words;

@@ -73,7 +73,6 @@ class FolderFilm final : public SideWork {
 };
 
 // A run that fills a folder with a film, of frames that it does not compute itself.
-
 class FilmRun : public FolderRun {
   protected:
     FilmRun(const FilmRequest& request, RunListener& listener)

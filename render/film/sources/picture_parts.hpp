@@ -72,7 +72,6 @@ class PictureParts {
 };
 
 // Gives the pictures of a film that were taken before its run was broken off, from their kept moments.
-
 class EarlierPictures final : private PartSupply {
   public:
     // run: the run's folder. shots: those of the film. count: how many of the kept moments are pictures of

@@ -60,7 +60,6 @@ class FilmOfRun {
 // A run that lies on disk, as a source of any of its moments: those that it kept (RecordedRun), and the
 // others, which are brought back from its checkpoints. When that is impossible or not allowed, a picture
 // shows the nearest kept moment, and news() counts such pictures.
-
 class RevisitedRun final : public FrameSource, private PartSupply {
   public:
     // sets: see RecordedRun. replay: false if nothing may be brought back. sharers: number of runs that share

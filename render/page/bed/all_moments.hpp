@@ -56,7 +56,6 @@ class AllMoments final : public FrameArchive {
 
 // The film's colours on the page's grains: a byte for the quantity of film.colour of each grain at each
 // moment.
-
 class FilmColours {
   public:
     // For a film whose grains are coloured by a quantity (film_has_scale). start: time in s of the film's

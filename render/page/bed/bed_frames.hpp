@@ -29,7 +29,6 @@ namespace grainreel {
 // first grain's place in the list of grains, as its difference from the pair before (P each); the same three
 // bytes of the second grain's place itself, or of 2^24 - 1 - face for a wall; P bytes of normal force, coded
 // as speed_byte() codes speeds. render/page/html/pair_forces.js reads them.
-
 struct PairForces {
     struct Moment {
         std::size_t moment = 0;  // index among the moments of the page

@@ -33,7 +33,6 @@ struct RunFacts {
 RunFacts run_facts(const std::filesystem::path& folder);
 
 // Text that an author can paste into a paper: the methods in a paragraph, and the sources as BibTeX.
-
 struct Methods {
     std::string paragraph;  // sources are given by their keys in brackets: "[Walton1986]"
     std::string bibtex;

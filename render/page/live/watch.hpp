@@ -36,7 +36,6 @@ int watch_run(WatchTask request, const Planner& planner, RunListener& listener);
 
 // Decides who may look: by the host name in the request, and, when other machines can reach the page, by a
 // key.
-
 class Visitors {
   public:
     // host: the name under which visitors ask for the page. keyed: whether a key is needed.
