@@ -85,13 +85,13 @@ struct Clock {
         return static_cast<double>(n) / static_cast<double>(steps_per_period);
     }
 
-    // With a drive: the step nearest to the time when so many periods have gone by.
+    // The step nearest to the time when so many periods have gone by. There must be a drive.
     std::int64_t step_at(double cycles) const {
         if (!changes.empty() && cycles >= 0) return std::llround(changes.time(cycles));
         return std::llround(cycles * static_cast<double>(steps_per_period));
     }
 
-    // With a drive: the length in steps of the period that begins there, not always a whole number.
+    // The length in steps of the period that begins there, not always a whole number. There must be a drive.
     double period_at(std::int64_t n) const {
         if (!changing_at(n)) return static_cast<double>(steps_per_period);
         const double begins = changes.cycles(static_cast<double>(n));

@@ -71,7 +71,7 @@ Shown shown_at(std::string_view text, std::size_t at) {
     return {std::string(text.substr(at, length)), length};
 }
 
-// Where the character ends in which `from` lies.
+// The end of the character in which `from` lies.
 std::size_t end_of_character(std::string_view text, std::size_t from) {
     while (follows(text, from)) ++from;
     return from;

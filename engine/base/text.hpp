@@ -20,7 +20,7 @@ std::size_t letters_in(std::string_view text);
 
 constexpr std::size_t kExcerpt = 60;  // characters of a user's text in a message
 
-// At most so many characters of the text for a message, with "..." in place of the rest. Control characters
+// The text for a message, with at most so many characters and "..." in place of the rest. Control characters
 // are written as in TOML, \u001b, and bytes that are not UTF-8 as \xff.
 std::string excerpt(std::string_view text, std::size_t most = kExcerpt);
 

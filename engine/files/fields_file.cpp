@@ -317,7 +317,7 @@ std::array<double, 3> FieldsReader::cell() const {
         const std::vector<double>& at = impl_->middles[axis];
         if (at.size() > 1) cell[axis] = at[1] - at[0];
     }
-    // Where a grid has one cell along an axis, that cell is as wide as along another axis.
+    // If a grid has one cell along an axis, that cell is as wide as along another axis.
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (impl_->middles[axis].size() == 1) cell[axis] = *std::max_element(cell.begin(), cell.end());
     return cell;

@@ -30,7 +30,7 @@ class FormerRun {
     void cut(const std::string& name, const KeptRecords& kept) {
         cuts_.push_back({name, kept.bytes, kept.records});
     }
-    // Where to make a file that will replace one that grows.
+    // Returns where to make a file that will replace one that grows.
     std::filesystem::path new_file(const std::string& name);
 
     // Keeps the run as it is. Afterwards the new files are in their places, and the others may be cut and

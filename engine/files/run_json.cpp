@@ -102,7 +102,7 @@ constexpr off_t reserve = 32768;  // bytes
 void reserve_room(const std::filesystem::path& path) {
     const int file = open_plain(path);
     if (file < 0) return;
-    // Not every file system can do this; then there is no room.
+    // Not every file system can reserve room; without it there is none for the last text.
     ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, reserve);
     ::close(file);
 }

@@ -46,7 +46,7 @@ struct DumpPace {
     std::string next_text(std::int64_t shift) const;
 };
 
-// As few series as possible that go through all of these rising steps, each beginning where the one before
+// Finds as few series as possible that go through all of these rising steps. Each begins where the one before
 // ends. None for less than two steps.
 std::vector<DumpPace> dump_paces(const std::vector<std::int64_t>& steps);
 
@@ -71,7 +71,7 @@ struct LiggghtsLaw {
 // All pairs have the same law. Pairs that never touch get the softest number that makes sense.
 LiggghtsLaw liggghts_law(const CarriedScene& carried);
 
-// In `luding`, unloading can become at most so many times as stiff as loading.
+// In `luding`, unloading is at most so many times as stiff as loading.
 inline constexpr double kLudingRatio = 50;
 // The plasticity depth that gives K2 = K1 + S F_max: (r - 1)^2 / (2 r S R_eff).
 double luding_depth(const CarriedPair& pair);

@@ -101,7 +101,7 @@ TEST(Exposure, IsTheMeanInLinearLight) {
     // The value is that of IEC 61966-2-1 for 3/4 of full light.
     EXPECT_EQ(picture.pixel(1, 0)[0], std::lround(255 * (1.055 * std::pow(0.75, 1 / 2.4) - 0.055)));
     EXPECT_EQ(picture.pixel(1, 0)[3], 255);
-    // Where nothing is there is no colour: the white of three moments is seen for 3/4 of the time.
+    // An empty place has no colour: the white of three moments is seen there for 3/4 of the time.
     EXPECT_EQ(picture.pixel(2, 0)[0], 255);
     EXPECT_EQ(picture.pixel(2, 0)[3], 191);
     for (int level = 0; level < 256; level += 5) {

@@ -109,7 +109,7 @@ TEST(PrintedCurve, HasARowAPointAndAnEmptyLineForAGap) {
     EXPECT_EQ(curve_table(0, {0, 0.5}, {}, ""), "");
 }
 
-// Of 100 times as many points those remain that are visible: both ends, a lone peak, a lone pit, a lone gap.
+// Only what is visible remains of 100 times as many points: both ends, a lone peak, a lone pit, a lone gap.
 TEST(PrintedCurve, KeepsWhatIsSeenOfManyPoints) {
     const std::size_t count = 100 * kMostCurvePoints;
     std::vector<double> x(count), y(count, 0.25);

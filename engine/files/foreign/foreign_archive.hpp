@@ -57,8 +57,8 @@ bool is_foreign(const std::filesystem::path& path);
 
 class ForeignArchive final : public FrameArchive {
   public:
-    // In how many frames types are looked for. some: in all frames of small files and in 64 of others, so
-    // that a question about one frame need not wait long. A frame with a type that was not found throws
+    // The number of frames in which types are looked for. some: all frames of small files and 64 of others,
+    // so that a question about one frame need not wait long. A frame with a type that was not found throws
     // UnknownType.
     enum class Looks { some, all };
 

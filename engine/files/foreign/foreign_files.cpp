@@ -96,7 +96,7 @@ void ForeignArchive::choose_files() {
     for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
 }
 
-// Where a folder has several series of grains, it takes the longest, because a run is often written in two
+// If a folder has several series of grains, the longest is taken, because a run is often written in two
 // formats.
 void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     const std::vector<FileGroup> groups = grouped(files);

@@ -80,7 +80,7 @@ struct BinaryFrame {
     std::optional<double> time{};
 };
 
-// Where the frames of a file lie. To find them, heads are read and numbers are skipped.
+// The places of the frames in a file. To find them, heads are read and numbers are skipped.
 struct BinaryIndex {
     std::vector<BinaryFrame> frames;
     std::int32_t columns = 0;

@@ -42,7 +42,7 @@ class LineReader {
     // Tells that so many bytes and lines of the piece from lines() were used.
     void take(std::size_t bytes, std::int64_t lines);
 
-    // Where the next line begins.
+    // Place at which the next line begins.
     std::uint64_t place() const { return buffer_place_ + used_; }
     std::int64_t number() const { return number_; }
     void seek(std::uint64_t place, std::int64_t number);
