@@ -1,3 +1,4 @@
+// Counts the pictures in a film file by decoding it.
 #include "tests/cli/film_length.hpp"
 
 extern "C" {

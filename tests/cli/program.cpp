@@ -1,3 +1,4 @@
+// Starts the program with words and limits, sends it signals, and reads its outputs.
 #include "tests/cli/program.hpp"
 
 #include <fcntl.h>

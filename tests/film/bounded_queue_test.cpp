@@ -1,3 +1,4 @@
+// Tests of the queue between the threads of a film.
 #include "render/film/production/bounded_queue.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the conversion of pictures to Y'CbCr by BT.709.
 #include "render/film/codec/bt709.hpp"
 
 #include <gtest/gtest.h>

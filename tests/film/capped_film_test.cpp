@@ -1,3 +1,4 @@
+// Tests of films with a limit on their size: they fit, and digits in them can be read.
 #include "render/film/codec/spooled_films.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Tests of the contact sheet, a picture with tiles from the whole film.
 #include "render/picture/panels/contact_sheet.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the encoder of MP4 films: order, colours, tags, and what a killed program leaves.
 #include "render/film/codec/encoder.hpp"
 
 #include <gmock/gmock.h>

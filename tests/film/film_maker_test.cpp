@@ -1,3 +1,4 @@
+// Tests of the film maker, which draws and encodes frames while the engine runs.
 #include "render/film/production/film_maker.hpp"
 
 #include <fmt/format.h>

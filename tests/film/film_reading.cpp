@@ -1,3 +1,4 @@
+// Reads films and PNG files back for tests, through the libraries' decoders.
 #include "tests/film/film_reading.hpp"
 
 #include <png.h>

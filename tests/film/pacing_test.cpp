@@ -1,3 +1,4 @@
+// Tests of the words about how fast a film plays, found from its frames.
 #include "render/film/sampling/timeline.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of PNG files: pixels, alpha, text and failed writes.
 #include "render/film/codec/png.hpp"
 
 #include <gmock/gmock.h>

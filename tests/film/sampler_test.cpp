@@ -1,3 +1,4 @@
+// Tests of the schedule of a film: which step each frame shows, and its warnings.
 #include "render/film/sampling/sampler.hpp"
 
 #include <gmock/gmock.h>

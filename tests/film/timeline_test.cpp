@@ -1,3 +1,4 @@
+// Tests of the common timeline of films side by side.
 #include "render/film/sampling/timeline.hpp"
 #include "render/scene/filmed_scene.hpp"
 

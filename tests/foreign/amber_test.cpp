@@ -1,3 +1,4 @@
+// Tests of the reader of AMBER NetCDF trajectories.
 #include <netcdf.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests of the reader of GSD files.
 #include <array>
 #include <cmath>
 #include <cstring>

@@ -1,3 +1,4 @@
+// Tests of the readers of MercuryDPM's files: .data, .fstat and .restart.
 #include <fmt/format.h>
 
 #include "tests/foreign/small_files.hpp"

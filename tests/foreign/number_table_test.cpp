@@ -1,3 +1,4 @@
+// Tests of the reader of tables of numbers: CSV, and columns between blanks.
 #include "tests/foreign/small_files.hpp"
 
 namespace grainreel {

@@ -1,3 +1,4 @@
+// Tests of lists of VTK files: .pvd, .series and .vtm.
 #include <sys/stat.h>
 
 #include "tests/foreign/vtk_files.hpp"

@@ -1,3 +1,4 @@
+// Tests of VTK files that are damaged or cut.
 #include "tests/foreign/vtk_files.hpp"
 
 namespace grainreel {

@@ -1,3 +1,4 @@
+// Tests of the reader of legacy VTK files, text and binary.
 #include "tests/foreign/vtk_files.hpp"
 
 namespace grainreel {

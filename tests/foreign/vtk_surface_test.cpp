@@ -1,3 +1,4 @@
+// Tests of surfaces without grains: STL, OBJ and PLY.
 #include <cstring>
 #include <limits>
 

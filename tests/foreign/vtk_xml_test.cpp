@@ -1,3 +1,4 @@
+// Tests of the reader of VTK's XML files.
 #include "tests/foreign/vtk_files.hpp"
 
 namespace grainreel {

@@ -1,3 +1,4 @@
+// Tests of the reader of XYZ files, plain and extended.
 #include "tests/foreign/small_files.hpp"
 
 namespace grainreel {

@@ -96,7 +96,7 @@ std::string assignment(Dice& dice) {
     return path + "=" + (dice.one_in(3) ? absurd(dice) : plausible(key, dice));
 }
 
-// The first number in a line's value is another: unit and all else stay.
+// Replaces the first number in a line's value by another one. The unit and everything else stay.
 void change_number(std::string& line, Dice& dice) {
     const std::size_t equal = line.find('=');
     const std::size_t begin = equal == line.npos ? equal : line.find_first_of("0123456789", equal);

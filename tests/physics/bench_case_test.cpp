@@ -1,3 +1,4 @@
+// Tests of the cases of the verb `bench`.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// Tests of the list of keys: the documentation, the reader, defaults and bounds agree.
 #include "engine/scene/keys/keys.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of live words, which show measures in a film.
 #include "render/scene/live_text.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the names of measures: the documentation and the observers agree.
 #include "engine/measure/columns.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the purposes of films, and of formats and sizes of their files.
 #include "render/scene/purposes.hpp"
 
 #include <fmt/format.h>

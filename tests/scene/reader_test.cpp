@@ -1,3 +1,4 @@
+// Tests of the reader of scenes: values, defaults and places in the text.
 #include "render/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

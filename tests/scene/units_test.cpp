@@ -1,3 +1,4 @@
+// Tests of units: which are accepted, and which are refused.
 #include "engine/scene/text/units.hpp"
 
 #include <gtest/gtest.h>

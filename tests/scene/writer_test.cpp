@@ -1,3 +1,4 @@
+// Tests of the writer of scenes: a scene that is written and read again is the same.
 #include "engine/plan/resolved_scene.hpp"
 
 #include <gtest/gtest.h>

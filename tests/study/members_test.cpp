@@ -1,3 +1,4 @@
+// Tests of the members of a study: their settings, names and scenes.
 #include "render/app/study/file/members.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the reader of study.toml.
 #include "render/app/study/file/read_study.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the values of a study's axes: numbers, ranges and units.
 #include "render/app/study/file/values.hpp"
 
 #include <gmock/gmock.h>

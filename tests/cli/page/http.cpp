@@ -1,3 +1,4 @@
+// A visitor of a page on this machine, by bare sockets.
 #include "tests/cli/page/http.hpp"
 
 #include <arpa/inet.h>

@@ -1,3 +1,4 @@
+// Tests of the agenda of a run: the steps at which it stops for measures, frames and key moments.
 #include "engine/run/driver/agenda.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of how often a run writes checkpoints.
 #include "engine/run/driver/pace.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the folder of a run: its name, what --force replaces, and its lock.
 #include "engine/files/run_folder.hpp"
 
 #include <gmock/gmock.h>

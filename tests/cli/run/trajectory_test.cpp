@@ -1,3 +1,4 @@
+// Tests of trajectory.nc and contacts.nc: they are written and read, continued, cut off and damaged.
 #include "engine/files/trajectory.hpp"
 
 #include <gmock/gmock.h>

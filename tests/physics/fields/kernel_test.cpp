@@ -1,3 +1,4 @@
+// Tests of the kernels by which fields are averaged.
 #include "engine/measure/fields/field_grid.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// The plain step against which the fast one is tested. It must share no code with engine/step and
+// engine/laws.
 #include "tests/physics/step/reference_step.hpp"
 
 #include <algorithm>
