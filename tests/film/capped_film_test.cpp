@@ -239,7 +239,7 @@ TEST_F(CappedGif, ACapBelowTheFewestColoursIsAClearErrorAndKeepsTheFilm) {
     EXPECT_FALSE(std::filesystem::exists(folder / "movie.work"));
 }
 
-// scale = (0.9 share)^(1 / 1.4); the number of frames is 0.9 share of theirs.
+// scale = (0.9 share)^(1 / 1.4); the other way is to keep the share 0.9 share of the frames.
 TEST(SmallerFilm, SaysWhichFilmWouldFit) {
     const int width = 2 * static_cast<int>(1280 * std::pow(0.45, 1 / 1.4) / 2);
     const int height = 2 * static_cast<int>(720 * std::pow(0.45, 1 / 1.4) / 2);

@@ -118,7 +118,7 @@ TEST_P(FormatTest, YuvIsTaggedBt709AndLimited) {
     if (is_rgb()) return;
     EXPECT_EQ(played.pixel_format, AV_PIX_FMT_YUV420P);
     EXPECT_EQ(played.range, AVCOL_RANGE_MPEG);
-    if (GetParam() == FilmFormat::y4m) return;  // the format has no place for text
+    if (GetParam() == FilmFormat::y4m) return;  // the format has no tags for the rest
     EXPECT_EQ(played.primaries, AVCOL_PRI_BT709);
     EXPECT_EQ(played.transfer, AVCOL_TRC_BT709);
     EXPECT_EQ(played.matrix, AVCOL_SPC_BT709);

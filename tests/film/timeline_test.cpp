@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-// A clock with steps of 1/(f n), of which a period has n.
+// A clock with steps of 1/(f n), where n is the number of steps in a period.
 Clock clock_of(double frequency, std::int64_t period, double phase = 0) {
     return {1 / (frequency * static_cast<double>(period)), period, phase};
 }

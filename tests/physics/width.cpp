@@ -27,7 +27,7 @@ class Width : public testing::Environment {
         ASSERT_NE(used_.find(target == kPlain ? "plain" : width), std::string::npos) << used_;
     }
 
-    // Checks that nothing has chosen another instruction set: a look at what the processor supports does so.
+    // Checks that nothing has chosen another instruction set: asking what the processor supports would do so.
     void TearDown() override {
         if (!used_.empty()) {
             EXPECT_EQ(vector_instructions(), used_);

@@ -352,8 +352,8 @@ TEST(Trajectory, FilesOfEarlierVersionsAreRead) {
         const std::vector<double> last(width, 0.004);
         ASSERT_EQ(nc_put_vara_double(file, variable, gone.data(), count.data(), last.data()), NC_NOERR);
     }
-    // These checksums are wrong, though the sums of the numbers would be right; a file without checksums is
-    // read as it is.
+    // Files of earlier versions had the right checksums, and those of this file are wrong now. So they are
+    // renamed, because a file without checksums is read as it is.
     ASSERT_EQ(nc_inq_varid(file, "grain_checksum", &variable), NC_NOERR);
     ASSERT_EQ(nc_rename_var(file, variable, "grain_nothing"), NC_NOERR);
     nc_close(file);

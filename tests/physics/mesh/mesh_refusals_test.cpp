@@ -134,7 +134,7 @@ region = { low = [-0.08, -0.08, 0.06], high = [0.08, 0.08, 0.1] }
     EXPECT_EQ(said(clear + "position = [0, 0.1, 0]\n"), "");
 }
 
-// A drum turns between two discs that stand still and are as wide as it or wider, as the user wants it.
+// A drum turns between two discs that stand still and are deliberately as wide as it or wider.
 TEST_F(MeshRefusals, MeshesThatTouchAtRestMayMove) {
     write("drum.stl", pipe(0.05, -0.03, 0.03, 36));
     for (const double width : {0.05, 0.07}) {
