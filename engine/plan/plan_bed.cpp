@@ -232,8 +232,7 @@ double rain_rate(const Scene& scene) {
     if (scene.start.rain_rate) return *scene.start.rain_rate;
     const RainLayer layer = rain_layer(scene);
     const double deep = layer.high - layer.low, area = mean_area(scene);
-    const double stays =
-        std::sqrt(2 * deep / scene.gravity.norm());  // s, for which a grain falls through the layer
+    const double stays = std::sqrt(2 * deep / scene.gravity.norm());  // s, that a grain falls through it
     const double volume = solid_volume(scene) / static_cast<double>(scene.grains());
     return thin * area * deep / volume / stays;
 }

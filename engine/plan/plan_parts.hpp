@@ -19,8 +19,7 @@ struct BedPlan {
     double largest_density = 0;  // kg/m3
     double largest_mass = 0;     // kg, of one grain
     double usual_mass = 0;       // kg, of a grain of mean size, the mean over contacts
-    double carried_height =
-        0;  // m, min(height, twice the width): the height whose weight presses on the floor (Janssen)
+    double carried_height = 0;   // m, min(height, twice the width): what presses on the floor (Janssen)
     double drop_speed = 0;       // m/s, of the highest fall while settling; 0 when nothing settles
     double impact_speed = 0;     // m/s, v*
     double speed_of_others = 0;  // m/s, v* if no wall had a motion of its own
@@ -39,7 +38,7 @@ struct Touching {
     double effective_radius;
 };
 std::vector<Touching> extremes(const Species& a,
-                               const Species* b);  // all pairs of smallest and largest; b: nullptr for a wall
+                               const Species* b);            // b: nullptr for a wall
 Touching mean_touching(const Species& a, const Species* b);  // both of mean size
 double mean_effective_mass(const Species& a, const Species* b);
 

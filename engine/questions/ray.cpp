@@ -25,10 +25,8 @@ struct Stretch {
     bool empty() const { return !(from <= to); }
 };
 
-// Keeps the part where
-// at(t) - centre
-// <= radius. The distance of the ray's line from the centre is computed first, so that grains far from the
-// origin lose no digits.
+// Keeps the part where |at(t) - centre| <= radius. The distance of the ray's line from the centre is
+// computed first, so that grains far from the origin lose no digits.
 void keep_sphere(const Ray& ray, const Vec3& centre, double radius, Stretch& stretch) {
     const Vec3 from = ray.origin - centre;
     const double a = ray.direction.squaredNorm(), half = from.dot(ray.direction);

@@ -44,8 +44,7 @@ class DriveSchedule {
 
     // What the drive does in each stretch of times().
     struct Piece {
-        std::size_t stage =
-            0;  // the stage that is on or begins; 0: the drive before the first stage, k: the k-th stage
+        std::size_t stage = 0;  // the stage that is on or begins, from 1; 0: the drive before them
         DriveStage::Kind kind = DriveStage::Kind::vibrate;  // what the stretch does; a change vibrates
         double frequency_before = 0, frequency = 0;         // Hz, of the vibration or of a tap
         double acceleration_before = 0, acceleration = 0;   // m/s2, a (2 pi f)^2

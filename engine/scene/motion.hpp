@@ -110,8 +110,7 @@ struct PathRows {
     std::vector<int> lines;  // line number in the file, from 1
     std::vector<double> times;
     std::vector<Vec3> places;
-    std::vector<Eigen::Vector4d>
-        turns;  // unit, w first, each with the sign nearest to the one before; or none at all
+    std::vector<Eigen::Vector4d> turns;  // unit, w first, each on the side of the one before; or none at all
 };
 
 // Throws UserError as MotionPath::read does.

@@ -81,10 +81,9 @@ struct PairContact {
     double restitution = 0.9;                                    // in (0, 1]
     std::optional<double>
         restitution_speed;  // m/s at which it holds, falling with speed; empty: at any speed
-    std::vector<RestitutionPoint>
-        restitution_table;                 // in place of restitution, by rising speed; empty: not used
-    double friction = 0.5;                 // >= 0, may be infinite
-    double rolling_friction = 0;           // torque at most this value x effective radius x N
+    std::vector<RestitutionPoint> restitution_table;  // in its place, by rising speed; empty: not used
+    double friction = 0.5;                            // >= 0, may be infinite
+    double rolling_friction = 0;                      // torque at most this value x effective radius x N
     std::optional<double> stiffness;       // N/m: K1 or kn; Hertz: Pa, E*; the plan chooses it when empty
     double tangential_ratio = 0.8;         // K0 / K1, or kt / kn; Mindlin: 2 (1 - nu) / (2 - nu)
     double gamma = 1.0 / 3.0;              // exponent of Walton's incremental slip

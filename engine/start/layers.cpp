@@ -108,8 +108,7 @@ Grains place_in_layers(const Scene& scene) {
         const Species& species = scene.species[s];
         for (std::int64_t k = 0; k < species.count; ++k) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
-            const double off =
-                scene.meshes.empty() ? 0.25 : 0.5;  // a sheet does not push grains back that are beyond it
+            const double off = scene.meshes.empty() ? 0.25 : 0.5;  // a sheet does not push back from beyond
             const double margin = std::min(off * radius, 0.25 * (top[s] - bottom[s]));
             const Vec3 centre = room.random_centre(bottom[s], top[s], margin, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);
@@ -120,9 +119,8 @@ Grains place_in_layers(const Scene& scene) {
 
 namespace {
 
-constexpr double kInflation =
-    1 + 1e-4;  // grains grow a little too large, then shrink back and are clear of each other
-constexpr double kFirstShare = 0.5;  // share of the gap to the nearest neighbour, for the first radii
+constexpr double kInflation = 1 + 1e-4;  // grains grow a little too large, then shrink clear of each other
+constexpr double kFirstShare = 0.5;      // share of the gap to the nearest neighbour, for the first radii
 constexpr double kGrowthPerCycle = 0.02;
 constexpr int kStepsPerCycle = 40;
 constexpr std::int64_t kMostCycles = 5000;

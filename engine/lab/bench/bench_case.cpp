@@ -53,7 +53,7 @@ namespace {
 
 constexpr int all = 10125, big_ones = 1125;
 
-// Fewer grains stand in a narrower box, as high as the whole bed.
+// The peers' bed with so many grains. Fewer grains stand in a narrower box, as high as the whole bed.
 BenchBed bed_of(int particles, const Plan& plan) {
     const int count = std::min(particles, all), big = count * big_ones / all;
     const double side = 0.02 * std::sqrt(count / static_cast<double>(all));
@@ -61,7 +61,7 @@ BenchBed bed_of(int particles, const Plan& plan) {
     return {plan, peers_surroundings(bed, plan), peers_grains(bed)};
 }
 
-// The same stiffness, restitution and step in Walton and Braun's law.
+// The peers' plan in Walton and Braun's law, with the same stiffness, restitution and step.
 Plan walton_braun(TangentialLaw tangential) {
     Plan plan = peers_plan();
     for (auto* kinds : {&plan.grain, &plan.wall}) {
@@ -103,13 +103,13 @@ std::vector<BenchCase> peers_cases() {
 
 namespace {
 
-constexpr int kPart = 2500;            // grains of the bed that the whole is copies of
+constexpr int kPart = 2500;            // grains of one part; the whole bed is made of copies of it
 constexpr double kDiameter = 1e-3;     // m
-constexpr double kAcross = 10.5;       // diameters of a part, which is then about 28 deep
-constexpr std::int64_t kFall = 30000;  // steps until it lies, with drag
+constexpr double kAcross = 10.5;       // width of a part in diameters; it is then about 28 diameters deep
+constexpr std::int64_t kFall = 30000;  // steps of the fall until the grains lie still, with drag
 constexpr double kDrag = 20;           // 1/s
 
-// Hertz and Mindlin, soft, so that the step is long: what a step costs does not depend on that.
+// Hertz and Mindlin, soft, so that the step is long: the cost of a step does not depend on the stiffness.
 Scene scene_of_part(int grains) {
     const double side = kAcross * kDiameter * std::sqrt(grains / static_cast<double>(kPart));
     return read_scene_text(fmt::format(R"(
@@ -135,7 +135,7 @@ duration = 1
                            "rest.toml", {});
 }
 
-// Copies of a part, side by side. At the seams grains of two copies lie as they lay at the wall.
+// Copies of a part, side by side. At the seams the grains of two copies lie as they lay at the wall.
 BenchBed bed_at_rest(int particles) {
     const int k =
         std::max(1, static_cast<int>(std::lround(std::sqrt(particles / static_cast<double>(kPart)))));
@@ -208,7 +208,7 @@ BenchBed bed_of(const Scene& scene) {
     return bed;
 }
 
-// More grains: a deeper hopper.
+// The default film's hopper; with more grains it is deeper.
 BenchBed wedge(int particles) {
     const double share = particles / 1620.0;
     const Scene scene = read_scene_text(wedge_scene(), "wedge.toml",
@@ -222,7 +222,8 @@ BenchBed wedge(int particles) {
     return bed;
 }
 
-// A box on the floor of the scene, centred in x and y; m. `species` and `rest` are further text of the scene.
+// A bed in a box on the floor of the scene, centred in x and y; sizes in m. `species` and `rest` are
+// further text of the scene.
 BenchBed box(const std::string& name, const Vec3& size, const std::string& species, const std::string& rest) {
     return bed_of(read_scene_text(fmt::format(R"({3}
 [container]
@@ -237,8 +238,8 @@ duration = 1
                                   name, {}));
 }
 
-// Small grains of 1 mm on a loose lattice in a box 40 of them wide; the big one takes the place of those
-// that it would touch, low in the middle.
+// Small grains of 1 mm stand on a loose lattice in a box that is 40 of them wide. The big grain takes the
+// place of those that it would touch, low in the middle.
 constexpr double small = 0.001, apart = 1.1 * small, wide = 0.044;  // m
 
 BenchBed sea(int particles, double big) {
@@ -275,7 +276,7 @@ friction = 0.5)",
     return bed;
 }
 
-// A twentieth of the space is solid; elastic walls and nearly elastic grains keep it a gas.
+// A twentieth of the space is solid. Elastic walls and nearly elastic grains keep it a gas.
 BenchBed gas(int particles) {
     const double edge = small * std::cbrt(particles * std::numbers::pi / 6 / 0.05);
     BenchBed bed = box("gas.toml", {edge, edge, edge},

@@ -24,28 +24,28 @@ struct BenchPhase {
 
 struct BenchCase {
     std::string name, about;
-    int particles;            // unless others are asked for
-    std::int64_t first_step;  // of the first phase; the drive starts at 0
+    int particles;            // number of grains unless the caller asks for another
+    std::int64_t first_step;  // of the first phase; the drive starts at step 0
     std::int64_t lead;        // steps before it that are not timed
-    double lead_drag;         // 1/s, during these
+    double lead_drag;         // 1/s, during these steps
     std::vector<BenchPhase> phases;
     BenchBed (*bed)(int particles);
-    // The pattern repeats in x and y: more grains than `particles` are copies of a bed, side by side, with
-    // walls around all of them. 0 where more grains make another bed.
+    // The side (m) after which the pattern repeats in x and y: more grains than `particles` are copies of a
+    // bed, side by side, with walls around all of them. nullptr where more grains make another bed.
     double (*side_of_copies)(const BenchBed& bed) = nullptr;
 };
 const std::vector<BenchCase>& bench_cases();
 
-// k x k copies side by side, centred as the bed is; its walls in x and y, which stand at +- side / 2, around
-// them all.
+// k x k copies side by side, centred as the bed is. The walls in x and y, which stand at +- side / 2 around
+// the bed, are put around all copies.
 BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k);
 
 // The peers' bed with their law, with ours, and without friction.
 
 std::vector<BenchCase> peers_cases();
 
-// A bed at rest: 4.7 contacts a grain, all of them at once. The phase "settled" of the other beds is mostly
-// their fall, with half a contact to one contact a grain.
+// A bed at rest, with 4.7 contacts a grain throughout. In the phase "settled" of the other beds most grains
+// are still falling, and a grain has half a contact to one contact.
 
 BenchCase rest_case();
 
@@ -53,7 +53,7 @@ BenchCase rest_case();
 
 std::vector<BenchCase> scene_cases();
 
-// The scene of the default film, as far as the engine is concerned.
+// The scene of the default film, without its film.
 const char* wedge_scene();
 
 }  // namespace grainreel

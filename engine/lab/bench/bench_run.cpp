@@ -16,7 +16,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 500;  // at the watcher
+constexpr std::int64_t kStepsPerLook = 500;  // steps between two calls of the watcher
 
 double heap_in_use() {
     const auto info = mallinfo2();
@@ -34,7 +34,7 @@ BenchCase shortened(BenchCase bench, std::int64_t times) {
     return bench;
 }
 
-// A bed in motion. The loop refers to the rest, so it stays where it is.
+// A bed in motion. The loop refers to the other members, so it must not be copied or moved.
 struct Running {
     BenchBed bed;
     Team team;
@@ -46,7 +46,7 @@ struct Running {
         loop = std::make_unique<StepLoop>(bed.plan, bed.around, bed.grains, team);
         loop->restart();
     }
-    double run(std::int64_t steps, double drag = 0) {  // s
+    double run(std::int64_t steps, double drag = 0) {  // returns s
         const double begin = seconds();
         loop->run(step, steps, bed.plan.clock.step, drag);
         step += steps;
@@ -67,8 +67,8 @@ class BenchRun {
         all_steps_ = case_.lead;
         for (const BenchPhase& phase : case_.phases) all_steps_ += phase.steps;
         all_steps_ *= request.repeats;
-        case_.bed(
-            case_.particles);  // what reading a scene leaves for good, units and keys, is no bed's memory
+        case_.bed(case_.particles);  // run once, so that memory which reading a scene takes for good (units,
+                                     // keys) does not count as the bed's
     }
 
     bool repeat(int repetition) {
@@ -90,9 +90,9 @@ class BenchRun {
     BenchReport& report() { return report_; }
 
   private:
-    // Many copies take too long to run through a whole phase. They begin with a bed from the middle of the
-    // phase. Once their lists and histories exist, about as many grain-steps are timed as the single bed
-    // makes in the phase. A single copy is timed in the same way, to compare with.
+    // Many copies take too long for a whole phase, so they begin with a bed from the middle of the phase.
+    // Once their lists and histories exist, about as many grain-steps are timed as the single bed makes in
+    // the phase. A single copy is timed in the same way for comparison.
     bool time_phase(Running& run, const BenchPhase& phase, PhaseReport& report) {
         if (copies_ == 1) return advance(run, phase.steps, phase.name, 0, &report);
         if (!advance(run, phase.steps / 2, phase.name, 0, nullptr)) return false;
@@ -119,8 +119,8 @@ class BenchRun {
                        report_.threads, run.step);
     }
 
-    // Timed, where there is a report. The clock of the stages slows the loop down, so that every fourth look
-    // has it and does not count.
+    // Runs so many steps, and times them where there is a report. The clock of the stages slows the loop
+    // down, so only every fourth stretch has it, and that one does not count for the speed.
     bool advance(Running& run, std::int64_t steps, const std::string& what, double drag,
                  PhaseReport* report) {
         run.loop->clear_costs();
@@ -215,7 +215,7 @@ BenchOutcome run_bench(const BenchCase& bench, const BenchRequest& request, cons
 namespace {
 
 constexpr int side = 12, steps = 40, stretches = 30;
-constexpr double step = 1e-9;  // s: nothing moves far, so that every stretch finds the same contacts
+constexpr double step = 1e-9;  // s; nothing moves far, so that every stretch finds the same contacts
 
 Plan lattice_plan() {
     Plan plan;
@@ -239,7 +239,7 @@ Grains lattice_grains() {
     return grains;
 }
 
-// s of processor time, of all the program's threads.
+// Processor time (s) of all the program's threads.
 double processor_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

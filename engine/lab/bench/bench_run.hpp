@@ -1,4 +1,4 @@
-// Times a case: speed and what it goes into, phase by phase.
+// Times a case phase by phase: speed, and the stages that the time goes into.
 #pragma once
 
 #include <array>
@@ -16,21 +16,21 @@ struct BenchRequest {
     int threads = 0;    // 0: as many as there are processors
     int particles = 0;  // 0: as many as the case has
     int repeats = 1;
-    bool quick = false;  // a tenth of all steps
+    bool quick = false;  // makes a tenth of all steps
     Precision precision = Precision::full;
 };
 
 struct PhaseReport {
     std::string name;
-    std::int64_t steps = 0;              // timed
-    std::vector<double> particle_steps;  // a second, of each repetition
-    // Where grains are copies of a bed: those of a single copy in the same steps.
+    std::int64_t steps = 0;              // number of timed steps
+    std::vector<double> particle_steps;  // grain-steps a second, one value for each repetition
+    // The same for a single copy in the same steps, where grains are copies of a bed.
     std::vector<double> of_one_copy;
-    std::int64_t listed = 0;             // pairs in the neighbour lists at its end
-    std::int64_t touching = 0;           // pairs
-    std::array<double, kCosts> stage{};  // ns of a thread for a step of a grain, of the median repetition
+    std::int64_t listed = 0;             // pairs in the neighbour lists at the phase's end
+    std::int64_t touching = 0;           // touching pairs at the phase's end
+    std::array<double, kCosts> stage{};  // ns of one thread for a step of a grain, from the median repetition
 
-    double median() const;  // particle steps a second
+    double median() const;  // grain-steps a second
     double spread() const;  // (largest - smallest) / median
     double median_of_one_copy() const;
 };
@@ -40,12 +40,12 @@ struct BenchReport {
     std::int64_t particles = 0;
     int threads = 0;
     Precision precision = Precision::full;
-    double bytes_per_particle = 0;  // of heap in use at the end, all that the run asked for
-    std::uint64_t state_hash = 0;   // of all places, velocities and spins at the end, by id
+    double bytes_per_particle = 0;  // heap in use at the end for all that the run asked for
+    std::uint64_t state_hash = 0;   // hash of all places, velocities and spins at the end, by id
     std::vector<PhaseReport> phases;
 };
 
-// watcher(what is done now, share done): false stops, and the report is then incomplete.
+// watcher(what is done now, share done) returns false to stop; the report is then incomplete.
 using BenchWatcher = std::function<bool(const std::string&, double)>;
 struct BenchOutcome {
     BenchReport report;
@@ -56,12 +56,12 @@ BenchOutcome run_bench(const BenchCase& bench, const BenchRequest& request, cons
 // A hash of places, velocities and spins, by id.
 std::uint64_t hash_of_motion(const Grains& grains);
 
-// How fast this machine steps grains, told in a tenth of a second.
+// How fast this machine steps grains, measured in a tenth of a second.
 
-// Grain-steps a second of a team of so many: a cubic lattice of 1,728 spheres, each pressed a little into its
-// six neighbours (Walton-Braun corrected, incremental slip), the fastest of many short stretches. Time is
-// that of the processors over the threads, whose waiting for each other is in it: what else the machine does
-// counts little.
+// Grain-steps a second of a team of so many threads, on a cubic lattice of 1,728 spheres, each pressed a
+// little into its six neighbours (Walton-Braun corrected, incremental slip). It is the fastest of many
+// short stretches. Time is processor time over the number of threads, which includes their waiting for each
+// other; so other work of the machine counts little.
 double lattice_speed(int threads);
 
 }  // namespace grainreel

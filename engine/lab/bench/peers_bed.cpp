@@ -16,7 +16,7 @@ namespace grainreel {
 namespace {
 
 // The Mersenne twister as Python seeds and reads it (Matsumoto & Nishimura 1998, init_by_array of 2002), so
-// that the bed is the one that the peers were given.
+// that the bed is the same as the peers'.
 class PythonRandom {
   public:
     explicit PythonRandom(std::uint32_t seed) {
@@ -62,12 +62,12 @@ class PythonRandom {
     std::uint32_t used_ = n;
 };
 
-// As printed with %.8g and read again.
+// The number as printed with %.8g and read again.
 double eight_digits(double x) {
     return std::stod(fmt::format("{:.8g}", x));
 }
 
-// `count` sites of a cubic lattice from height z on, each shifted by up to 4 % of the diameter. Leaves z at
+// `count` sites of a cubic lattice from height z on, each shifted by up to 4 % of the diameter. Sets z to
 // the next free layer.
 std::vector<Vec3> lattice(int count, double diameter, double side, double& z, PythonRandom& random) {
     const double apart = diameter * 1.12;
@@ -123,7 +123,7 @@ Plan peers_plan() {
     plan.wall.assign(2, pair);
     plan.clock.step = 2e-6;
     plan.clock.steps_per_period = 20000;
-    plan.clock.initial_phase = 0.75;  // with no ramp: a (1 - cos wt)
+    plan.clock.initial_phase = 0.75;  // with no ramp this gives a (1 - cos wt)
     return plan;
 }
 
@@ -152,9 +152,9 @@ Surroundings peers_surroundings(const PeersBed& bed, const Plan& plan) {
 namespace {
 
 constexpr int kOneBed = 10125, kBigOnes = 1125;
-constexpr double kSofter = 16;       // springs; the heap's own weight presses grains in by less than 1 %
-constexpr double kTime = 0.16;       // s
-constexpr std::int64_t kLook = 500;  // steps
+constexpr double kSofter = 16;  // factor on springs; the heap's own weight presses grains in by less than 1 %
+constexpr double kTime = 0.16;  // s
+constexpr std::int64_t kLook = 500;  // steps between two calls of the watcher
 
 Plan soft_plan() {
     Plan plan = peers_plan();

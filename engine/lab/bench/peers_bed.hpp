@@ -1,5 +1,5 @@
-// The bed that other engines are measured on: 9,000 grains of 1 mm above 1,125 of 2 mm in a box of 20 mm,
-// spring-dashpot contacts with friction history, a floor that is shaken at 25 Hz.
+// The bed on which other engines are measured: 9,000 grains of 1 mm above 1,125 of 2 mm in a box of 20 mm,
+// spring-dashpot contacts with friction history, and a floor that is shaken at 25 Hz.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace grainreel {
 struct PeersBed {
     double side = 0.02;                      // m
     double density = 2500;                   // kg/m3
-    std::vector<Vec3> small_ones, big_ones;  // m, centres; the box from 0 to `side`
+    std::vector<Vec3> small_ones, big_ones;  // m, centres; the box goes from 0 to `side`
 };
 
-// The lattices from which it falls, with random shifts (7 is the seed of the peers' own files), to the eight
-// digits that those have.
+// The lattices from which the bed falls, with random shifts, to the eight digits of the peers' own files
+// (their seed is 7).
 PeersBed peers_bed(std::uint32_t seed = 7, int small_count = 9000, int big_count = 1125, double side = 0.02);
 
-// Their diameters in m.
+// Diameters of the small and the big grains in m.
 constexpr double kPeersSmall = 0.001, kPeersBig = 0.002;
 
 Grains peers_grains(const PeersBed& bed);
@@ -30,20 +30,21 @@ Grains peers_grains(const PeersBed& bed);
 // kn 1000 N/m, kt 285.7 N/m, gamma_n 2634 1/s, gamma_t 1317 1/s, mu 0.5, walls the same; step 2e-6 s.
 Plan peers_plan();
 
-// Walls and gravity; the floor moves as a (1 - cos wt) with a = 1.19 mm from step 0 on.
+// Walls and gravity. The floor moves as a (1 - cos wt) with a = 1.19 mm from step 0 on.
 Surroundings peers_surroundings(const PeersBed& bed, const Plan& plan);
 
-// A bed at rest to be drawn: the peers' grains, let down on softer springs with a longer step, since only
+// A bed at rest, to be drawn: the peers' grains, settled on softer springs with a longer step, since only
 // their places matter.
 
 struct SettledBed {
-    Grains grains;      // the floor at z = 0, the box around the z axis
+    Grains grains;      // with the floor at z = 0 and the box around the z axis
     double side = 0;    // m, of the box
-    double height = 0;  // m, of the highest grain's top
+    double height = 0;  // m, top of the highest grain
 };
 
-// Fewer than 10,125 grains lie in a narrower box; more are k x k copies side by side, as near to `grains` as
-// these come. watcher(share done): false stops, and the result is then empty.
+// Settles about `grains` grains. Fewer than 10,125 lie in a narrower box; more are k x k copies side by
+// side, as near to this number as copies come. watcher(share done) returns false to stop, and the result is
+// then empty.
 SettledBed settled_bed(int grains, int threads, const std::function<bool(double)>& watcher);
 
 }  // namespace grainreel

@@ -28,7 +28,7 @@ const std::vector<Chart>& charts() {
 
 namespace {
 
-// The whole lines of a file; a line that a kill cut short is left out.
+// The whole lines of a file. A line that was cut short when the program was killed is left out.
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
     std::ifstream in = read_plain(path);
     std::ostringstream whole;

@@ -1,5 +1,5 @@
-// The charts that `grainreel chart` can make: experiments on the methods themselves, as tables that a stopped
-// chart goes on with, and pictures of them.
+// The charts that `grainreel chart` can make: experiments on the methods themselves, as tables, and
+// pictures of them. A chart that was stopped goes on with its tables.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@
 namespace grainreel {
 
 struct ChartRequest {
-    std::filesystem::path folder;  // made when missing; a stopped chart there goes on
-    bool quick = false;            // coarser: fewer phases, steps, seeds and settings
+    std::filesystem::path folder;  // made when missing; a chart that was stopped there goes on
+    bool quick = false;            // with fewer phases, steps, seeds and settings
 };
 
-// What is being done, and the share of all that is done. Return false to stop.
+// Gets what is being done, and the share of all that is done. Returns false to stop.
 using ChartWatcher = std::function<bool(const std::string& what, double done)>;
 
 struct Chart {
@@ -31,7 +31,7 @@ struct Chart {
 
 const std::vector<Chart>& charts();
 
-// Counts the pieces of work and asks the watcher between them, and within long ones.
+// Counts the pieces of work, and asks the watcher between them and within long ones.
 class ChartWork {
   public:
     ChartWork(const ChartWatcher& watcher, std::size_t pieces)
@@ -48,9 +48,9 @@ class ChartWork {
     double pieces_, done_ = 0;
 };
 
-// Results as they come, in a CSV file that a stopped chart goes on with.
+// A CSV file of results, written one by one; a chart that was stopped goes on with it.
 
-// As a cell: six digits.
+// A number as a cell: six digits.
 std::string number(double value);
 
 class ResultTable {
@@ -59,11 +59,11 @@ class ResultTable {
     // UserError when the file is of another chart, RunError when it cannot be written.
     ResultTable(const std::filesystem::path& path, const std::string& header, std::size_t keys);
 
-    // The rows so far, cell by cell.
+    // The rows so far, as cells.
     const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
     bool has(const std::vector<std::string>& key) const { return known_.count(join(key)) > 0; }
-    // On disk when this returns.
+    // Adds a row; it is on disk when this returns.
     void add(const std::vector<std::string>& row);
 
   private:

@@ -55,8 +55,8 @@ GasInCube cube_of(std::uint64_t seed) {
     return cube;
 }
 
-// E* of Hertz' contact: k a^(3/2) stores 2/5 k a^(5/2), k = 4/3 E* sqrt(R/2), which at the overlap of 1 %
-// that the plan allows is the linear spring's energy.
+// E* of Hertz' contact that has the same energy as the linear spring at the overlap of 1 % that the plan
+// allows. k a^(3/2) stores 2/5 k a^(5/2), with k = 4/3 E* sqrt(R/2).
 double modulus() {
     const double overlap = 0.01 * 2 * bench_radius, k = 1.25 * stiffness / std::sqrt(overlap);
     return 0.75 * k / std::sqrt(bench_radius / 2);
@@ -77,7 +77,7 @@ std::string scene_text(const std::string& law, double restitution) {
            "[run]\nduration = 1\n";
 }
 
-// The balance looks at every contact after every step, which an elastic gas can do without.
+// A gas whose energy is watched. Only with losses the balance looks at every contact after every step.
 class Watched {
   public:
     Watched(const Plan& plan, std::uint64_t seed)
@@ -126,7 +126,7 @@ Plan gas_plan(const GasSetting& setting, double restitution) {
 
 std::vector<GasEnergy> gas_energy(const Plan& plan, std::uint64_t seed, const std::vector<double>& times,
                                   const std::function<bool()>& goes_on) {
-    constexpr std::int64_t at_once = 2000;  // steps
+    constexpr std::int64_t at_once = 2000;  // steps between two questions to goes_on()
     const double contact = std::numbers::pi * std::sqrt(bench_mass() / 2 / stiffness);
     Watched gas(plan, seed);
     std::vector<GasEnergy> all;
@@ -143,7 +143,8 @@ std::vector<GasEnergy> gas_energy(const Plan& plan, std::uint64_t seed, const st
 
 namespace {
 
-// With as many forces a contact as the table of single contacts has, or as the plan has it.
+// Number of force evaluations a contact, the same as in the table of single contacts. `planned` has what
+// the plan chooses.
 constexpr double forces = 12;
 const GasSetting plain{"velocity Verlet", "walton-braun", {}, GasSetting::Corrected::no, forces};
 const GasSetting corrected{"with corrections", "walton-braun", {}, GasSetting::Corrected::yes, forces};
@@ -168,7 +169,7 @@ std::vector<GasSetting> elastic_settings() {
             planned};
 }
 
-// Gases of one restitution, and how long they are followed, in contacts.
+// A setting at one restitution, and the times at which its energy is measured, in contact times.
 struct GasRun {
     GasSetting setting;
     double restitution;

@@ -1,4 +1,5 @@
-// Equal smooth grains in a cube of walls, without gravity: from a lattice with random velocities to a gas.
+// Equal smooth grains in a cube of walls, without gravity: they start on a lattice with random velocities
+// and become a gas.
 #pragma once
 
 #include <cstdint>
@@ -14,34 +15,34 @@ namespace grainreel {
 
 struct GasInCube {
     int side = 9;                  // cube root of the number of grains
-    double solid_fraction = 0.05;  // of what their centres can reach
-    double speed = 0.3;            // m/s, of each component at first, root mean square
+    double solid_fraction = 0.05;  // share of the volume that their centres can reach
+    double speed = 0.3;            // m/s, root mean square of each component at the start
     std::uint64_t seed = 1;
 
     int count() const { return side * side * side; }
-    double free() const;  // m: centres can be anywhere in a cube of this edge
+    double free() const;  // m, edge of the cube in which centres can be
     double edge() const { return free() + 2 * bench_radius; }
 };
 
-// Grains are bench_radius and bench_density. The world is started.
+// The gas as a small world, ready to run. Grains have bench_radius and bench_density.
 struct Gas {
     GasInCube cube;
     SmallWorld world;
 
     Gas(const Plan& plan, const GasInCube& cube);
     double temperature() const;  // m2/s2
-    double energy() const;       // J, of motion and in springs
+    double energy() const;       // J, kinetic and in springs
     void run_to(double seconds);
 };
 
-// What the energy of a gas of smooth grains makes of the step's errors: it must stay where impacts are
-// elastic, and fall by what they lose where they nearly are.
+// How the step's errors change the energy of a gas of smooth grains. It must stay constant where impacts
+// are elastic, and fall by what impacts lose where they are nearly elastic.
 
-// 216 grains, a tenth of the space solid, between walls of their own restitution.
+// A gas of 216 grains; a tenth of the space is solid, and the walls have the same restitution.
 struct GasSetting {
     std::string name, law = "walton-braun";
     std::vector<std::string> sets = {};  // further keys of its scene ("run.integrator=gear")
-    // The contact corrections, or not, whatever the plan takes.
+    // Whether contacts have the contact corrections.
     enum class Corrected { as_planned, no, yes } corrected = Corrected::as_planned;
     double forces_a_contact = 0;  // 0: as planned
 };
@@ -49,22 +50,22 @@ Plan gas_plan(const GasSetting& setting, double restitution);
 
 struct GasEnergy {
     std::int64_t steps = 0;
-    // Over the energy at first. `gained`: by the errors of the step, so what the gas has more than it should
-    // after what latching and dashpots took, which is `lost`.
+    // Shares of the initial energy. `lost` is what latching and dashpots took. `gained` is what the gas has
+    // beyond the rest, through errors of the step.
     double gained = 0, lost = 0;
 };
-// At rising times, counted in contacts: pi sqrt(m_eff / K) of the linear spring. Empty when goes_on(), asked
-// a few times a second, says no.
+// The energy at these rising times, which are counted in contact times pi sqrt(m_eff / K) of the linear
+// spring. Empty when goes_on(), asked a few times a second, returned false.
 std::vector<GasEnergy> gas_energy(const Plan& plan, std::uint64_t seed, const std::vector<double>& times,
                                   const std::function<bool()>& goes_on);
 
-// What becomes of the energy of elastic and of nearly elastic gases: a picture of `grainreel chart accuracy`.
+// How the energy of elastic and of nearly elastic gases drifts: a picture of `grainreel chart accuracy`.
 
-// One row a method, restitution, seed and time. False when the watcher stopped it.
+// Adds one row for each method, restitution, seed and time. False when the watcher stopped it.
 bool run_gas_drift(bool quick, ResultTable& table, ChartWork& work);
 std::size_t gas_drift_pieces(bool quick);
 
-// Commands for gnuplot that draw gas.csv into `gas`, svg or png by the variable `form`.
+// Commands for gnuplot that draw gas.csv into `gas`, as svg or png by the variable `form`.
 const char* gas_drift_drawing();
 
 }  // namespace grainreel

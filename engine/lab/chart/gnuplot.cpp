@@ -20,7 +20,8 @@ bool run_gnuplot(const std::filesystem::path& folder, std::string commands) {
     char name[] = "gnuplot";
     char* words[] = {name, commands.data(), nullptr};
     pid_t child = 0;
-    // A group of its own: Ctrl-C, which is ours to answer, would leave half a picture.
+    // gnuplot gets a process group of its own: Ctrl-C, which grainreel handles itself, would stop it in the
+    // middle of a picture.
     posix_spawnattr_t apart;
     posix_spawnattr_init(&apart);
     posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
@@ -37,7 +38,7 @@ bool is_control(char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
-// In double quotes, where these characters mean something unless they are written as numbers.
+// The text in double quotes; characters with a meaning there are written as numbers.
 std::string in_double_quotes(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -69,7 +70,7 @@ std::string first_characters(const std::string& utf8, std::size_t count) {
 std::string gnuplot_text(const std::string& text) {
     std::string line = text;
     std::replace_if(line.begin(), line.end(), is_control, ' ');
-    // A doubled quote where the text begins ends it, for gnuplot (5.4).
+    // gnuplot (5.4) takes a doubled quote at the beginning of a text for its end.
     return line.find('\'') == std::string::npos ? "'" + line + "'" : in_double_quotes(line);
 }
 
@@ -82,7 +83,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
     };
     std::istringstream words(text);
     while (words >> word) {
-        while (length(word) > most) {  // a piece of it on a line of its own
+        while (length(word) > most) {  // puts a piece of a long word on a line of its own
             end_line();
             line = first_characters(word, most);
             word.erase(0, line.size());

@@ -1,4 +1,4 @@
-// The program gnuplot, which draws our tables.
+// Runs the program gnuplot, which draws the tables of charts.
 #pragma once
 
 #include <filesystem>
@@ -7,18 +7,18 @@
 
 namespace grainreel {
 
-// Runs gnuplot on a file of commands, in its folder. False when there is no gnuplot, or it failed.
+// Runs gnuplot on these commands, in this folder. False when there is no gnuplot, or when it failed.
 bool run_gnuplot(const std::filesystem::path& folder, std::string commands);
 
-// Text as gnuplot takes it: in single quotes, in which nothing but a quote means anything; with a quote in
-// double ones. Control characters become spaces.
+// Text as gnuplot reads it. It is in single quotes, where only a quote has a meaning; text with a quote is
+// in double quotes. Control characters become spaces.
 std::string gnuplot_text(const std::string& text);
 
-// Lines of at most `most` characters, broken at spaces; a longer word is cut. One at least, which may be
-// empty.
+// Breaks a text at spaces into lines of at most `most` characters; a longer word is cut. There is at least
+// one line, which may be empty.
 std::vector<std::string> wrapped(const std::string& text, std::size_t most);
 
-// These lines as gnuplot takes them: it cuts off labels that are longer than the picture.
+// The text in such lines, as gnuplot reads them: it cuts off labels that are longer than the picture.
 std::string gnuplot_lines(const std::string& text, std::size_t most);
 
 }  // namespace grainreel

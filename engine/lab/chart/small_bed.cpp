@@ -13,7 +13,7 @@
 
 namespace grainreel {
 
-// Two species that differ in name only: dyed halves.
+// The two species differ only in name, like dyed halves of one bed.
 const char* bed_scene() {
     return R"(title = "Small bed of the accuracy chart"
 [[species]]

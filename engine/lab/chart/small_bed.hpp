@@ -1,5 +1,5 @@
-// A vibrated bed of a thousand grains, small enough to be run again and again: what a step, a stiffness or a
-// method changes of what one measures in it.
+// A vibrated bed of a thousand grains, small enough to be run many times: how a step, a stiffness or a
+// method changes what is measured in it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace grainreel {
 
-// What of the bed is changed, as keys of its scene ("run.steps_per_contact=6").
+// What is changed in the bed, as keys of its scene ("run.steps_per_contact=6").
 struct BedSetting {
     std::string name;
     std::vector<std::string> sets;
@@ -18,19 +18,19 @@ struct BedSetting {
 
 struct BedResult {
     double height = 0;       // m, mean height over the moving floor, averaged over the second half
-    double temperature = 0;  // m2/s2, mean square of the velocities about the bed's, as above
-    double contacts = 0;     // force-carrying contacts a grain, as above
-    double mixing = 0;       // Lacey's index of the lower half against the upper, at the end
-    double cost = 0;         // ns of one thread a grain and simulated microsecond
+    double temperature = 0;  // m2/s2, mean square of the velocities about the bed's, over the second half
+    double contacts = 0;     // force-carrying contacts a grain, over the second half
+    double mixing = 0;       // Lacey's index of the lower half and the upper half, at the end
+    double cost = 0;         // ns of one thread for a grain and a simulated microsecond
 };
 
-// Runs `duration` seconds of the bed on one thread. Nothing when goes_on(), asked a few times a second, says
-// no.
+// Runs `duration` seconds of the bed on one thread. Returns nothing when goes_on(), asked a few times a
+// second, returned false.
 std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, double duration,
                                  const std::function<bool()>& goes_on);
 
-// What a setting changes of the bed: the mean over its seeds, and how far that is from the reference's, in
-// per cent of it; `error` is the standard error of the difference, as above.
+// How a setting changes the bed: the difference of its mean over the seeds from the reference's, in per
+// cent of the latter. `error` is the standard error of the difference, also in per cent.
 struct BedDifference {
     std::string setting;
     int seeds = 0;
@@ -42,13 +42,13 @@ struct BedRow {
     std::string setting;
     BedResult result;
 };
-// In the order of the rows; `reference` is the first row's setting.
+// Differences in the order of the rows; the reference is the setting of the first row.
 std::vector<BedDifference> bed_differences(const std::vector<BedRow>& rows);
 
-// s, that the plan chooses for it.
+// The step (s) that the plan chooses for this bed.
 double default_bed_step();
 
-// The scene it is, for the reader of the chart.
+// The scene of the bed, for readers of the chart.
 const char* bed_scene();
 
 }  // namespace grainreel

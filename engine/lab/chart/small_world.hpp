@@ -1,5 +1,4 @@
-// A few grains, faces and laws put together by hand for the experiments of charts. Scenes and plans play no
-// part.
+// A few grains, faces and laws put together by hand, without scene and plan, for the experiments of charts.
 #pragma once
 
 #include <cmath>
@@ -11,7 +10,7 @@
 
 namespace grainreel {
 
-// The grain and the contact of most experiments; what they find is given over these.
+// The grain and the contact of most experiments; results are given in units of these.
 constexpr double bench_radius = 0.002, bench_density = 2500, bench_stiffness = 1e5;  // m, kg/m3, N/m
 inline double sphere_volume(double radius) {
     return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
@@ -23,7 +22,7 @@ inline double bench_mass() {
     return sphere_mass_of(bench_radius);
 }
 
-// Walton-Braun with a constant restitution, and incremental slip where it rubs.
+// Walton-Braun with a constant restitution, and incremental slip where there is friction.
 inline PairPlan latching_pair(double stiffness, double restitution, double friction = 0,
                               Precision precision = Precision::full) {
     PairPlan pair;
@@ -39,7 +38,7 @@ inline PairPlan latching_pair(double stiffness, double restitution, double frict
     return pair;
 }
 
-// A small world runs on one thread. Its loop refers to the other members, so a world must not be copied or
+// A small world runs on one thread. Its loop refers to the other members, so it must not be copied or
 // moved.
 struct SmallWorld {
     Plan plan;
@@ -72,7 +71,7 @@ struct SmallWorld {
         double radius = bench_radius, density = bench_density;  // m, kg/m3
         std::int32_t species = 0;
     };
-    // Grains are numbered as they come.
+    // Grains are numbered in the order in which they are added.
     void add(const Vec3& position, const Vec3& velocity = Vec3::Zero()) { add(position, velocity, Sphere()); }
     void add(const Vec3& position, const Vec3& velocity, const Sphere& sphere) {
         const auto id = static_cast<std::int32_t>(grains.size());
@@ -83,13 +82,13 @@ struct SmallWorld {
         loop = std::make_unique<StepLoop>(plan, around, grains, team);
         loop->restart();
     }
-    // drag: 1/s, on every velocity and spin.
+    // drag (1/s) acts on every velocity and spin.
     void run(std::int64_t count, double drag = 0) {
         loop->run(step, count, plan.clock.step, drag);
         step += count;
     }
 
-    // The loop keeps grains in spatial order: where the one with this number is.
+    // Index of the grain with this number. The loop keeps grains in spatial order.
     std::size_t at(std::int32_t id) const {
         std::size_t i = 0;
         while (grains.id[i] != id) ++i;

@@ -243,8 +243,7 @@ namespace {
 
 using namespace keys;
 
-constexpr double default_box =
-    3;  // height of the default box over the largest diameter, below the container's top
+constexpr double default_box = 3;  // its height over the largest diameter, below the container's top
 
 BoundKey<Feed> fed_species_key() {
     return bound_by<Feed>(

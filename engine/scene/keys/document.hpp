@@ -46,14 +46,13 @@ class Document {
     bool is_table(const std::string& path) const;     // whether the value is an inline table
     bool is_array(const std::string& path) const;
     bool is_text(const std::string& path) const;
-    std::string written_value(
-        const std::string& path) const;  // value of a key that is there, as TOML, cut short
+    std::string written_value(const std::string& path) const;  // as TOML, cut short; the key must be there
 
     // The value of a key, in its dimension's unit; none when absent. These functions throw UserError when
     // the value is not of the key's kind or outside its range.
     std::optional<double> quantity(const std::string& path);
     std::optional<double> quantity(const std::string& path,
-                                   Dimension dimension);  // with a dimension that another key gives
+                                   Dimension dimension);  // that another key names
     std::optional<std::int64_t> integer(const std::string& path);
     std::optional<bool> flag(const std::string& path);
     std::optional<std::string> text(const std::string& path);  // also choices

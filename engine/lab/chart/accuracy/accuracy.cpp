@@ -30,7 +30,8 @@ std::vector<Method> methods() {
         {"Hertz-Mindlin", I::velocity_verlet, NormalForce::hertz, TangentialLaw::mindlin}};
 }
 
-// Steps a contact such that every method makes the same number of force evaluations.
+// Numbers of force evaluations a contact; the steps of each method follow from them, so that methods
+// compare at equal cost.
 std::vector<double> force_counts(bool quick) {
     if (quick) return {8, 12, 20, 40};
     return {6, 8, 10, 12, 16, 20, 28, 40, 80, 160};
@@ -40,7 +41,8 @@ std::vector<double> restitutions(bool quick) {
     return {0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98};
 }
 
-// One factor at a time from the default: step, corrections, integrator, stiffness, arms, law.
+// Settings that change one factor at a time from the default: step, corrections, integrator, stiffness,
+// arms, law.
 std::vector<BedSetting> bed_settings(bool quick) {
     const auto step = [](double share) {
         return fmt::format("run.step={:.10g}", share * default_bed_step());
@@ -62,7 +64,7 @@ std::vector<BedSetting> bed_settings(bool quick) {
     return all;
 }
 
-// What of one point of the chart is still missing.
+// Adds what is still missing for one point of the chart.
 void add_contact_rows(const Method& method, double e, double forces, bool quick, double cost,
                       ResultTable& table) {
     const double steps = forces / method.forces_a_step();
@@ -118,7 +120,7 @@ bool run_beds(bool quick, ResultTable& table, ChartWork& work) {
                 if (!r) return false;
                 table.add({setting.name, number(seed), number(r->height), number(r->temperature),
                            number(r->contacts), number(r->mixing), number(r->cost)});
-            } catch (const RunError&) {  // the health check stopped it: that is a result
+            } catch (const RunError&) {  // a run that the health check stopped is a result too
                 table.add({setting.name, number(seed), "nan", "nan", "nan", "nan", "nan"});
             }
         }

@@ -1,6 +1,6 @@
-// `grainreel chart accuracy`: error against cost, one factor at a time. Four tables, each row a result:
-// contacts.csv (single contacts), convergence.csv (tangential laws), gas.csv (elastic and nearly elastic
-// gases) and bed.csv (the small bed, every setting with every seed).
+// `grainreel chart accuracy`: error against cost, one factor at a time. It has four tables with one result
+// a row: contacts.csv (single contacts), convergence.csv (tangential laws), gas.csv (elastic and nearly
+// elastic gases) and bed.csv (the small bed, every setting with every seed).
 #pragma once
 
 #include "engine/lab/chart/chart.hpp"
@@ -12,15 +12,15 @@ std::string accuracy_drawing();
 
 // How the error of a tangential law falls with the step: a picture of `grainreel chart accuracy`.
 
-// One row a kind of contact, law and number of steps. False when the watcher stopped it.
+// Adds one row for each kind of contact, law and number of steps. False when the watcher stopped it.
 bool run_convergence(bool quick, ResultTable& table, ChartWork& work);
 std::size_t convergence_pieces(bool quick);
 
-// Commands for gnuplot that draw convergence.csv into `convergence`, svg or png by the variable `form`.
+// Commands for gnuplot that draw convergence.csv into `convergence`, as svg or png by the variable `form`.
 const char* convergence_drawing();
 
 // `grainreel chart savings`: what a scene saves that does without friction, moving walls, a second species
-// and the like. One table, savings.csv: cost of a grain's step with and without.
+// and the like. It has one table, savings.csv: the cost of a grain's step with each and without.
 
 bool run_savings(const ChartRequest& request, const ChartWatcher& watcher);
 std::string savings_drawing();

@@ -98,8 +98,8 @@ DrivenContact::DrivenContact(const PairPlan& pair)
     }
 }
 
-// Cayley's vector: from the last normal to this one on the shortest way, then the twist, of which the step
-// loop takes the half for tan(twist / 2).
+// Cayley's vector of a rotation: first from the last normal to this one by the shortest way, then the
+// twist. For tan(twist / 2) half the twist is used, as in the step loop.
 Vec3 DrivenContact::turn_of(const Move& move) const {
     const Vec3& k = move.normal;
     const Vec3 tilt = normal_.cross(k) / (1 + normal_.dot(k));
@@ -109,7 +109,7 @@ Vec3 DrivenContact::turn_of(const Move& move) const {
 void DrivenContact::move(const Move& move) {
     const Vec3 turn = turn_of(move);
     normal_ = move.normal;
-    constexpr double step = 1;  // s, that turns slips into velocities; laws without a dashpot do not see it
+    constexpr double step = 1;  // s, turns slips into velocities; laws without a dashpot do not use it
     for (int axis = 0; axis < 3; ++axis) {
         touch_.normal[axis].set(0, move.normal[axis], law_.number_size);
         touch_.velocity[axis].set(0, move.slip[axis] / step, law_.number_size);

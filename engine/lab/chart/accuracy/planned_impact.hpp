@@ -12,39 +12,40 @@ namespace grainreel {
 struct ImpactScene {
     double restitution = 0.9, friction = 0;
     double speed = 0.3;                        // m/s
-    double size_ratio = 1, density_ratio = 1;  // of the second grain over the first, of bench_radius
+    double size_ratio = 1, density_ratio = 1;  // second grain over first; the first has bench_radius
     bool wall = false;                         // a plane in place of the second grain
 };
 
-// Species 0 is the first grain, 1 the second.
+// The plan of the impact. Species 0 is the first grain, species 1 the second.
 Plan plan_of(const ImpactScene& impact);
 
-// s: the step that the plan chooses for two grains of default restitution and friction whose stiffness is
+// The step (s) that the plan chooses for two grains of default restitution and friction with the stiffness
 // bench_stiffness.
 double usual_step();
 
 struct Impact {
-    Vec3 velocity[2], spin[2];             // m/s, rad/s, afterwards; the plane's is zero
+    Vec3 velocity[2], spin[2];             // m/s, rad/s, after the impact; zero for the plane
     double energy = 0, energy_before = 0;  // J
-    double momentum_change = 0;            // of all, over the first's
-    double angular_change = 0;             // of all about the origin, over momentum x radius of the first
+    double momentum_change = 0;            // change of the total momentum, over that of the first grain
+    double angular_change = 0;  // change of the total angular momentum about the origin, over momentum x
+                                // radius of the first grain
 };
-// The first grain flies at the second, or down on the plane, at `angle` (rad) from the normal. `phase`: of a
-// step, 0 to 1, that is left to the first touch. `step`: s.
+// Makes the impact: the first grain flies at the second, or down on the plane, at `angle` (rad) from the
+// normal. `phase` is the share of a step, 0 to 1, that is left before the first touch. `step` is in s.
 Impact make_impact(const ImpactScene& impact, const Plan& plan, double step, double angle, double phase);
 
-// One contact led along a path by hand, through the same law that the step loop uses.
+// One contact that is moved along a path by hand, through the same law as in the step loop.
 
 class DrivenContact {
   public:
     explicit DrivenContact(const PairPlan& pair);
 
-    // Where the contact is led in one step.
+    // How the contact moves in one step.
     struct Move {
         Vec3 normal{0, 0, 1};  // unit, from i to j, at the end of the step
-        double overlap = 0;    // m, as above
+        double overlap = 0;    // m, at the end of the step
         Vec3 slip{0, 0, 0};    // m, of i over j during the step
-        double twist = 0;      // rad, about the normal, as above
+        double twist = 0;      // rad, about the normal, during the step
     };
     void move(const Move& move);
 
@@ -59,7 +60,7 @@ class DrivenContact {
     Histories history_;
     TouchChunk touch_;
     ForceChunk force_;
-    Vec3 normal_{0, 0, 0};  // of the last move
+    Vec3 normal_{0, 0, 0};  // normal of the last move
 };
 
 }  // namespace grainreel

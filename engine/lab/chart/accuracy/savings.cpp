@@ -1,5 +1,5 @@
-// Measures what the savings of the step loop save: the cost of a step on a lattice of grains, with and
-// without each.
+// Measures what the savings of the step loop save: the cost of a step on a lattice of grains, with each and
+// without.
 #include "engine/lab/chart/accuracy/accuracy.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,8 @@ PairPlan contact() {
     return latching_pair(bench_stiffness, 0.9, 0.5);
 }
 
-// A cubic lattice on a floor, six contacts a grain that rub, and a step so short that the lists stay.
+// A cubic lattice on a floor. Each grain has six contacts with friction, and the step is so short that the
+// lists stay valid.
 SmallWorld& build(SmallWorld& world) {
     world.add_floor();
     world.around.gravity = {0, 0, -9.81};
@@ -34,7 +35,7 @@ SmallWorld& build(SmallWorld& world) {
     return world;
 }
 
-// ns of one thread for a step of a grain.
+// Cost (ns of one thread) of a step of a grain.
 double cost(SmallWorld& world, std::int64_t steps) {
     const auto begin = std::chrono::steady_clock::now();
     world.run(steps);
@@ -42,7 +43,7 @@ double cost(SmallWorld& world, std::int64_t steps) {
     return taken.count() / (static_cast<double>(steps) * side * side * side);
 }
 
-// Two small worlds that are alike, except that one has what is to be saved and the other has not.
+// Two small worlds that are equal except for one thing that costs time: one has it and the other does not.
 struct Saving {
     std::string name;
     std::function<void(SmallWorld&)> with, without;
@@ -51,7 +52,7 @@ struct Saving {
 void shake(SmallWorld& world) {
     Drive drive;
     drive.present = true;
-    drive.amplitude = 1e-12;  // m; the lattice stays as it is
+    drive.amplitude = 1e-12;  // m; so small that the lattice stays as it is
     drive.frequency = 20;
     world.plan.clock.steps_per_period = 50000000;
     world.around.motion = WallMotion(drive, world.plan.clock);
@@ -59,7 +60,7 @@ void shake(SmallWorld& world) {
     for (Face& face : world.around.faces) face.body.driven = true;
 }
 
-// Every second grain is of another species, with contacts of its own.
+// Makes every second grain one of another species, with contacts of its own.
 void mix(SmallWorld& world) {
     for (std::size_t i = 0; i < world.grains.size(); i += 2) world.grains.species[i] = 1;
     world.plan.grain.assign(4, contact());
@@ -107,8 +108,8 @@ std::vector<Saving> savings() {
 }
 
 struct Measured {
-    double with = 1e9, without = 1e9;  // ns a grain and step, the best of all rounds
-    double low = 1e9, high = 0;        // of without / with, over the rounds
+    double with = 1e9, without = 1e9;  // ns for a step of a grain, the best of all rounds
+    double low = 1e9, high = 0;        // smallest and largest ratio without / with, over the rounds
 };
 
 // The two are timed in turns, so that other work of the machine slows both alike.

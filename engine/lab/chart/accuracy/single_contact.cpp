@@ -25,7 +25,7 @@ double mass() {
     return bench_mass();
 }
 
-// One species whose contacts follow the method; `effective_mass` of those that matter.
+// The plan of contacts by this method. `effective_mass` is that of the contacts that matter.
 PairPlan pair_of(const Method& method, double restitution, double effective_mass) {
     PairPlan pair;
     pair.model = {method.normal, method.tangential, false, method.precision};
@@ -45,7 +45,7 @@ PairPlan pair_of(const Method& method, double restitution, double effective_mass
     return pair;
 }
 
-// s: how long a free impact lasts.
+// Duration (s) of a free impact.
 double contact_time(const Method& method, double restitution, double effective_mass,
                     double effective_radius) {
     const double natural = std::sqrt(stiffness / effective_mass);
@@ -85,7 +85,8 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
             pushed += world.grains.load[0].force.squaredNorm() > 0;
         }
         const double e = (world.grains.motion[1].velocity - world.grains.motion[0].velocity).x() / speed;
-        // The grains come back in spatial order, which for two on a line is that of their places.
+        // Grains come back in spatial order; on a line that is the order of their places, so [1] is the one
+        // ahead.
         errors.restitution = std::max(errors.restitution, std::abs(std::abs(e) - restitution));
         errors.contact_time = std::max(errors.contact_time, std::abs(pushed / steps - 1));
     }
@@ -95,7 +96,7 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
 namespace {
 
 struct Rebound {
-    double velocity, spin;  // over the speed
+    double velocity, spin;  // over the speed before the impact
 };
 
 Rebound oblique(const Method& method, double restitution, double steps, double angle) {
@@ -105,7 +106,7 @@ Rebound oblique(const Method& method, double restitution, double steps, double a
     const double down = speed * std::cos(angle);
     world.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
     world.start();
-    // A grazing impact of a Hertz contact lasts longer, by the fifth root of its slowness.
+    // A grazing impact of a Hertz contact lasts longer: the time grows with speed^(-1/5).
     world.run(static_cast<std::int64_t>(std::ceil(4 * steps)) + 5);
     return {world.grains.motion[0].velocity.x() / speed, radius * world.grains.motion[0].spin.y() / speed};
 }
@@ -116,7 +117,7 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
     Method reference = method;
     reference.integrator = Integrator::velocity_verlet;
     if (reference.normal == NormalForce::walton_braun_corrected) reference.normal = NormalForce::walton_braun;
-    // The corrected law is of second order, and so the better reference.
+    // The corrected law is of second order, which makes it the better reference.
     if (reference.normal == NormalForce::walton_braun && method.tangential == TangentialLaw::linear_spring)
         reference.normal = NormalForce::walton_braun_corrected;
     ObliqueErrors errors;
@@ -132,7 +133,7 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
 
 namespace {
 
-// Tangential velocity over the push at 24 times, evenly spread over three contacts.
+// Tangential velocity over the initial push at 24 times, evenly spread over three contact times.
 std::vector<double> shear(const Method& method, std::int64_t steps_between, double contact) {
     const double length = contact / (8 * static_cast<double>(steps_between));
     SmallWorld world(pair_of(method, 1, mass()), length, method.integrator);
@@ -228,7 +229,7 @@ Impactors impactors_of(const Plan& plan, const PairPlan& pair, const Species& a,
     const double mass = sphere_mass_of(two.first.radius, two.first.density);
     const double other = sphere_mass_of(two.second.radius, two.second.density);
     two.effective_mass = two.wall ? mass : mass * other / (mass + other);
-    // Where nothing says how fast impacts are: so fast that the overlap is the allowed one.
+    // Where the plan has no speed of impacts, the speed is taken at which the overlap is the allowed one.
     two.speed = plan.impact_speed > 0
                     ? plan.impact_speed
                     : pair.allowed_overlap * std::sqrt(pair.loading_stiffness / two.effective_mass);
@@ -250,12 +251,12 @@ double rebound(const Plan& plan, const PairPlan& pair, const Impactors& two, dou
     world.start();
     const auto contact = static_cast<std::int64_t>(std::ceil(pair.contact_time / plan.clock.step));
     double closing = two.speed;
-    // Most contacts end within twice their time; an overdamped one creeps out.
+    // Most contacts end within twice their time; an overdamped one ends slowly.
     for (int times = 0; times < 40; ++times) {
         world.run(contact + 2);
         const double before = closing;
         closing = world.velocity(0).z() - (two.wall ? 0 : world.velocity(1).z());
-        if (times > 0 && closing < 0 && closing == before) break;  // parted
+        if (times > 0 && closing < 0 && closing == before) break;  // the two have parted
     }
     return -closing / two.speed;
 }
@@ -271,7 +272,7 @@ std::vector<double> promised_onsets() {
 
 double promised_restitution_error(const Plan& plan, const PairPlan& pair, const Species& a,
                                   const Species* b) {
-    constexpr double kFewest = 2, kMost = 1000;  // steps: trying longer contacts takes minutes
+    constexpr double kFewest = 2, kMost = 1000;  // steps; trying longer contacts takes minutes
     const double steps = pair.contact_time / plan.clock.step;
     if (!(steps >= kFewest && steps <= kMost)) return std::numeric_limits<double>::quiet_NaN();
     PairPlan smooth = pair;
@@ -288,7 +289,7 @@ double promised_restitution_error(const Plan& plan, const PairPlan& pair, const 
 std::string promised_error_text(double error) {
     if (std::isnan(error)) return "-";
     if (error < 1e-12) return "0";
-    error *= 1.01;  // the worst onset lies between those that were tried: 0.6 % more was seen
+    error *= 1.01;  // the worst phase lies between those that were tried: 0.6 % more was seen
     const double digit = std::pow(10, std::floor(std::log10(error)) - 1);
     return fmt::format("{:.2g}", digit * std::ceil(error / digit * (1 - 1e-9)));
 }

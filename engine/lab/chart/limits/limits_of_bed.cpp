@@ -1,4 +1,4 @@
-// Beds as scenes make them: at rest with a step that is too long, shaken gently sideways, shaken hard.
+// Beds as scenes make them: at rest with too long a step, shaken gently sideways, and shaken hard.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -29,7 +29,7 @@ std::string box(int grains, double duration) {
         grains, 2 * bench_radius, bench_density, duration);
 }
 
-// J over m g d: the kinetic energy of a grain of a bed at rest. Throws when the health check stops the run.
+// Kinetic energy of a grain of a bed at rest, over m g d. Throws when the health check stops the run.
 double restlessness(double step, int grains) {
     constexpr double stiffness = 2000;  // N/m
     const double unit = std::sqrt(bench_mass() / stiffness);
@@ -44,7 +44,7 @@ double restlessness(double step, int grains) {
            (grains * bench_mass() * scene.gravity.norm() * 2 * bench_radius);
 }
 
-// Loose and with losses: from where on the health check stops it.
+// A loose bed with losses: finds the step from which on the health check stops it.
 Finding resting_bed(bool quick) {
     Finding finding;
     finding.theory = 2 / std::sqrt(8.0);
@@ -60,7 +60,7 @@ Finding resting_bed(bool quick) {
     return finding;
 }
 
-// Shaken sideways, gently enough for all contacts to hold.
+// A bed that is shaken sideways, gently enough for all contacts to hold.
 const char* tray = R"([[species]]
 name = "glass"
 count = 150
@@ -82,7 +82,8 @@ direction = [0, 1, 0]
 trajectory = false
 )";
 
-// Mean way of a grain a period over its diameter, from the end of the tenth period to that of the last.
+// How far a grain moves in a period, over its diameter; the mean from the end of the tenth period to the
+// end of the last.
 double creep_of(LeverArms arms, int seed, int periods) {
     constexpr int settled = 10;
     const Scene scene = read_scene_text(
@@ -113,7 +114,8 @@ Finding creep(LeverArms arms, bool quick) {
     return finding;
 }
 
-// The largest overlap seen over the largest that the plan expects; a run that its health check stops throws.
+// The largest overlap seen, over the largest that the plan expects. Throws when the health check stops a
+// run.
 Finding hard_shaking(bool quick) {
     Finding finding;
     finding.theory = 1;
@@ -154,7 +156,7 @@ std::vector<Experiment> bed_experiments() {
              "the plan's stiffness; health check", hard_shaking}};
 }
 
-// The drive: the kick of one that starts at once, and the walls' place in a step.
+// Errors of the drive: the kick of one that starts at once, and the place of walls within a step.
 
 namespace {
 
@@ -179,9 +181,9 @@ std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period,
     return whole;
 }
 
-// A ball at rest on a plate below 1 g: its largest speed against the plate over a omega, in every twentieth
-// of the first three periods. Started at once the plate hits it at a omega, and it first leaves at e times
-// that.
+// A ball at rest on a plate below 1 g: its largest speed relative to the plate over a omega, in every
+// twentieth of the first three periods. Where the drive starts at once, the plate hits the ball at a omega,
+// and the ball leaves at e times that.
 Finding kick(double ramp) {
     constexpr double e = 0.9, level = 0.9;
     constexpr int steps = 40000, points = 60;
@@ -206,9 +208,9 @@ Finding kick(double ramp) {
     return finding;
 }
 
-// A ball on a spring and a dashpot on the plate, long after the start, against the steady swing a (K + i c w)
-// / (K - m w^2 + i c w); the largest distance over the amplitude. The frequency is a fifth of the natural
-// one.
+// Error of a ball on a spring and a dashpot on the plate, long after the start: the largest distance from
+// the steady swing a (K + i c w) / (K - m w^2 + i c w), over the amplitude. The frequency is a fifth of the
+// natural one.
 double steady_error(int steps_a_period) {
     const double omega = 2 * pi * frequency, natural = 5 * omega, damping = natural;  // 1/s
     PairPlan pair;
@@ -234,7 +236,7 @@ double steady_error(int steps_a_period) {
     return largest;
 }
 
-// The order of the error: walls a step early or late would make it 1.
+// The order of this error. If walls were a step early or late, it would be 1.
 Finding order_of_walls(bool) {
     Finding finding;
     finding.theory = 2;
@@ -260,8 +262,9 @@ std::vector<Experiment> drive_experiments() {
         {"walls in a step", "order of the error", silent, "walls at the time of the force", order_of_walls}};
 }
 
-// Round-off: a bead at rest on a plate sinks in by m g / K. When a unit in the last place of its position is
-// as large as that, the contact force is a lottery. 3 mm glass at 0.3 m from the origin, as in a hopper.
+// Round-off: a bead at rest on a plate sinks in by m g / K. When a unit in the last place of its position
+// is as large as that, the contact force is a lottery. The bead is 3 mm of glass at 0.3 m from the origin,
+// as in a hopper.
 
 namespace {
 
@@ -271,14 +274,14 @@ double weight() {
     return sphere_mass_of(radius) * gravity;
 }
 
-// m: of a position at `height`.
+// Unit in the last place (m) of a position at `height`.
 double last_place(bool in_single) {
     return in_single ? std::nextafter(static_cast<float>(height), 1.0F) - static_cast<float>(height)
                      : std::nextafter(height, 1.0) - height;
 }
 
-// |N / (m g) - 1| of a bead at rest, on a spring with a dashpot: root mean square over time, on a plate
-// `shift` of a last place higher.
+// Error |N / (m g) - 1| of a bead at rest on a spring with a dashpot, root mean square over time. The plate
+// is `shift` of a last place higher.
 double force_error(double stiffness, bool in_single, double shift) {
     const double mass = sphere_mass_of(radius), natural = std::sqrt(stiffness / mass);
     PairPlan pair;
@@ -311,7 +314,8 @@ double worst_error(double stiffness, bool in_single) {
     return worst;
 }
 
-// The stiffness at which the force is off by half of itself; theory: half a last place is half the overlap.
+// The stiffness at which half of the force is error. By theory the error is then half a last place, over an
+// overlap of one last place.
 Finding rounding(bool in_single) {
     Finding finding;
     const double limit = weight() / last_place(in_single);  // N/m

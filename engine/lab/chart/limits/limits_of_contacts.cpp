@@ -1,5 +1,5 @@
-// How well one impact is kept at the step that the plan chooses: restitution from nearly 0 to nearly 1, sizes
-// and masses far apart; and what becomes of it when the step is too long.
+// How well one impact is kept at the step that the plan chooses: restitution from nearly 0 to nearly 1,
+// sizes and masses far apart, and what happens when the step is too long.
 
 #include <algorithm>
 #include <numbers>
@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double allowed = 0.005;  // error of the restitution that `standard` aims at
+constexpr double allowed = 0.005;  // error of the restitution that the accuracy `standard` allows
 
 double planned_error(const ImpactScene& impact, int phases) {
     const Plan plan = plan_of(impact);
@@ -27,7 +27,7 @@ double planned_error(const ImpactScene& impact, int phases) {
     return worst;
 }
 
-// The largest error over a range; `set` puts the value into the scene.
+// The largest error over a range of values; `set` puts a value into the scene.
 template <class Set>
 Finding planned_errors(const std::vector<double>& values, bool quick, const Set& set) {
     Finding finding;
@@ -59,7 +59,7 @@ Finding masses(bool quick) {
                           [](ImpactScene& impact, double ratio) { impact.density_ratio = ratio; });
 }
 
-// Momentum and angular momentum (the larger change of the two) in oblique impacts with friction.
+// Change of momentum and of angular momentum (the larger of the two) in oblique impacts with friction.
 Finding momenta(bool) {
     Finding finding;
     finding.theory = 1e-11;
@@ -80,9 +80,9 @@ Finding momenta(bool) {
     return finding;
 }
 
-// The slip that an oblique impact leaves, against the same with a hundredth of the step; over the speed.
-// Schemes that mix time levels go wrong here from a ratio of 3 on (Vyas et al., Comput. Phys. Commun. 310,
-// 109524).
+// Error of the slip after an oblique impact, over the speed; the reference is the same impact with a
+// hundredth of the step. Schemes that mix time levels go wrong here from a size ratio of 3 on (Vyas et al.,
+// Comput. Phys. Commun. 310, 109524).
 Finding oblique_sizes(bool quick) {
     Finding finding;
     finding.theory = 1;
@@ -111,7 +111,7 @@ Finding oblique_sizes(bool quick) {
     return finding;
 }
 
-// Plain Verlet, largest over 200 phases, against the figures that were derived by hand
+// Plain Verlet's error, the largest over 200 phases, beside the figures that were derived by hand
 // (docs/reference/accuracy.md).
 Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, bool quick) {
     const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun, TangentialLaw::none};
@@ -151,8 +151,9 @@ std::vector<Experiment> restitution_experiments() {
          }}};
 }
 
-// Detachment: grains that meet the next before they have left the last lose too little energy. A column that
-// falls on a plate, against the same with contacts of no length (Luding et al. 1994, Phys. Rev. E 50, 4113).
+// Detachment: grains that meet the next one before they have left the last one lose too little energy. A
+// column falls on a plate; it is compared with the same column with instant contacts (Luding et al. 1994,
+// Phys. Rev. E 50, 4113).
 
 namespace {
 
@@ -171,16 +172,16 @@ PairPlan contact_of(NormalForce law, double e, double effective_mass) {
 constexpr int column_of = 8;
 constexpr double speed = 0.3;  // m/s
 
-// Speeds of balls that meet instantly, one after the other.
+// A column of balls with instant contacts, one after the other.
 class HardColumn {
   public:
     HardColumn(double gap, double e) : e_(e) {
         for (int k = 0; k < column_of; ++k) {
-            height_.push_back((k + 1) * gap);  // over the plate, less all diameters below
+            height_.push_back((k + 1) * gap);  // over the plate, without the diameters of the balls below
             velocity_.push_back(-1);
         }
     }
-    // Kinetic energy over that before, once nothing meets any more.
+    // Kinetic energy over that before, when no more balls meet.
     double energy_left() {
         while (meet_next()) {
         }
@@ -248,7 +249,7 @@ Experiment detachment(NormalForce law, double e, const std::string& name) {
                     finding.curve.push_back({1 / gap, soft, hard});
                     if (excess > 1.2) finding.measured = 1 / gap;  // the shortest contact that fails
                 }
-                // At 1 % of overlap a grain crosses its own diameter in some 30 times of a contact.
+                // At an overlap of 1 % a grain crosses its own diameter in some 30 contact times.
                 const Plan plan = plan_of(ImpactScene());
                 finding.usual = plan.between(0, 0).contact_time * plan.impact_speed / (2 * bench_radius);
                 return finding;

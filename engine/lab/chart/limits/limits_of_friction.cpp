@@ -1,7 +1,7 @@
-// Oblique impacts with friction from none to endless, at walls and in corners: energy is never gained, and
-// the closed forms of sticking and of sliding are met. (Known of a widely used engine, 2026: wall friction
-// with history could add 34 % of kinetic energy at a grazing impact, friction 0.5, 76 degrees from the
-// normal.)
+// Oblique impacts with friction from none to infinite, at walls and in corners: energy is never gained, and
+// the closed forms of sticking and of sliding are met. (In a widely used engine, wall friction with history
+// could add 34 % of kinetic energy at a grazing impact, with friction 0.5 and 76 degrees from the normal,
+// as of 2026.)
 
 #include <algorithm>
 #include <numbers>
@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double gain = 1;  // energy after over energy before, that nothing may exceed
+constexpr double gain = 1;  // energy after over energy before, which nothing may exceed
 const std::vector<double> phases = {0.05, 0.25, 0.45, 0.65, 0.85};
 
 ImpactScene on_wall(double restitution, double friction) {
@@ -55,7 +55,7 @@ Finding gain_by_friction(bool) {
     return finding;
 }
 
-// What is left of the slip, over that before, at 45 degrees and a hundredth of the step.
+// The slip after an impact over that before, at 45 degrees and a hundredth of the step.
 Finding sticking(bool) {
     constexpr double e = 0.9, ratio = 0.8;  // K0/K1 by default
     const double stuck = std::cos(std::sqrt(3.5 * ratio) * pi / 2 * (1 + e));
@@ -64,7 +64,7 @@ Finding sticking(bool) {
     for (const double friction : logarithmic(0.01, 1e6, 17)) {
         ImpactScene impact = on_wall(e, friction);
         const Plan plan = plan_of(impact);
-        impact.speed /= 100;  // the formula is that of a small overlap
+        impact.speed /= 100;  // the formula holds for a small overlap
         const Impact after = make_impact(impact, plan, plan.clock.step / 100, pi / 4, 0.5);
         const double slip =
             (after.velocity[0].y() + bench_radius * after.spin[0].z()) / (impact.speed * std::sin(pi / 4));
@@ -75,7 +75,8 @@ Finding sticking(bool) {
     return finding;
 }
 
-// Sliding throughout: Delta v_t = mu (1 + e) v_n, r Delta omega = 2.5 of it.
+// Energy after an impact with sliding throughout: Delta v_t = mu (1 + e) v_n, r Delta omega = 2.5 Delta
+// v_t.
 double sliding_energy(double e, double friction, double angle) {
     const double push = friction * (1 + e) * std::cos(angle);
     return std::pow(e * std::cos(angle), 2) + std::pow(std::sin(angle) - push, 2) +
@@ -99,8 +100,8 @@ Finding grazing_at_a_wall(double e) {
     return finding;
 }
 
-// Into the edge of two planes at a right angle: it meets the second within the time of a contact, before or
-// after. The largest ratio of all ways down and of all delays.
+// A ball flies into the edge of two planes at a right angle and meets the second plane within a contact
+// time before or after the first. Gives the largest energy ratio of all directions and delays.
 double corner_ratio(const Plan& plan, double from_normal, double around) {
     const double step = plan.clock.step, time = plan.wall[0].contact_time, speed = 0.3;
     const Vec3 velocity = -speed * Vec3(std::sin(from_normal) * std::cos(around),
@@ -151,7 +152,7 @@ std::vector<Experiment> friction_experiments() {
          [](bool quick) { return grazing_in_a_corner(1, quick); }}};
 }
 
-// A tangential force along a path: carried round with the contact, led round a closed loop of normal and
+// The tangential force along a path: rotated with the contact, led round a closed loop of normal and
 // tangential force, and over cycles that end where they began.
 
 namespace {
@@ -172,7 +173,8 @@ PairPlan contact_of(TangentialLaw tangential, double mu) {
 
 // ---- turning and twisting ----
 
-// A loaded contact, and after n steps of one turn about `axis` as one body; `axis` through the contact.
+// Change of the tangential force T of a loaded contact that turns as one body, in n steps a turn, about an
+// axis through the contact.
 struct Turned {
     double length_change = 0, direction_error = 0;  // over |T|; rad
 };
@@ -207,7 +209,7 @@ Finding turning_length(bool) {
     return finding;
 }
 
-// Cayley's rotation lags by angle^3 / 12 a step.
+// Cayley's rotation lags behind by angle^3 / 12 a step.
 Finding twisting_direction(bool) {
     Finding finding;
     for (const int steps : {12, 24, 50, 100, 200, 500, 1000}) {
@@ -223,9 +225,9 @@ Finding twisting_direction(bool) {
 
 // ---- closed loops ----
 
-// Loaded by a slip at the overlap `high`, unloaded by the same slip back at `low`, elastic along the normal:
-// energy made by the contact over the work of the slip forwards (Elata & Berryman 1996, Mech. Mater. 24,
-// 229).
+// Energy that a contact makes in a closed loop, over the work of the slip forwards. It is loaded by a slip
+// at the overlap `high` and unloaded by the same slip back at `low`, and is elastic along the normal (Elata
+// & Berryman 1996, Mech. Mater. 24, 229).
 double made_in_a_loop(TangentialLaw law, double low, double high) {
     constexpr int steps = 4000;
     DrivenContact contact(contact_of(law, friction));
@@ -243,7 +245,7 @@ double made_in_a_loop(TangentialLaw law, double low, double high) {
         put_in += work;
         return work;
     };
-    const double slip = 0.2 * friction * std::min(low, high);  // well below the cap
+    const double slip = 0.2 * friction * std::min(low, high);  // well below Coulomb's limit
     lead(low, 0);
     put_in = 0;
     lead(high, 0);
@@ -253,8 +255,8 @@ double made_in_a_loop(TangentialLaw law, double low, double high) {
     return -put_in / forwards;
 }
 
-// Integral of Walton's loading curve T(s) = L [1 - (1 - (1 - gamma) K0 s / L)^(1 / (1 - gamma))] from 0 to s,
-// and its end.
+// Walton's loading curve T(s) = L [1 - (1 - (1 - gamma) K0 s / L)^(1 / (1 - gamma))]: its integral from 0
+// to s, and its value at s.
 struct Loaded {
     double work, force;
 };
@@ -267,9 +269,9 @@ Loaded loading_curve(double limit, double slip) {
 
 double made_by_theory(TangentialLaw law, double low, double high) {
     if (law == TangentialLaw::linear_spring) return 0;
-    // The force shrinks with the stiffness while the contact shrinks, and keeps while it grows.
+    // The force shrinks with the stiffness while the contact shrinks, and stays constant while it grows.
     if (law == TangentialLaw::mindlin) {
-        const double ratio = std::sqrt(low / high);  // of the stiffnesses
+        const double ratio = std::sqrt(low / high);  // ratio of the stiffnesses
         return low < high ? ratio - 1 : 1 - ratio;
     }
     const double slip = 0.2 * friction * std::min(low, high);
@@ -297,11 +299,11 @@ Experiment loop_of(TangentialLaw law, const std::string& name, const std::string
 
 // ---- ratcheting ----
 
-// Two touching grains over cycles that end where they began: overlap d0 (1 + cos(psi) / 2) while they turn by
-// p sin(psi), as one body (`swing`) or each on its place (`roll`). What slip the spring keeps a cycle, over
-// d0 p: arms of the radius count d dp too much when they swing, arms to the contact plane when they roll,
-// pi/2 in each case (der; McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77, 031304 on what follows of
-// it).
+// The slip that the spring keeps from each cycle, over d0 p. Two touching grains go through cycles that end
+// where they began: the overlap is d0 (1 + cos(psi) / 2) while they turn by p sin(psi), either as one body
+// (`swing`) or each in its place (`roll`). Arms of the full radius count d dp too much when the grains
+// swing, and arms to the contact plane when they roll; each gives pi/2 (derived; on the consequences see
+// McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77, 031304).
 double slip_a_cycle(LeverArms arms, bool swing, int steps) {
     constexpr double depth = 1e-3 * bench_radius, swings = 0.1;
     constexpr int cycles = 10;

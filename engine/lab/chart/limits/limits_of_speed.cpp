@@ -1,5 +1,5 @@
-// Grains that are too fast: through each other, through a wall, past each other between two steps, and out of
-// reach of the neighbour lists.
+// Grains that are too fast: they go through each other, through a wall, past each other between two steps,
+// or out of reach of the neighbour lists.
 
 #include <algorithm>
 #include <complex>
@@ -14,8 +14,8 @@ namespace grainreel {
 
 namespace {
 
-// Two equal grains head-on; `speed` over 2 r sqrt(K / m_eff), `step` over sqrt(m_eff / K). The speed after
-// the meeting over that before, below zero where they went through each other.
+// Two equal grains meet head-on. Gives the speed after over that before, below zero where they went through
+// each other. `speed` is in units of 2 r sqrt(K / m_eff), `step` in units of sqrt(m_eff / K).
 double after_head_on(double speed, double step, double phase) {
     const double frequency = std::sqrt(bench_stiffness / (0.5 * bench_mass()));
     const double closing = speed * 2 * bench_radius * frequency, length = step / frequency;
@@ -30,7 +30,7 @@ double after_head_on(double speed, double step, double phase) {
     return (world.velocity(1) - world.velocity(0)).x() / closing;
 }
 
-// m/s over 2 r sqrt(K1/m_eff): what the plan allows, overlap / diameter.
+// The speed that the plan allows, over 2 r sqrt(K1/m_eff): allowed overlap over diameter.
 double usual_speed() {
     const ImpactScene impact;
     const Plan plan = plan_of(impact);
@@ -50,9 +50,9 @@ Finding through_each_other(bool) {
     return finding;
 }
 
-// A plane pushes a grain back from any depth; the health check stops a run at a depth of 2 r.
+// A plane pushes a grain back from any depth. The health check stops a run at a depth of 2 r.
 Finding through_a_wall(bool) {
-    constexpr double steps = 200;  // of a quarter period
+    constexpr double steps = 200;  // in a quarter period
     Finding finding;
     finding.theory = 1;
     finding.usual = 0.02;  // overlap of 1 % of the diameter
@@ -75,11 +75,13 @@ Finding through_a_wall(bool) {
     return finding;
 }
 
-// Nothing is seen of a meeting that lies between two steps: the chord is 2 (r_i + r_j) long.
+// A meeting that lies between two steps is not seen. The way along which grains overlap is 2 (r_i + r_j)
+// long.
 Finding past_each_other(bool quick) {
     Finding finding;
     finding.theory = 1;
-    const auto missed = [&](double chord) {  // a step's way over 2 (r_i + r_j), the share of phases missed
+    const auto missed = [&](double chord) {  // chord: the way of a step over 2 (r_i + r_j). Returns the share
+                                             // of phases at which the meeting is missed
         constexpr double step = 1e-3;        // forces hardly matter here
         const int phases = quick ? 20 : 100;
         int count = 0;
@@ -107,8 +109,9 @@ std::size_t touching_by_search(const Grains& grains, double period) {
     return count;
 }
 
-// Grains of two sizes that fly through each other and a moving floor; `way`: of a step, over the skin. The
-// smallest share of touching pairs and wall contacts that the loop has, over the steps.
+// Grains of two sizes fly through each other and a moving floor. Gives the smallest share, over the steps,
+// of touching pairs and wall contacts that the loop has in its lists. `way` is the way of a step over the
+// skin.
 double share_listed(double way, int steps) {
     constexpr double half = 0.012, step = 1e-5;
     SmallWorld world(latching_pair(1e-9, 1), step);
@@ -125,7 +128,7 @@ double share_listed(double way, int steps) {
     world.start();
     double least = 1;
     for (int k = 0; k < steps; ++k) {
-        for (Place& p : world.grains.place)  // kept in a box, by turning back what leaves it
+        for (Place& p : world.grains.place)  // keeps grains in a box by turning them back
             for (int axis = 1; axis < 3; ++axis)
                 if (std::abs(p.position[axis]) > half) {
                     double& v = world.grains.motion[&p - world.grains.place.data()].velocity[axis];
@@ -168,7 +171,7 @@ std::vector<Experiment> speed_experiments() {
              "lists are renewed before forces; no setting", listing}};
 }
 
-// Contacts that last too long for their drive: a deep bed follows its plate like jelly, and a plate turns
+// Contacts that last too long for their drive: a deep bed moves like jelly on its plate, and a plate turns
 // round during an impact.
 
 namespace {
@@ -179,7 +182,8 @@ constexpr double speed = 0.3;  // m/s, of an impact
 
 // ---- a soft bed: the top of a column of elastic grains, shaken so gently that nothing comes apart ----
 
-// Top over plate: cos(q/2) / cos((n + 1/2) q) with sin(q/2) = (omega / 2) sqrt(m/K) (der).
+// Swing of the top over that of the plate: cos(q/2) / cos((n + 1/2) q) with sin(q/2) = (omega / 2)
+// sqrt(m/K) (derived).
 double chain_gain(int count, double omega) {
     const double q = 2 * std::asin(0.5 * omega * std::sqrt(bench_mass() / bench_stiffness));
     return std::cos(q / 2) / std::cos((count + 0.5) * q);
@@ -244,10 +248,11 @@ double plate_velocity(double omega, double phase, double t) {
     return speed * std::cos(omega * t + phase);
 }
 
-// Closed form: y'' = -W^2 (y - a sin(wt + p)) + constant, until the ball is back at the plate.
+// Closed form of the ball's velocity after the impact: y'' = -W^2 (y - a sin(wt + p)) + constant, until the
+// ball is no longer in the plate.
 double rebound_by_theory(double natural, double omega, double phase) {
     const double swing = speed / omega * natural * natural / (natural * natural - omega * omega);
-    const double start = speed / omega * std::sin(phase);  // the plate's place at t = 0, taken off
+    const double start = speed / omega * std::sin(phase);  // the plate's place at t = 0, which is subtracted
     const double a = start - swing * std::sin(phase);
     const double b = (-speed - swing * omega * std::cos(phase)) / natural;
     const auto ball = [&](double t) {
@@ -287,8 +292,8 @@ double rebound_measured(double natural, double omega, double phase) {
     return world.velocity(0).z();
 }
 
-// How far the rebound is off that from a plate whose velocity does not change meanwhile, over the speed, at
-// worst.
+// Error of the rebound, over the speed, at the worst phase. The reference is a plate whose velocity does
+// not change during the impact.
 Finding drive_near_contact(bool quick) {
     constexpr double off = 0.1;
     const double natural = std::sqrt(bench_stiffness / bench_mass());
@@ -299,7 +304,7 @@ Finding drive_near_contact(bool quick) {
         for (int k = 0; k < phases; ++k) {
             const double phase = 2 * pi * (k + 0.5) / phases, plate = plate_velocity(omega, phase, 0);
             const double closing = speed + plate, rigid = speed + 2 * plate;
-            if (closing < 0.2 * speed) continue;  // hardly meets
+            if (closing < 0.2 * speed) continue;  // such a ball hardly meets the plate
             point.value =
                 std::max(point.value, std::abs(rebound_measured(natural, omega, phase) - rigid) / speed);
             point.theory =

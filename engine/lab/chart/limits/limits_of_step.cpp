@@ -1,6 +1,6 @@
-// The longest step: elastic grains at rest in contact, disturbed a little. Over the limit the disturbance
-// grows without end. Verlet's is 2 / omega of the fastest mode (Allen & Tildesley); a dense bed's is well
-// below a pair's (O'Sullivan & Bray 2004, Eng. Comput. 21, 278).
+// The longest stable step: elastic grains at rest in contact are disturbed a little. Above the limit the
+// disturbance grows without end. Verlet's limit is 2 / omega of the fastest mode (Allen & Tildesley); that
+// of a dense bed is well below that of a pair (O'Sullivan & Bray 2004, Eng. Comput. 21, 278).
 
 #include <Eigen/Core>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double overlap = 1e-3 * bench_radius;
 
-// s: sqrt(m / K), the unit of all steps here.
+// sqrt(m / K) in s, the unit of all steps here.
 double unit() {
     return std::sqrt(bench_mass() / bench_stiffness);
 }
@@ -32,12 +32,12 @@ PairPlan spring(double restitution, double friction, double tangential_ratio) {
 }
 
 struct Disturbance {
-    Vec3 along;  // which velocities are disturbed
-    int steps;   // within which it grows ten-thousandfold, or does not
+    Vec3 along;  // directions in which velocities are disturbed
+    int steps;   // number of steps in which an unstable disturbance grows ten-thousandfold
 };
 
-// Factor by which the amplitude grows in a step, 1 for no growth. It is taken while the energy is more than
-// ten thousand times that of the start, or over all steps where it stays below.
+// Factor by which the amplitude grows in a step; 1 for no growth. It is measured while the energy is more
+// than ten thousand times that of the start, or over all steps where it stays below.
 double growth_of(SmallWorld& world, const Disturbance& disturbance) {
     Random random(1, Stream::centres);
     const double speed = 1e-9 * overlap / unit();
@@ -56,12 +56,12 @@ double growth_of(SmallWorld& world, const Disturbance& disturbance) {
     return std::pow(now / from, 0.5 / static_cast<double>(world.step - since));
 }
 
-// The limit over sqrt(m / K), and the growth about there with the step over that of theory.
+// Finds the limit, over sqrt(m / K), and the curve of growth against the step over the limit of theory.
 template <class Build>
 Finding find_limit(const Build& build, const Disturbance& disturbance, double theory,
                    Integrator integrator = Integrator::velocity_verlet) {
     constexpr double coarse = 0.05;
-    // Below the limit Verlet's amplitude swings; it does not grow as much as this.
+    // Below the limit Verlet's amplitude swings, but it does not grow by this factor.
     const double unstable = std::pow(1e4, 1.0 / disturbance.steps);
     const auto growth = [&](double share) { return growth_of(*build(share * theory * unit()), disturbance); };
     Finding finding;
@@ -101,7 +101,7 @@ std::unique_ptr<SmallWorld> column(int count, double plate_stiffness, double ste
 
 // Two grains between soft plates: omega^2 = (2 K + K_plate) / m.
 Experiment pair_limit(Integrator integrator) {
-    constexpr double plate = 0.01;  // over K
+    constexpr double plate = 0.01;  // stiffness of the plates over K
     return {"step: pair by " + word_of(integrator, integrator_words), "step / sqrt(m/K)", Failure::loud,
             "health check; the plan's step; check warns above the stable limit", [=](bool) {
                 return find_limit(
@@ -110,7 +110,7 @@ Experiment pair_limit(Integrator integrator) {
             }};
 }
 
-// omega = 2 sqrt(K/m) cos(pi / (2 (n + 1))) between plates as stiff as the grains.
+// A chain of grains between plates as stiff as the grains: omega = 2 sqrt(K/m) cos(pi / (2 (n + 1))).
 Finding chain_limit(bool) {
     constexpr int count = 20;
     const double theory = 1 / std::cos(std::numbers::pi / (2 * (count + 1)));
@@ -126,8 +126,9 @@ Finding unloading_limit(bool) {
         auto whole = column(2, plate * bench_stiffness, step, Integrator::velocity_verlet);
         SmallWorld& world = *whole;
         world.plan.grain = {spring(e, 0, 0)};
-        world.start();  // the contact has seen `overlap`
-        const double back = 0.5 * e * e * overlap, less = 0.5 * overlap / plate;  // to half the force
+        world.start();  // now the contact has had the overlap `overlap`
+        const double back = 0.5 * e * e * overlap,
+                     less = 0.5 * overlap / plate;  // to half the force
         const std::size_t low = world.at(0), high = world.at(1);
         world.grains.place[high].position.z() += back;
         for (Face& face : world.around.faces) face.point.z() -= face.normal.z() * less;
@@ -138,7 +139,7 @@ Finding unloading_limit(bool) {
     return find_limit(build, along_z, 2 / std::sqrt(2 / (e * e) + plate));
 }
 
-// A ball on a floor: slip s, s'' = -3.5 K0/m s.
+// A ball on a floor with friction: its slip s follows s'' = -3.5 K0/m s.
 Finding sideways_limit(bool) {
     constexpr double ratio = 0.8;
     const auto build = [](double step) {
@@ -187,7 +188,7 @@ Finding bed_limit(bool quick, const PairPlan& pair, double theory) {
         return world;
     };
     Finding finding = find_limit(build, {{1, 1, 1}, 1000}, theory);
-    for (CurvePoint& point : finding.curve) point.theory = unknown;  // of many modes
+    for (CurvePoint& point : finding.curve) point.theory = unknown;  // many modes: theory gives no curve
     return finding;
 }
 
@@ -201,10 +202,10 @@ std::vector<Experiment> step_experiments() {
     all.push_back({"step: pair that unloads (e = 0.5)", step, Failure::loud, guard, unloading_limit});
     all.push_back({"step: tangential spring (K0 = 0.8 K)", step, Failure::loud, guard, sideways_limit});
     all.push_back({"step: chain of 20", step, Failure::loud, guard, chain_limit});
-    // Central springs in a face-centred cubic crystal: omega^2 = 8 K / m at the most.
+    // Central springs in a face-centred cubic crystal have omega^2 = 8 K / m at most.
     all.push_back({"step: dense bed (smooth)", step, Failure::loud, guard,
                    [](bool quick) { return bed_limit(quick, spring(1, 0, 0), 2 / std::sqrt(8.0)); }});
-    // Gerschgorin's bound with spins: 40 K0 / m; nothing says that it is reached.
+    // Gerschgorin's bound with spins is 40 K0 / m; it need not be reached.
     all.push_back({"step: dense bed (K0 = 0.8 K)", step, Failure::loud, guard, [](bool quick) {
                        return bed_limit(quick, spring(1, 1e6, 0.8), 2 / std::sqrt(40 * 0.8));
                    }});
@@ -213,10 +214,10 @@ std::vector<Experiment> step_experiments() {
 
 namespace {
 
-// Gelfand's formula, the limit of |A^n|^(1/n), with n doubled again and again.
+// Finds the spectral radius by Gelfand's formula, the limit of |A^n|^(1/n), doubling n again and again.
 template <class Matrix>
 double spectral_radius(Matrix power) {
-    double logarithm = 0, share = 1;  // of |A^n|, 1/n
+    double logarithm = 0, share = 1;  // logarithm of |A^n|, and 1/n
     for (int doubling = 0; doubling < 48; ++doubling) {
         const double size = power.norm();
         logarithm += share * std::log(size);
@@ -227,7 +228,7 @@ double spectral_radius(Matrix power) {
     return std::exp(logarithm);
 }
 
-// What one step does with (x, v), where x'' = -x.
+// The matrix by which one step acts on (x, v), where x'' = -x.
 Eigen::Matrix2d kicks_and_drifts(const Scheme& scheme, double h) {
     const auto kick = [h](double share) { return Eigen::Matrix2d{{1, 0}, {-share * h, 1}}; };
     const auto drift = [h](double share) { return Eigen::Matrix2d{{1, share * h}, {0, 1}}; };
@@ -236,8 +237,8 @@ Eigen::Matrix2d kicks_and_drifts(const Scheme& scheme, double h) {
     return drift(scheme.closing_drift) * step;
 }
 
-// What one step of Gear's scheme does with (x, h x', h^2 x''/2, h^3 x'''/6): Pascal's triangle predicts, 1/6,
-// 5/6, 1, 1/3 correct (Allen & Tildesley, Computer Simulation of Liquids, app. E).
+// The matrix by which one step of Gear's scheme acts on (x, h x', h^2 x''/2, h^3 x'''/6). Pascal's triangle
+// predicts, and 1/6, 5/6, 1, 1/3 correct (Allen & Tildesley, Computer Simulation of Liquids, app. E).
 Eigen::Matrix4d gear(double h) {
     const Eigen::Matrix4d predicted{{1, 1, 1, 1}, {0, 1, 2, 3}, {0, 0, 1, 3}, {0, 0, 0, 1}};
     const Eigen::Vector4d weights(1.0 / 6, 5.0 / 6, 1, 1.0 / 3);

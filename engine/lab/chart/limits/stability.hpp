@@ -1,5 +1,6 @@
-// `grainreel chart stability`: where each method fails, measured beside theory. Two tables: limits.csv, a row
-// an experiment, and curves.csv, how it comes to that.
+// `grainreel chart stability`: where each method fails, measured beside theory. It has two tables:
+// limits.csv with one row for each experiment, and curves.csv with the measurements on the way to the
+// limit.
 #pragma once
 
 #include <cmath>
@@ -13,8 +14,8 @@
 
 namespace grainreel {
 
-// The experiments of the stability chart: each takes one method to where it fails and measures that, beside
-// what theory says (sources stand by each experiment).
+// The experiments of the stability chart. Each takes one method to where it fails and measures that, beside
+// the value of theory (its source stands at each experiment).
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -23,19 +24,20 @@ struct CurvePoint {
     double theory = unknown;
 };
 
-// The limit in the unit of `Experiment::varied`. Where a method has no limit but an error, theory is the
-// error allowed and measured the largest one found.
+// The limit in the unit of `Experiment::varied`. Where a method has an error and no limit, theory is the
+// error allowed and measured is the largest one found.
 struct Finding {
     double theory = unknown, measured = unknown;
-    double usual = unknown;  // where a run with the plan's choices stands, where they decide
+    double usual = unknown;  // value in a run with the plan's choices, where the plan decides on it
     std::vector<CurvePoint> curve;
 };
 
-// Loud: the health check stops the run. Silent: nothing but a warning before it, or care, helps.
+// loud: the health check stops the run. silent: nothing stops it; only a warning before the run, or care,
+// helps.
 enum class Failure { loud, silent };
 
 struct Experiment {
-    std::string name, varied;  // varied: the quantity, with its unit
+    std::string name, varied;  // varied: the quantity that is varied, with its unit
     Failure failure;
     std::string guard;  // what protects a user
     std::function<Finding(bool quick)> run;
@@ -52,7 +54,7 @@ std::vector<Experiment> drive_experiments();
 std::vector<Experiment> bed_experiments();
 std::vector<Experiment> number_experiments();
 
-// Where a condition that holds at `low` and not at `high` ceases to hold.
+// The value where a condition ceases to hold that holds at `low` and not at `high`.
 template <class Holds>
 double last_that_holds(double low, double high, int halvings, const Holds& holds) {
     for (int k = 0; k < halvings; ++k) {
@@ -69,18 +71,18 @@ inline std::vector<double> logarithmic(double low, double high, int count) {
     return values;
 }
 
-// All, in the order of the tables.
+// All experiments, in the order of the tables.
 std::vector<Experiment> stability_experiments();
 
 bool run_stability(const ChartRequest& request, const ChartWatcher& watcher);
 std::string stability_drawing();
 
-// How a disturbance grows in one step of an integrator, for a harmonic oscillator: linear stability theory.
+// How a disturbance of a harmonic oscillator grows in one step of an integrator: linear stability theory.
 
-// Spectral radius of one step's amplification matrix at this step x angular frequency.
+// Spectral radius of the amplification matrix of one step; `step` is step x angular frequency.
 double growth_a_step(Integrator integrator, double step);
 
-// Largest step x angular frequency up to which nothing grows.
+// Largest step x angular frequency at which nothing grows.
 double stability_limit(Integrator integrator);
 
 }  // namespace grainreel

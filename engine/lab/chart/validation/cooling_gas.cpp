@@ -20,7 +20,7 @@ PairPlan smooth_pair(const CoolingGas& gas, double restitution) {
     return pair;
 }
 
-// 14 steps a contact, elastic walls.
+// A plan with 14 steps a contact and elastic walls.
 Plan plan_of(const CoolingGas& gas) {
     Plan plan;
     plan.grain = {smooth_pair(gas, gas.restitution)};
@@ -29,8 +29,8 @@ Plan plan_of(const CoolingGas& gas) {
     return plan;
 }
 
-// s: 1/tau = w0 (1 - e^2) / 6 with Enskog's collision rate w = 4 sqrt(pi) n d^2 g sqrt(T/m), of which each
-// takes (1 - e^2) T; g after Carnahan & Starling.
+// Haff's tau (s): 1/tau = w0 (1 - e^2) / 6 with Enskog's collision rate w = 4 sqrt(pi) n d^2 g sqrt(T/m).
+// Each collision takes (1 - e^2) T; g is that of Carnahan & Starling.
 double haff_time(const CoolingGas& setting, const Gas& gas) {
     const double solid = setting.solid_fraction, e = setting.restitution;
     const double g = (1 - solid / 2) / std::pow(1 - solid, 3);
@@ -51,7 +51,7 @@ std::vector<double> cool(const CoolingGas& setting, const std::vector<double>& t
     cube.solid_fraction = setting.solid_fraction;
     cube.seed = setting.seed;
     Gas gas(plan_of(setting), cube);
-    constexpr double mixed = 0.1;  // s, from the lattice to a gas
+    constexpr double mixed = 0.1;  // s, in which the lattice becomes a gas
     gas.run_to(mixed);
     const double start = gas.temperature(), tau = haff_time(setting, gas);
     std::vector<double> temperatures;
@@ -66,7 +66,7 @@ double haff(double time) {
     return 1 / ((1 + time) * (1 + time));
 }
 
-// A cooling gas against Haff (1983).
+// A cooling gas beside Haff's law (1983).
 
 namespace {
 

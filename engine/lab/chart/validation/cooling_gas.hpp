@@ -17,11 +17,11 @@ struct CoolingGas {
     Precision precision = Precision::full;
 };
 
-// T over its first value, at times counted in Haff's tau from when the lattice has become a gas. `times`
-// rise.
+// Temperatures T over the first, at these rising times. Times are counted in Haff's tau from when the
+// lattice has become a gas.
 std::vector<double> cool(const CoolingGas& gas, const std::vector<double>& times);
 
-// T = T0 / (1 + t/tau)^2.
+// Haff's law: T / T0 = 1 / (1 + t/tau)^2.
 double haff(double time);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// Oblique impacts against Kharaz et al. (2001) and Foerster et al. (1994).
+// Oblique impacts beside the measurements of Kharaz et al. (2001) and Foerster et al. (1994).
 #include "engine/lab/chart/validation/impacts.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ struct NamedLaw {
     ImpactLaw law;
 };
 
-// Alumina on glass. Tangential over normal stiffness is 4 G*/E* (Mindlin) with E = 380 and 70 GPa, nu = 0.23
-// and 0.25 (Chung & Ooi 2011).
+// Laws for alumina on glass. The ratio of tangential to normal stiffness is 4 G*/E* (Mindlin) with E = 380
+// and 70 GPa, nu = 0.23 and 0.25 (Chung & Ooi 2011).
 std::vector<NamedLaw> alumina_laws() {
     const double ratio = 0.86, e = kharaz::restitution, mu = kharaz::friction;
     return {{"incremental slip", {NormalForce::walton_braun, TangentialLaw::incremental_slip, e, mu, ratio}},
@@ -55,7 +55,7 @@ std::vector<Compared> compared() {
             {"rebound deg", Quantity::rebound, kharaz::rebound}};
 }
 
-// Ours at many angles, and at the published ones.
+// Writes our results at many angles, and at the published ones.
 void alumina(const ChartRequest& request) {
     std::string lines = "law,degrees,tangential_restitution,spin_rad_s,rebound_deg\n";
     std::string points = "quantity,degrees,published,incremental_slip,difference,hertz_mindlin,difference\n";
@@ -88,7 +88,8 @@ struct Material {
     double e, mu, beta0;
 };
 
-// Slips are over the normal speed before. Theirs: the larger of sliding and sticking.
+// Rows for impacts of two equal spheres. Slips are over the normal speed before. The published value is the
+// larger of sliding and sticking.
 std::string binary_rows(const Material& m, const NamedLaw& named, double step) {
     std::string rows;
     const double sliding = 3.5 * (1 + m.e) * m.mu;

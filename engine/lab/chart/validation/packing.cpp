@@ -20,7 +20,7 @@ double natural_frequency() {  // 1/s
     return std::sqrt(stiffness / (density * sphere_volume(diameter / 2)));
 }
 
-// All grains, centres at random, between walls at +- edge/2 in y and z.
+// All grains, with random centres, between walls at +- edge/2 in y and z.
 struct Crowd {
     const JammedPacking& setting;
     SmallWorld world;
@@ -45,12 +45,12 @@ struct Crowd {
         world.around.skin = 0.3 * diameter;
         world.start();
     }
-    // Shrinking leaves all lists valid, so contacts keep their histories.
+    // Multiplies all radii. All lists stay valid when grains shrink, so contacts keep their histories.
     void shrink(double factor) {
         for (std::size_t i = 0; i < world.grains.size(); ++i)
             world.grains.set_radius(i, factor * world.grains.place[i].radius, density);
     }
-    Vec3 inner() const {  // m: half the sizes of the measured part
+    Vec3 inner() const {  // m, half the size of the measured part
         const double half = edge / 2 - setting.margin * diameter;
         return {edge / 2, half, half};
     }
@@ -71,7 +71,7 @@ double unbalanced(const Crowd& crowd) {
     return contacts > 0 ? std::sqrt(squares / grains) / (forces / contacts) : 0;
 }
 
-// Until the forces balance. drag: over the natural frequency.
+// Runs until the forces balance. drag is in units of the natural frequency.
 void rest(Crowd& crowd, double drag, double balance, int most_steps) {
     constexpr int steps_per_look = 500;
     for (int done = 0; done < most_steps; done += steps_per_look) {
@@ -84,7 +84,7 @@ struct Touching {
     std::int32_t first, second;  // second below 0: a wall
 };
 
-// Grains that nothing holds: with fewer contacts than it takes, when those of other rattlers do not count.
+// Rattlers: grains with fewer contacts than hold a grain, where contacts with other rattlers do not count.
 std::vector<bool> rattlers(const std::vector<Touching>& contacts, std::size_t grains, int needed) {
     std::vector<bool> loose(grains, false);
     for (bool found = true; found;) {
@@ -116,7 +116,7 @@ PackingState state_of(const Crowd& crowd) {
         const double apart = grains.place[c.first].radius + grains.place[c.second].radius - c.overlap;
         state.pressure += c.normal_force * apart / (3 * volume) * diameter / stiffness;
     });
-    // Without friction it takes a contact more than dimensions to hold a grain; with friction two.
+    // Without friction one contact more than dimensions holds a grain; with friction two contacts do.
     const std::vector<bool> loose = rattlers(contacts, grains.size(), crowd.setting.friction > 0 ? 2 : 4);
     double inside = 0, held = 0, ends = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -143,7 +143,7 @@ std::vector<PackingState> decompress(const JammedPacking& packing, int states) {
     rest(crowd, 1, 0.02, 10000);  // the quench
     rest(crowd, 0.05, 1e-3, 40000);
     std::vector<PackingState> all = {state_of(crowd)};
-    double excess = 0.02;  // of the solid fraction above jamming, unknown at first
+    double excess = 0.02;  // solid fraction above jamming, unknown at first
     while (static_cast<int>(all.size()) < states) {
         const double now = all.back().solid_fraction;
         crowd.shrink(std::cbrt(1 - packing.share * excess / now));
@@ -159,7 +159,7 @@ std::vector<PackingState> decompress(const JammedPacking& packing, int states) {
 
 namespace {
 
-// y = at_zero + slope x, least squares.
+// A least-squares fit of y = at_zero + slope x.
 struct Line {
     double at_zero = 0, slope = 0;
 };
@@ -198,7 +198,7 @@ double volume_within(const Vec3& centre, double radius, const Vec3& low, const V
     };
     if (beyond(1) || beyond(2)) return 0;
     if (inside(1) && inside(2)) return sphere_volume(radius);
-    // Slices across y, each the part of a disc between two levels of z.
+    // The volume is summed over slices across y, each the part of a disc between two levels of z.
     constexpr int slices = 400;
     const double first = std::max(low.y() - centre.y(), -radius);
     const double last = std::min(high.y() - centre.y(), radius), width = (last - first) / slices;
@@ -215,7 +215,7 @@ double volume_within(const Vec3& centre, double radius, const Vec3& low, const V
     return volume;
 }
 
-// Jammed packings against O'Hern et al. (2003), Silbert (2010) and Onoda & Liniger (1990).
+// Jammed packings beside O'Hern et al. (2003), Silbert (2010) and Onoda & Liniger (1990).
 
 namespace {
 
@@ -224,7 +224,7 @@ int seeds(bool quick) {
     return quick ? 1 : 3;
 }
 
-// Without friction larger, for there the figures are sharp.
+// A packing to jam. Without friction it is larger, because the published values for it are exact.
 JammedPacking packing_of(double friction, int seed, bool quick) {
     JammedPacking packing;
     packing.friction = friction;

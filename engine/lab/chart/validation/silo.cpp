@@ -38,7 +38,7 @@ struct Cylinder {
     int grains(double height) const {
         return static_cast<int>(expected * area() * height / sphere_volume(radius));
     }
-    // Floor first, then the wall.
+    // Adds the floor, then the wall; the order numbers them.
     void surround(SmallWorld& world) const {
         world.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
         Face wall;
@@ -49,7 +49,7 @@ struct Cylinder {
     }
 };
 
-// A loose crowd: random centres, pushed apart without friction or gravity under a lid.
+// A loose crowd: grains at random centres, pushed apart without friction or gravity under a lid.
 Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
     SmallWorld world(latching_pair(stiffness, 1), step_length());
     cylinder.surround(world);
@@ -70,8 +70,8 @@ Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
     return world.grains;
 }
 
-// Until the mean kinetic energy of a grain is below 1e-6 m g d. Steps before 0 are for this: the floor stands
-// still until then.
+// Runs until the mean kinetic energy of a grain is below 1e-6 m g d. This happens before step 0, until when
+// the floor stands still.
 void settle(SmallWorld& world) {
     constexpr double drag = 20;  // 1/s
     constexpr std::int64_t steps_per_look = 1000, most = 100 * steps_per_look;
@@ -80,15 +80,15 @@ void settle(SmallWorld& world) {
         world.run(steps_per_look, drag);
         if (kinetic_energy(world.grains).translation < rest) break;
     }
-    world.step = 0;  // the lists count the jump as free flight, and are made again
+    world.step = 0;  // the lists take this jump for free flight and are made again
 }
 
-// Sums over the contacts with floor and wall, and what grains and wall make of the vertical stress.
+// Sums over the contacts with floor and wall; vertical stress is computed from grains and wall.
 struct Sums {
     double floor = 0;   // N, down
     double wall = 0;    // N, normal
     double lift = 0;    // N, up, on the grains
-    double moment = 0;  // N m: of weights and lifts about the floor, the vertical stress summed over height
+    double moment = 0;  // N m, of weights and lifts about the floor: vertical stress summed over height
     double height = 0;  // m
     double samples = 0;
 
@@ -153,7 +153,7 @@ JanssenFit fit_janssen(const std::vector<SiloLoad>& loads) {
         for (const SiloLoad& l : loads) sum += std::pow(l.apparent - janssen(l.filling, product), 2);
         return std::sqrt(sum / static_cast<double>(loads.size()));
     };
-    double low = 1e-3, high = 3;  // golden section; the rms has one minimum
+    double low = 1e-3, high = 3;  // for the golden section; the rms has one minimum
     const double share = (std::sqrt(5.0) - 1) / 2;
     while (high - low > 1e-7) {
         const double a = high - share * (high - low), b = low + share * (high - low);
@@ -162,11 +162,11 @@ JanssenFit fit_janssen(const std::vector<SiloLoad>& loads) {
     return {low, rms(low) * 4 * low};
 }
 
-// Columns in a cylinder against Janssen (1895).
+// Columns in a cylinder beside Janssen's law (1895).
 
 namespace {
 
-// A wall that grains slide along, and one as rough as they are, where they roll.
+// Two walls: one that grains slide along, and one as rough as the grains, at which they roll.
 struct Wall {
     double friction;
     int seeds;
@@ -194,7 +194,7 @@ std::vector<Loaded> loads_in(const ResultTable& table, double friction) {
     return loads;
 }
 
-// One row a wall: the K that fits, and what the forces say it is.
+// One row for a wall: the K that fits, and the K that follows from the forces.
 std::string fit_row(double friction, const std::vector<Loaded>& loaded) {
     std::vector<SiloLoad> loads;
     std::vector<double> ratio, mobilised, product;
@@ -210,7 +210,7 @@ std::string fit_row(double friction, const std::vector<Loaded>& loaded) {
                        c.mean, c.error);
 }
 
-// One row a height: the mean over the seeds beside the law with that K.
+// Rows of one wall, one for each height: the mean over the seeds beside the law with that K.
 std::string height_rows(double friction, const std::vector<Loaded>& loaded, bool quick) {
     std::vector<SiloLoad> all;
     for (const Loaded& l : loaded) all.push_back(l.load);

@@ -1,5 +1,5 @@
-// `grainreel chart validation`: the engine against published experiments and laws. Each part keeps its own
-// tables in the folder: what we measure, and beside it what is published.
+// `grainreel chart validation`: the engine beside published experiments and laws. Each part writes its own
+// tables into the folder: our measurements, and beside them the published ones.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace grainreel {
 bool run_validation(const ChartRequest& request, const ChartWatcher& watcher);
 std::string validation_drawing();
 
-// One comparison. False when the watcher stopped it.
+// One comparison. `run` returns false when the watcher stopped it.
 struct ValidationPart {
     std::size_t (*pieces)(bool quick);
     bool (*run)(const ChartRequest& request, ChartWork& work);
 };
 extern const ValidationPart impact_part, packing_part, silo_part, gas_part;
 
-// Mean of a few seeds and its standard error.
+// Mean over a few seeds and its standard error.
 
 struct SeedMean {
     double mean = 0, error = 0;
