@@ -41,7 +41,7 @@ HWY_INLINE F inverse_of(F a) {
 template <bool orthographic>
 struct Ray {
     F x, y;
-    F square, inverse;  // squared length of the direction, and inverse of the length
+    F square, inverse;  // squared length of the direction, and the inverse of that square
 
     HWY_INLINE Ray(F slope_x, F slope_y) : x(slope_x), y(slope_y) {
         square = orthographic ? F(1) : multiply_add(x, x, multiply_add(y, y, F(1)));

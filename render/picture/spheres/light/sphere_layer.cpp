@@ -15,7 +15,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr int kManyNeighbours = 40;  // neighbours; with more of them, only the nearest light a few pixels
+constexpr int kManyNeighbours = 40;  // with more neighbours, pixels consider only the nearest ones
 
 // number: index + 1 of a grain, or 0.
 bool paints(const PaintJob& job, std::uint32_t number) {
