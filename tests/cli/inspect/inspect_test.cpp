@@ -705,7 +705,7 @@ TEST_F(InspectedMoment, LengthsHaveOneUnit) {
         EXPECT_THAT(where, HasSubstr(fmt::format("\n  {} ", name)));
 }
 
-// Two pictures differ only in the words beside the grains and in the arrows.
+// A question about a wall can have a picture, and so can a question about a grain of a kept moment.
 TEST_F(InspectedMoment, AWallHasItsPictureToo) {
     EXPECT_EQ(inspect({"--wall", "floor", "--at", "0.05 s", "--png", "floor.png"}).status, 0);
     EXPECT_TRUE(std::filesystem::exists(folder / "floor.png"));
