@@ -37,9 +37,8 @@ struct Touching {
     double effective_mass;
     double effective_radius;
 };
-std::vector<Touching> extremes(const Species& a,
-                               const Species* b);            // b: nullptr for a wall
-Touching mean_touching(const Species& a, const Species* b);  // both of mean size
+std::vector<Touching> extremes(const Species& a, const Species* b);  // b: nullptr for a wall
+Touching mean_touching(const Species& a, const Species* b);          // both of mean size
 double mean_effective_mass(const Species& a, const Species* b);
 
 // Plans stiffness, damping and times of one kind of contact.

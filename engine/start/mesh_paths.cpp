@@ -15,9 +15,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kDeep = 0.01;  // of the smallest extent: a less deep crossing does not count
-constexpr double kElsewhere =
-    0.1;  // of the smaller mesh's largest extent: crossings this far from others are new
+constexpr double kDeep = 0.01;      // of the smallest extent: a less deep crossing does not count
+constexpr double kElsewhere = 0.1;  // of the smaller mesh's largest extent: so far from the crossings at rest
 constexpr std::int64_t kMostTriangles = 200'000;  // of both meshes; more would take too long
 constexpr std::int64_t kMostLooks = 400'000;      // of edges, at all moments; then some are left out
 constexpr std::size_t kMostKept = 2'000;          // places where edges cross at rest

@@ -51,8 +51,7 @@ class Document {
     // The value of a key, in its dimension's unit; none when absent. These functions throw UserError when
     // the value is not of the key's kind or outside its range.
     std::optional<double> quantity(const std::string& path);
-    std::optional<double> quantity(const std::string& path,
-                                   Dimension dimension);  // that another key names
+    std::optional<double> quantity(const std::string& path, Dimension dimension);  // that another key names
     std::optional<std::int64_t> integer(const std::string& path);
     std::optional<bool> flag(const std::string& path);
     std::optional<std::string> text(const std::string& path);  // also choices
