@@ -1,10 +1,10 @@
 // The bed beside its controls: what colours mean, who is shown, a slice, and the grain that was chosen.
-const asInFilm = 6; // the colouring of the film's grains, where that is none of the others (shaders.js)
+const asInFilm = 6; // number of the film's own colouring, used when it is none of the others (shaders.js)
 
 class BedPanel {
     /**
-     * n: what the ids of its elements end in, where the page has several beds. forceBytes: of key moments, meshBytes: of
-     * walls of any shape; or nothing.
+     * n: ending of the ids of its elements, when the page has several beds. forceBytes: bytes of the forces at key
+     * moments; meshBytes: bytes of the meshes of walls; null without any.
      */
     constructor(facts, bytes, runTime, n = "", forceBytes = null, meshBytes = null) {
         this.n = n;
@@ -37,7 +37,7 @@ class BedPanel {
         return document.getElementById(name + this.n);
     }
 
-    /** Other moments of the same run. */
+    /** Takes other moments of the same run. */
     take(facts, bytes) {
         const chosen = this.viewer.chosen >= 0 ? this.frames.ids[this.viewer.chosen] : -1;
         this.frames = new BedFrames(facts, bytes);
@@ -84,7 +84,7 @@ class BedPanel {
         if (moment !== null) this.runTime.set(this.frames.times[moment], "forces");
     }
 
-    // Bands are as wide as the forces are large, and the widest is a good half of a small grain's radius wide.
+    // The width of a band is proportional to the force. The widest one has a good half of a small grain's radius.
     showForces() {
         const {forces, viewer, frames} = this;
         if (!forces) return;
@@ -115,7 +115,7 @@ class BedPanel {
         this.part("forces-say").textContent = words;
     }
 
-    /** The camera has moved: beds beside this one are looked at from the same side, and as near. */
+    /** To be called when the camera has moved: beds beside this one get the same direction and distance. */
     turned() {
         const {azimuth, elevation, distance, fitted} = this.viewer.camera;
         this.viewer.change();
@@ -139,7 +139,7 @@ class BedPanel {
         this.colourAs(this.facts.film ? asInFilm : 0);
     }
 
-    // With the ranges that the moments need.
+    // Finds the colourings of the bed, with the ranges that the moments need.
     findColourings() {
         const facts = this.facts;
         const heights = this.viewer.startHeights();
@@ -161,7 +161,7 @@ class BedPanel {
             this.colourings.push({name: `as in the film: ${film.title}`, by: asInFilm, range: [0, 1], ends: [film.low, film.high], unit: film.unit});
     }
 
-    /** Colours as another bed has them, each on the scale that both need. */
+    /** Gives all beds the same colourings, each on a scale that suits all of them. */
     static shareColourings(panels) {
         const common = [];
         for (const one of panels.flatMap((panel) => panel.colourings))
@@ -191,7 +191,7 @@ class BedPanel {
         }
     }
 
-    // Shares of the logarithmic scale, and the speeds in m/s, between which nearly all grains are.
+    // The range of speeds in which nearly all grains are: as shares of the logarithmic scale, and in m/s.
     usualSpeeds() {
         const {packed, speed} = this.frames, bytes = [];
         const stride = 4 * Math.max(1, Math.floor(packed.length / 4 / 20000));
@@ -204,7 +204,7 @@ class BedPanel {
         return {shares: [low, high], ends: [speedOf(low), speedOf(high)]};
     }
 
-    // m, of nine in ten grains, so that a few that fly do not make all others grey.
+    // m; nine in ten grains rise no more than this, so that a few flying grains do not make all others grey.
     largestRise() {
         const frames = this.frames, rises = [];
         const stride = Math.max(1, Math.floor((frames.grains * frames.times.length) / 20000));
@@ -217,7 +217,7 @@ class BedPanel {
         return rises[Math.floor(0.9 * rises.length)] || 1e-6;
     }
 
-    // Where this run has it too.
+    // Colours by the same quantity as another run, if this run has it too.
     colourAs(by) {
         if (!this.colourings.some((one) => one.by === by)) return;
         this.part("colour-by").value = by;
@@ -278,7 +278,7 @@ class BedPanel {
             const axis = ["x", "y", "z"].indexOf(select.value);
             slider.disabled = axis < 0;
             const normal = [0, 0, 0];
-            let distance = 1; // nothing lies beyond it: 0 > 1 is false everywhere
+            let distance = 1; // with a zero normal nothing is cut off: 0 > 1 is false everywhere
             if (axis >= 0) {
                 const share = Number(slider.value) / 1000, {low, high} = this.facts.box;
                 normal[axis] = 1;
@@ -311,7 +311,7 @@ class BedPanel {
         });
     }
 
-    /** grain: its index, or -1 for none. */
+    /** Chooses a grain by its index; -1 chooses none. */
     choose(grain) {
         this.viewer.chosen = grain;
         if (grain >= 0) this.input.value = this.frames.ids[grain];
@@ -348,7 +348,7 @@ class BedPanel {
         if (this.follow.checked) viewer.camera.target = place;
     }
 
-    // Who pushes it, at a key moment; elsewhere who is near.
+    // Says which grains push this one at a key moment; at other moments, which grains are near.
     neighbours(frame, grain) {
         const mostNamed = 12, pushes = this.forces?.of(frame, grain);
         const listed = (list) => list.slice(0, mostNamed).join(", ") + (list.length > mostNamed ? " and others" : "") || "none";
@@ -358,7 +358,7 @@ class BedPanel {
     }
 }
 
-/** m along a path's straight pieces; a lower bound of the way, which the places lie on. */
+/** The length of a path's straight pieces in m. It is a lower bound of the grain's way between these places. */
 function lengthOf(path) {
     let length = 0;
     for (let k = 1; k < path.length; ++k)
@@ -367,7 +367,7 @@ function lengthOf(path) {
     return length;
 }
 
-/** Turning, zooming and choosing, by mouse, finger and keys. */
+/** Turns and zooms the view and chooses grains, by mouse, finger and keys. */
 class Handling {
     constructor(panel) {
         this.panel = panel;

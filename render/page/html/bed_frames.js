@@ -5,7 +5,7 @@
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the moment
 //   before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the film colours its
 //   grains by a quantity, N bytes of that: 0 where it is not known, else 1 to 255 over the film's range.
-// Where a grain is not present all of it is 0. A place is low + number (high - low) / 65535 along each axis.
+// When a grain is not present all its bytes are 0. A place is low + number (high - low) / 65535 along each axis.
 class BedFrames {
     constructor(facts, bytes) {
         Object.assign(this, facts); // grains, times, low, high, places, speed, ...
@@ -17,8 +17,8 @@ class BedFrames {
         this.ids = Int32Array.from({length: n}, (_, i) => view.getInt32(4 * i, true));
         this.species = Uint16Array.from({length: n}, (_, i) => view.getUint16(4 * n + 2 * i, true));
         this.radii = Float32Array.from({length: n}, (_, i) => view.getFloat32(6 * n + 4 * i, true));
-        // As the graphics card reads it: x, y, z; speed and contact number, or 255 twice for a grain that is not
-        // there.
+        // The data as the graphics card reads it: x, y, z; speed and contact number, or 255 twice for a grain that
+        // is not present.
         this.packed = new Uint16Array(4 * n * k);
         this.filmBytes = new Uint8Array(this.film ? n * k : 0);
         this.unpack(bytes.subarray(10 * n), perGrain * n);
@@ -48,7 +48,7 @@ class BedFrames {
         return this.packed[4 * (frame * this.grains + grain) + 3] !== 0xffff;
     }
 
-    /** m. */
+    /** The place of a grain's middle in m. */
     place(frame, grain) {
         const at = 4 * (frame * this.grains + grain);
         return [0, 1, 2].map(
@@ -56,22 +56,22 @@ class BedFrames {
         );
     }
 
-    /** m/s. A byte b from 1 on stands for lowest (highest / lowest)^((b - 1) / 253); 0 for less than lowest. */
+    /** The speed in m/s. A byte b from 1 on stands for lowest (highest / lowest)^((b - 1) / 253); 0 for less than lowest. */
     speedAt(frame, grain) {
         const byte = this.packed[4 * (frame * this.grains + grain) + 3] & 0xff;
         const {lowest, highest} = this.speed;
         return byte === 0 ? 0 : lowest * Math.pow(highest / lowest, (byte - 1) / 253);
     }
 
-    /** null where it is not known. */
+    /** The number of contacts; null when it is not known. */
     contactsAt(frame, grain) {
         const number = this.packed[4 * (frame * this.grains + grain) + 3] >> 8;
         return number === 255 ? null : number;
     }
 
     /**
-     * Where the grain was, from the first moment to `frame`; m. null where it was not there, and between two places
-     * where it left a periodic container on one side and came in on the other.
+     * The places of the grain from the first moment to `frame`, in m. null stands where it was not present, and between
+     * two places where it left a periodic container on one side and came in on the other.
      */
     pathUntil(frame, grain) {
         const path = [];
@@ -84,8 +84,8 @@ class BedFrames {
     }
 
     /**
-     * Grains whose surfaces are nearer to this one's than a twentieth of its diameter. Whether they push each other the
-     * places do not tell.
+     * Grains whose surfaces are nearer to this one's than a twentieth of its diameter. The places do
+     * not tell whether these grains push each other.
      */
     nearNeighbours(frame, grain) {
         const here = this.place(frame, grain), radius = this.radii[grain], near = [];

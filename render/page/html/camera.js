@@ -1,9 +1,10 @@
 // A camera that turns about a point, with the film's angles: azimuth 0 looks along -x, and the eye goes to the
-// right as it grows; elevation counts from the horizon. z is up, or what the film has: the drum that lies, say.
+// right as it grows; elevation counts from the horizon. z is up, unless the film has another direction, as for a drum
+// that lies.
 class Camera {
     /**
-     * view: {azimuth, elevation, fov} in degrees, and where z is not up: up, and front, where azimuth 0 looks from. box: {low,
-     * high} in m, which the picture has whole.
+     * view: {azimuth, elevation, fov} in degrees. If z is not up it also has `up`, and `front`, from where azimuth 0
+     * looks. box: {low, high} in m; all of it is in the picture.
      */
     constructor(view, box) {
         this.up = view.up ?? [0, 0, 1];
@@ -22,7 +23,7 @@ class Camera {
         this.fit();
     }
 
-    /** Goes as far away as it takes to have the box in the picture. */
+    /** Moves away until the whole box is in the picture. */
     fit() {
         const {forward, right, up} = this.axes();
         const tanY = Math.tan((this.start.fov * Math.PI) / 360), tanX = tanY * this.aspect;
@@ -63,14 +64,14 @@ class Camera {
         this.distance = Math.min(8 * this.fitted, Math.max(0.02 * this.fitted, this.distance / factor));
     }
 
-    /** Moves what is looked at by so many pictures' heights. */
+    /** Moves the point that is looked at; the distances are in heights of the picture. */
     pan(toRight, toTop) {
         const {right, up} = this.axes();
         const height = 2 * this.distance * Math.tan((this.start.fov * Math.PI) / 360);
         this.target = this.target.map((value, axis) => value - height * (toRight * right[axis] + toTop * up[axis]));
     }
 
-    /** From the lab to the camera's axes, which look along -z; columns first. */
+    /** The matrix from the lab's axes to the camera's, which looks along -z; column by column. */
     view() {
         const {forward, right, up} = this.axes(), eye = this.eye();
         const back = forward.map((value) => -value);

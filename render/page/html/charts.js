@@ -5,12 +5,12 @@ function colourOf(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
-const chartHeight = 200; // CSS pixels, axes and all
+const chartHeight = 200; // CSS pixels, with the axes
 
 class Charts {
     /**
-     * runs: of each run {name, measures}, measures being {columns: [{name, label, unit}], values: [[...]]} with the
-     * time as the first column; a line each. shown: names of the columns that have a chart at first.
+     * runs: {name, measures} for each run, which gets a line in each chart. measures: {columns: [{name, label, unit}],
+     * values: [[...]]}; the time is the first column. shown: names of the columns that have a chart at first.
      */
     constructor(runs, shown, runTime) {
         this.runTime = runTime;
@@ -32,7 +32,7 @@ class Charts {
             matchMedia(query).addEventListener("change", () => this.redraw());
     }
 
-    /** Takes other values of a run, of more columns or more rows. */
+    /** Takes new values of a run, with more columns or more rows. */
     take(measures, run = 0) {
         this.runs[run].measures = measures;
         this.takeAll();
@@ -45,13 +45,13 @@ class Charts {
         for (const [name, plot] of this.plots) plot.setData(this.dataOf(name));
     }
 
-    // The values of a column in a run; null where it has none.
+    // The values of a column in a run; null when the run lacks it.
     valuesOf(name, {measures}) {
         const at = measures.columns.findIndex((column) => column.name === name);
         return at > 0 ? measures.values[at] : null;
     }
 
-    // Times, and a line for each run.
+    // The data of a chart: the times, and a line for each run.
     dataOf(name) {
         const tables = this.runs.map((run) => {
             const times = run.measures.values[0];
@@ -102,7 +102,7 @@ class Charts {
         this.resize(); // one more chart may leave the others less room
     }
 
-    // What the chart shows, for those who do not see it.
+    // Words for readers who cannot see the chart.
     summaryOf(column) {
         const several = this.runs.length > 1;
         const ofRuns = this.runs.map((run) => (several ? `${run.name}: ` : "") + this.summaryOfRun(column, run));
@@ -176,7 +176,7 @@ class Charts {
         over.addEventListener(
             "wheel",
             (event) => {
-                if (!event.ctrlKey && !event.shiftKey) return; // the page scrolls
+                if (!event.ctrlKey && !event.shiftKey) return; // then the page scrolls
                 event.preventDefault();
                 const x = event.clientX - over.getBoundingClientRect().left;
                 this.zoom((event.deltaY || event.deltaX) > 0 ? 1.25 : 0.8, plot.posToVal(x, "x"));
@@ -185,7 +185,7 @@ class Charts {
         );
     }
 
-    /** Makes the range of time so many times as long, about a time. */
+    /** Makes the shown range of time longer by a factor; the time `about` keeps its place. */
     zoom(factor, about) {
         const {begin, end} = this.runTime;
         const {min, max} = this.range ?? {min: begin, max: end};
@@ -213,7 +213,7 @@ class Charts {
     }
 }
 
-// Lines of several runs differ by colour and by dashes.
+// Lines of several runs differ in colour and in dashes.
 function styleOfRun(k, runs) {
     const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 5]];
     const stroke = () => colourOf(runs > 1 ? `--run-${k % dashes.length}` : "--accent");
@@ -224,7 +224,7 @@ function titleOf(column) {
     return column.unit ? `${column.label} (${column.unit})` : column.label;
 }
 
-/** The rows of measures.csv, column by column, time first; null for what has no value. facts: of its columns. */
+/** Reads measures.csv column by column, the time first; empty cells become null. facts: about the columns. */
 function readTable(text, facts) {
     const lines = text.trimEnd().split("\n");
     const names = lines[0].split(",");

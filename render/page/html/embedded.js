@@ -1,4 +1,4 @@
-// What the page carries inside itself: facts as JSON, and blobs as base64 in elements that come last.
+// Reads what the page carries inside itself: facts as JSON, and blobs as base64 in its last elements.
 
 /** The JSON of the element `id`; null without one. */
 function factsOf(id) {
@@ -15,14 +15,14 @@ function bytesOf(id) {
     return Uint8Array.fromBase64 ? Uint8Array.fromBase64(text) : bytesOfBase64(text);
 }
 
-// For browsers of before 2025.
+// For browsers from before 2025.
 function bytesOfBase64(text) {
     const unpacked = atob(text), bytes = new Uint8Array(unpacked.length);
     for (let i = 0; i < unpacked.length; ++i) bytes[i] = unpacked.charCodeAt(i);
     return bytes;
 }
 
-/** A promise of the bytes that zlib has packed. Fails where the browser cannot unpack or they are damaged. */
+/** A promise of the unpacked bytes. It fails when the browser cannot unpack them or they are damaged. */
 async function inflated(bytes) {
     if (typeof DecompressionStream === "undefined")
         throw new Error("this browser cannot unpack them (no DecompressionStream)");
@@ -30,7 +30,7 @@ async function inflated(bytes) {
     return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** A number for people: four digits, no exponent where none is needed. */
+/** A number as text: four digits, with an exponent only when it is needed. */
 function numberText(value) {
     if (value === null || !Number.isFinite(value)) return "–";
     const size = Math.abs(value);
@@ -38,7 +38,7 @@ function numberText(value) {
     return String(Number(value.toPrecision(4)));
 }
 
-/** The index of the entry of `times`, which rise, that is nearest to `time`. */
+/** The index of the entry nearest to `time`. The entries of `times` must rise. */
 function nearestIndex(times, time) {
     let low = 0, high = times.length - 1;
     while (low < high) {

@@ -1,4 +1,4 @@
-// Fields of the run as a map in the plane of the film, and a profile of them, at the record of the page's time.
+// Shows fields of the run as a map in the plane of the film, and as a profile, at the record of the page's time.
 //
 // The bytes are, for Ny cells across and Nz in height (y fastest), Q quantities and R records: Ny Nz shares of the cells
 // inside the container, of 255; then for each record and quantity Ny Nz bytes, 0 to 254 from its lowest value to its
@@ -34,7 +34,7 @@ class FieldsPanel {
         return document.getElementById(name + this.n);
     }
 
-    // The record whose middle is nearest.
+    // The record whose middle is nearest to the time.
     showTime(time) {
         const record = nearestIndex(this.facts.records.map(([begin, end]) => (begin + end) / 2), time);
         if (record === this.record) return;
@@ -42,7 +42,7 @@ class FieldsPanel {
         this.show();
     }
 
-    /** Of a cell; null where there is none. */
+    /** The value of a quantity in a cell; null when there is none. */
     value(cell, quantity = this.quantity) {
         const byte = this.byteOf(cell, quantity), {low, high} = this.facts.quantities[quantity];
         return byte === 255 ? null : low + (byte / 254) * (high - low);
@@ -62,7 +62,7 @@ class FieldsPanel {
         return this.facts.quantities[this.quantity];
     }
 
-    // Velocities may go both ways: then white, or black, is none.
+    // Velocities may have both signs; then white (or black) stands for zero.
     isSigned() {
         const {low, high} = this.about();
         return low < 0 && high > 0;
@@ -97,7 +97,7 @@ class FieldsPanel {
         this.part("field-high").textContent = `${numberText(high)} ${this.about().unit}`;
     }
 
-    /** Means over one direction, each cell by its share inside the container: [[place in m, value or null]]. */
+    /** Means over one direction, weighted by the cells' shares inside the container: [[place in m, value or null]]. */
     profile(along) {
         const {y, z} = this.facts, axis = this.facts[along], points = [];
         for (let k = 0; k < axis.count; ++k) {
@@ -113,7 +113,8 @@ class FieldsPanel {
         return points;
     }
 
-    // Height upwards, or across to the right; one scale for all records, so that they can be compared.
+    // Draws the profile, with height upwards or the place across to the right. All records have the same scale, so that
+    // they can be compared.
     drawProfile() {
         const canvas = this.line, scale = Math.min(2, devicePixelRatio || 1);
         const width = canvas.clientWidth || 300, height = canvas.clientHeight || 220;

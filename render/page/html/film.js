@@ -1,15 +1,15 @@
 // The film, from the page's own bytes, tied to the run's time by a table of frames.
 class FilmPanel {
-    /** film: facts {rate, type, times}; times[k] is the run's time, s, that frame k shows, or times is empty. */
+    /** film: facts {rate, type, times}; times[k] is the run's time in s that frame k shows; times may be empty. */
     constructor(film, bytes, runTime, bar, n = "") {
-        this.n = n; // what the ids of its elements end in, where the page has several films
+        this.n = n; // ending of the ids of its elements, when the page has several films
         this.others = []; // films beside this one
-        this.leads = true; // among them: its frames are the page's moment
+        this.leads = true; // whether this film leads the others: its frames are the page's moment
         this.film = film;
         this.runTime = runTime;
         this.video = document.getElementById("film" + n);
-        this.wanted = null; // a frame to seek while another seek goes on
-        this.follows = false; // the last seek came from chart, bed or bar
+        this.wanted = null; // frame to seek when the present seek has ended
+        this.follows = false; // whether the last seek came from chart, bed or bar
         const blob = new Blob([bytes], {type: film.type});
         this.video.src = URL.createObjectURL(blob);
         this.tied = film.times.length > 0;
@@ -28,7 +28,7 @@ class FilmPanel {
         });
     }
 
-    // Film, bed and charts begin at one moment: the first frame takes the place of the poster, which may be another.
+    // Film, bed and charts begin at one moment: the first frame replaces the poster, which may show another moment.
     showStart() {
         this.wanted = 0;
         this.video.addEventListener("loadeddata", () => this.seekWanted(), {once: true});
@@ -47,7 +47,8 @@ class FilmPanel {
         video.after(element("p", {className: "no-print"}, button));
     }
 
-    // By the bar or its own buttons. Films that show the same moments go along; others are sought.
+    // To be called when the film is started, by the bar or by its own buttons. Other films that show the same moments
+    // play along; the rest are sought.
     begun(bar) {
         if (this.goesAlong) return;
         this.follows = false;
@@ -84,8 +85,8 @@ class FilmPanel {
         document.getElementById("film-says" + this.n).textContent = text;
     }
 
-    // Each frame as it is shown. Where the browser does not say, the film's clock does; it also has the last word when
-    // the film stops, for a browser in a hurry leaves out frames.
+    // Notices each frame as it is shown. If the browser does not report frames, the film's clock is used. When the film
+    // stops the clock is used in any case, since a busy browser leaves out frames.
     watchFrames() {
         this.video.addEventListener("pause", () => this.shown(this.video.currentTime));
         if (!this.video.requestVideoFrameCallback) {
@@ -93,7 +94,7 @@ class FilmPanel {
             return;
         }
         const next = (now, frame) => {
-            // A late frame of a film that has stopped is not where it stopped.
+            // When a film has stopped, a frame that is reported late is not the one where it stopped.
             const stopped = this.video.paused && !this.video.seeking;
             this.shown(stopped ? this.video.currentTime : frame.mediaTime);
             this.video.requestVideoFrameCallback(next);
@@ -109,10 +110,10 @@ class FilmPanel {
         if (this.leads && !this.follows) this.runTime.set(this.film.times[frame], this);
     }
 
-    /** To the frame that is nearest to the run's time. */
+    /** Goes to the frame that is nearest to the run's time. */
     seek(time) {
         const wanted = nearestIndex(this.film.times, time);
-        const mostLate = 2; // frames, of a film that goes along
+        const mostLate = 2; // frames by which a film that plays along may lag
         if (this.goesAlong && Math.abs(wanted - (this.frame ?? wanted)) <= mostLate) return;
         if (!this.goesAlong) this.video.pause();
         this.wanted = wanted;

@@ -1,4 +1,4 @@
-// The page of a run that still goes: asks the program that shows it, once a second, what is new.
+// The page of a run that is still computed: once a second it asks the program that shows it what is new.
 
 const secondsBetweenLooks = 1;
 
@@ -78,7 +78,7 @@ class Live {
             report.charts = this.charts;
         } else {
             this.charts.take(measures);
-            for (const name of measures.charts) this.charts.addOnce(name); // those that change only now
+            for (const name of measures.charts) this.charts.addOnce(name); // charts of columns that begin to change only now
         }
         this.charts.setRange(this.charts.range);
     }
@@ -104,7 +104,7 @@ class Live {
         }
     }
 
-    // Walls of any shape come once.
+    // The meshes of walls come only once.
     async meshes(facts) {
         if (!facts.meshes?.length) return null;
         const answer = await fetch("./live/meshes", {cache: "no-store"});
@@ -124,7 +124,7 @@ class Live {
     }
 }
 
-/** "45 s", "3 min", "2 h 5 min". */
+/** A duration in words: "45 s", "3 min", "2 h 5 min". */
 function durationText(seconds) {
     const whole = Math.ceil(seconds);
     if (whole < 100) return `${whole} s`;

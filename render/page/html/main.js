@@ -1,4 +1,4 @@
-// Puts the page together: charts at once, then film and bed when the bytes at the page's end are there.
+// Puts the page together: charts at once, then film and bed when the bytes at the page's end have been loaded.
 
 function say(id, text) {
     const place = document.getElementById(id);
@@ -41,7 +41,7 @@ async function openBed(run, n) {
     }
 }
 
-// The captions of the film, each of which leads to its moment. The one of the page's moment stands below the film too.
+// Makes the film's captions lead to their moments. The caption of the page's moment also stands below the film.
 function bindStory(runTime) {
     for (const button of document.querySelectorAll("button[data-time]"))
         button.addEventListener("click", () => runTime.set(Number(button.dataset.time), "story"));
@@ -57,7 +57,7 @@ function bindStory(runTime) {
     });
 }
 
-// For the back row of a lecture hall.
+// Binds the button for large print, for the back row of a lecture hall.
 function bindLargePrint() {
     const button = document.getElementById("large-print");
     button.addEventListener("click", () => {
@@ -80,7 +80,7 @@ function bindCopies() {
         });
 }
 
-/** Words, poster and charts are on the screen before bytes are unpacked. A hidden page has no pictures to wait for. */
+/** Waits until words, poster and charts are on the screen, before bytes are unpacked. A hidden page does not wait. */
 function firstPicture() {
     const longest = 3000; // ms
     return new Promise((done) => {
@@ -100,7 +100,7 @@ async function openFields(run, n) {
     }
 }
 
-// What the ids of a run's elements end in: nothing where the page has one run alone.
+// Ending of the ids of a run's elements: empty when the page has only one run.
 function endOf(k) {
     return facts.runs ? `-${k}` : "";
 }
@@ -121,7 +121,7 @@ async function openPage() {
     for (const [k, run] of runs.entries()) await openTable(run, k, endOf(k));
 }
 
-// The times that the buttons go through: of the film's frames, or else of the bed's moments or the measures' rows.
+// The times that the buttons go through: those of the film's frames, else of the bed's moments or the measures' rows.
 function stepsOf(run) {
     if (run.film && run.film.times.length) return run.film.times;
     return run.bed ? run.bed.times : run.measures ? run.measures.values[0] : [0];
@@ -135,7 +135,7 @@ function makeCharts() {
     return new Charts(tables, shown, runTime);
 }
 
-// Controls of what the run has not kept.
+// Hides controls for things that the run has not kept.
 function hideUseless() {
     if (facts.live || charts) return;
     for (const part of document.querySelectorAll("#chart-controls, .whole-run")) part.hidden = true;
@@ -154,7 +154,7 @@ bindCopies();
 bindLargePrint();
 bindStory(runTime);
 
-// For tests and for the curious.
+// An object for tests and for curious readers.
 const report = {runTime, charts, film: null, bed: null};
 window.grainreelReport = report;
 document.addEventListener("DOMContentLoaded", async () => {

@@ -1,4 +1,4 @@
-// Walls of any shape: triangles and lines that the graphics card has once, turned to where their body is.
+// Draws walls from meshes. The graphics card has their triangles and lines once; they are moved to where their body is.
 //
 // The bytes are, for each mesh of V vertices, T triangles and E edges: x, y and z of the vertices, each as V low bytes and V
 // high bytes of a zigzag difference from the vertex before, in 65535ths of the mesh's box; the three corners of triangles
@@ -59,7 +59,7 @@ void main() {
     gl_Position = projection * vec4(here + 0.5 * across * wide * pixel * aside, 1.0);
 }`;
 
-/** facts: [{body, name, vertices, triangles, glass, sided, edges, low, high}]. Gives what is drawn of each. */
+/** Unpacks what is drawn of each mesh. facts: [{body, name, vertices, triangles, glass, sided, edges, low, high}]. */
 function unpackMeshes(facts, bytes) {
     let at = 0;
     const planes = (count, each) => {
@@ -91,7 +91,10 @@ function unpackMeshes(facts, bytes) {
     });
 }
 
-/** Of each edge: its two ends, and the sum of the normals of its triangles where these are glass on the other side; 9 numbers, m. */
+/**
+ * For each edge 9 numbers: its two ends in m, and the sum of the normals of its triangles that are glass on the other
+ * side.
+ */
 function edgesWithSides(mesh) {
     const {places, corners, ends} = mesh, vertices = places.length / 3;
     const key = (a, b) => Math.min(a, b) * vertices + Math.max(a, b);
@@ -120,7 +123,7 @@ function edgesWithSides(mesh) {
 }
 
 class Meshes {
-    /** gl: of the viewer. */
+    /** gl: the viewer's WebGL context. */
     constructor(gl, facts, bytes) {
         this.gl = gl;
         this.faces = makeProgram(gl, meshVertexShader, meshFragmentShader);
@@ -150,7 +153,7 @@ class Meshes {
         return {body, name, faces, lines, edges, solid: triangles - glass - sided, glass, sided};
     }
 
-    /** What hides what is behind it, and the lines. view: {eye, view, projection, height, pen} of the viewer. */
+    /** Draws solid faces and the lines. view: {eye, view, projection, height, pen} of the viewer. */
     drawSolid(poses, view, colours) {
         const gl = this.gl;
         gl.enable(gl.POLYGON_OFFSET_FILL);
@@ -164,7 +167,7 @@ class Meshes {
         this.drawLines(poses, view, colours);
     }
 
-    /** What stands before the grains, when all that is solid has been drawn. */
+    /** Draws the glass before the grains. To be called when everything solid has been drawn. */
     drawGlass(poses, view, colours) {
         const gl = this.gl;
         gl.enable(gl.BLEND);
@@ -179,7 +182,7 @@ class Meshes {
         gl.disable(gl.BLEND);
     }
 
-    // part: of a mesh, the first triangle and how many.
+    // part: for each mesh, the first triangle and the number of triangles.
     drawFaces(poses, view, look, part) {
         const gl = this.gl, program = this.faces;
         gl.useProgram(program.program);
@@ -216,4 +219,4 @@ class Meshes {
     }
 }
 
-const opaque = {cover: [1, 1]}, glass = {cover: [0.1, 0.35]}; // of a face that is seen from ahead, and of one seen along
+const opaque = {cover: [1, 1]}, glass = {cover: [0.1, 0.35]}; // of a face seen from ahead, and of one seen along

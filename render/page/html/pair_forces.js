@@ -1,4 +1,4 @@
-// Who pushes whom at key moments, unpacked.
+// Unpacks which grains push each other at key moments.
 //
 // The bytes are, for each key moment of P pairs: low, middle and high bytes of the first grain's place in the list of
 // grains, as its difference from the pair before (P each); low, middle and high bytes of the second grain's place itself,
@@ -6,7 +6,7 @@
 const firstOfWalls = 0xffffff - 1000;
 
 class PairForces {
-    /** facts: {moments, pairs, lowest, highest} of the bed's facts. grains: how many there are. */
+    /** facts: {moments, pairs, lowest, highest} from the bed's facts. grains: their number. */
     constructor(facts, bytes, grains) {
         const bytesAPair = 7, all = facts.pairs.reduce((sum, pairs) => sum + pairs, 0);
         if (bytes.length !== bytesAPair * all)
@@ -37,7 +37,7 @@ class PairForces {
         return byte === 0 ? 0 : this.lowest * Math.pow(this.highest / this.lowest, (byte - 1) / 253);
     }
 
-    /** N, of each grain: the sum of the normal forces on it. null where they are not known. */
+    /** For each grain, the sum of the normal forces on it in N; null when forces are not known at this moment. */
     sums(moment) {
         const pairs = this.at.get(moment);
         if (!pairs) return null;
@@ -49,14 +49,14 @@ class PairForces {
         return sums;
     }
 
-    // The two sums, in N, between which nearly all lie.
+    // The range of sums, in N, in which nearly all lie.
     setRange() {
         const all = this.moments.flatMap((moment) => [...this.sums(moment)].filter((sum) => sum > 0)).sort((a, b) => a - b);
         const at = (share) => all[Math.floor(share * (all.length - 1))] ?? 1;
         this.range = [at(0.05), Math.max(1.01 * at(0.05), at(0.995))];
     }
 
-    /** Of a grain: [{other, force}], the strongest first; other is null for a wall. null where it is not known. */
+    /** The forces on a grain, [{other, force}], the strongest first; other is null for a wall. null when not known. */
     of(moment, grain) {
         const pairs = this.at.get(moment);
         if (!pairs) return null;
@@ -69,7 +69,7 @@ class PairForces {
         return found.sort((a, b) => b.force - a.force);
     }
 
-    /** The key moment before (by = -1) or behind (1) a moment; null without one. */
+    /** The key moment before (by = -1) or after (by = 1) a moment; null when there is none. */
     next(moment, by) {
         const those = this.moments.filter((one) => (by < 0 ? one < moment : one > moment));
         return those.length ? (by < 0 ? those[those.length - 1] : those[0]) : null;
@@ -77,8 +77,8 @@ class PairForces {
 }
 
 /**
- * What the viewer draws as chains: [from, to, force], places in m, of pairs of grains; the strongest `most` of them, by
- * rising force. shows(grain): whether it is to be seen.
+ * The chains that the viewer draws, by rising force: [from, to, force] for the strongest `most` pairs of grains; places
+ * are in m. shows(grain): whether the grain is visible.
  */
 function chainsOf(forces, frames, moment, shows, most) {
     const pairs = forces.at.get(moment), chains = [];

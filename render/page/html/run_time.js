@@ -4,11 +4,11 @@ class RunTime {
         this.begin = begin;
         this.end = end;
         this.now = begin;
-        this.isLive = false; // then the run alone moves it
+        this.isLive = false; // when true, only the run moves the time
         this.listeners = [];
     }
 
-    /** listener(time, source): source is whoever moved the time, so that it need not follow itself. */
+    /** listener(time, source): source is the part that moved the time; it need not follow itself. */
     listen(listener) {
         this.listeners.push(listener);
     }
@@ -22,7 +22,7 @@ class RunTime {
     }
 }
 
-/** The bar with the slider over the run, the buttons and the words of the moment. */
+/** The bar with the slider over the run's time, the buttons, and the words about the moment. */
 class TimeBar {
     /** steps: the times that the buttons go through. */
     constructor(runTime, steps, drive) {
@@ -32,7 +32,7 @@ class TimeBar {
         this.slider = document.getElementById("time");
         this.words = document.getElementById("time-words");
         this.playing = null;
-        this.player = null; // the film's, if there is one
+        this.player = null; // player of the film, if there is one
         this.stepping = {play: () => this.playSteps(), pause: () => this.stopSteps()};
         this.slider.min = 0;
         this.slider.max = 1000;
@@ -61,7 +61,7 @@ class TimeBar {
         this.step(by);
     }
 
-    /** To the next of the steps, or the one before. */
+    /** Goes to the next step, or to the one before. */
     step(by) {
         this.whoPlays().pause();
         const at = nearestIndex(this.steps, this.runTime.now);
@@ -77,13 +77,13 @@ class TimeBar {
         this.slider.setAttribute("aria-valuetext", text);
     }
 
-    /** Whoever plays says so, since the film can also be started by its own buttons. */
+    /** To be called by the player when it starts or stops, since the film can also be started by its own buttons. */
     setPlaying(is) {
         this.isPlaying = is;
         this.button.textContent = is ? "Pause" : "Play";
     }
 
-    // Without a film the bed's moments go by, twelve a second.
+    // Without a film this plays the bed's moments, twelve a second.
     playSteps() {
         this.setPlaying(true);
         let at = nearestIndex(this.steps, this.runTime.now);

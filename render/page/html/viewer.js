@@ -1,11 +1,11 @@
-// The bed in three dimensions, by WebGL 2: a call for all grains, one for the faces of walls, one for segments: edges,
-// the way of a grain, force chains; and four for each mesh. All moments lie on the graphics card; to show another one sends the walls' corners,
-// segments, and at a key moment a byte a grain.
+// Draws the bed in three dimensions with WebGL 2. One call draws all grains, one the faces of walls, one all segments
+// (edges, the way of a grain, force chains), and each mesh takes four. All moments lie on the graphics card. To show
+// another one, only the walls' corners and the segments are sent, and at a key moment a byte for each grain.
 const numbersASegment = 10; // from, to, width, colour
-const shrunk = 0.35; // radii where force chains are shown
+const shrunk = 0.35; // factor of the radii while force chains are shown
 
 class Viewer {
-    /** Throws an Error in words where the browser cannot. */
+    /** Throws an Error, with words for the reader, when the browser lacks what is needed. */
     constructor(canvas, frames, walls, camera) {
         this.canvas = canvas;
         this.frames = frames;
@@ -18,12 +18,12 @@ class Viewer {
         this.colourBy = 0;
         this.range = [0, 1];
         this.slice = [0, 0, 0, 1];
-        this.path = []; // of the chosen grain, m
+        this.path = []; // way of the chosen grain, m
         this.grains = makeProgram(this.gl, grainVertexShader, grainFragmentShader);
         this.wall = makeProgram(this.gl, wallVertexShader, wallFragmentShader);
         this.segment = makeProgram(this.gl, segmentVertexShader, segmentFragmentShader);
         this.chains = []; // [from, to, width in m]
-        this.pressed = null; // a byte a grain, or nothing where forces are not known
+        this.pressed = null; // a byte for each grain; null when forces are not known
         this.loadGrains();
         this.loadWalls();
         this.loadSegments();
@@ -32,7 +32,7 @@ class Viewer {
         this.rampTexture = this.gl.createTexture();
     }
 
-    /** Other moments of the same run, with their walls. */
+    /** Takes other moments of the same run, with their walls. */
     take(frames, walls) {
         this.frames = frames;
         this.walls = walls;
@@ -41,7 +41,7 @@ class Viewer {
         this.loadGrains();
     }
 
-    /** Walls of any shape: meshes of the bed's facts, and their bytes. They belong to all moments. */
+    /** Takes the meshes of walls: the bed's facts about them, and their bytes. They belong to all moments. */
     setMeshes(facts, bytes) {
         this.meshes = new Meshes(this.gl, facts, bytes);
     }
@@ -79,7 +79,7 @@ class Viewer {
         }
     }
 
-    /** bytes: of each grain, or nothing where forces are not known at this moment. */
+    /** bytes: the force on each grain as a byte; null when forces are not known at this moment. */
     setPressed(bytes) {
         const gl = this.gl;
         this.pressed = bytes;
@@ -88,7 +88,7 @@ class Viewer {
         gl.bufferSubData(gl.ARRAY_BUFFER, 0, bytes);
     }
 
-    /** m, where each grain is in the first moment that has it. */
+    /** The height in m of each grain in the first moment that has it. */
     startHeights() {
         const frames = this.frames, heights = new Float32Array(frames.grains);
         for (let grain = 0; grain < frames.grains; ++grain) {
@@ -111,7 +111,7 @@ class Viewer {
         }
     }
 
-    // Instances of a band of four corners; each has numbersASegment floats.
+    // Draws instances of a band of four corners; each has numbersASegment floats.
     loadSegments() {
         const gl = this.gl;
         this.segmentArray = gl.createVertexArray();
@@ -127,12 +127,12 @@ class Viewer {
         }
     }
 
-    /** rgba: four bytes a species; alpha 255 shown, 128 ghost, 0 hidden. */
+    /** rgba: four bytes for each species; alpha is 255 for shown, 128 for ghost, 0 for hidden. */
     setSpecies(rgba) {
         this.texture(this.speciesTexture, rgba, this.gl.NEAREST);
     }
 
-    /** rgba: four bytes a step of the ramp. banded: each step is one colour. */
+    /** rgba: four bytes for each step of the ramp. banded: whether each step is one colour. */
     setRamp(rgba, banded = false) {
         this.texture(this.rampTexture, rgba, banded ? this.gl.NEAREST : this.gl.LINEAR);
     }
@@ -146,7 +146,7 @@ class Viewer {
             gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
     }
 
-    /** Draws with the next picture of the screen. */
+    /** Draws with the next picture of the screen, once. */
     change() {
         if (this.waiting) return;
         this.waiting = true;
@@ -243,14 +243,14 @@ class Viewer {
         if (this.meshes) this.meshes.drawGlass(poses, this.sight(), this.colours);
     }
 
-    // From where, and how large, the canvas is looked at.
+    // The view of the camera and the size of the canvas.
     sight() {
         const pen = Math.min(2, devicePixelRatio || 1); // pixels of the canvas
         return {eye: this.camera.eye(), view: this.camera.view(), projection: this.camera.projection(),
                 height: this.canvas.height, pen};
     }
 
-    // edges: [from, to, colour].
+    // Draws all segments. edges: [from, to, colour].
     drawSegments(edges) {
         const gl = this.gl, program = this.segment, mark = this.colours.mark;
         const pen = Math.min(2, devicePixelRatio || 1); // pixels of the canvas
@@ -290,7 +290,7 @@ class Viewer {
         return (pixel[0] | (pixel[1] << 8) | (pixel[2] << 16)) - 1;
     }
 
-    // The picture of the grains' numbers, as large as the canvas.
+    // Makes room for the picture of the grains' numbers, as large as the canvas.
     makeIds(width, height) {
         const gl = this.gl;
         if (this.ids && this.ids.width === width && this.ids.height === height) return;
@@ -308,7 +308,7 @@ class Viewer {
         this.ids = {framebuffer, buffers, width, height};
     }
 
-    /** Where the middle of a grain is on the canvas, in CSS pixels from its upper left. */
+    /** The place of a grain's middle on the canvas, in CSS pixels from its upper left corner. */
     pixelOf(grain) {
         const place = [...this.frames.place(this.frame, grain), 1];
         const times = (matrix, vector) =>

@@ -1,11 +1,11 @@
-// Walls as the film has them: solid where the eye looks at their inner side, bare edges where they would stand
-// before the grains.
+// Draws walls as in the film: they are solid when the eye looks at their inner side; those that would hide the
+// grains show only their edges.
 //
 // Bodies have poses, moment by moment: slabs and meshes go with them.
 //
 // A slab is {body, inner, outer, from, until}: a flat convex piece of wall, m, in the frame of its body. outer is
-// the other side of its thickness, corner by corner, or empty for a pane. It is there from one time (s) until
-// another, where it has them.
+// the other side of its thickness, corner by corner, or empty for a pane. It may be there
+// only from one time (s) until another.
 const leastOfDisc = 12; // corners
 const firstPlaneBody = 2; // as in engine/state/body.hpp
 
@@ -15,7 +15,7 @@ class Walls {
         this.slabs = slabs.map((slab) => ({...slab, normal: outwardNormal(slab, middle)}));
     }
 
-    /** faces: corners of triangles, each [x, y, z, red, green, blue]; edges: [from, to, colour]. */
+    /** Gives faces, as corners of triangles [x, y, z, red, green, blue], and edges, as [from, to, colour]. */
     vertices(time, places, eye, colours) {
         const faces = [], edges = [];
         for (const slab of this.slabs) {
@@ -32,13 +32,13 @@ class Walls {
     }
 }
 
-/** Where a body is: places has [x, y, z] of each, m, and of one that is turned a unit quaternion w, x, y, z behind it. */
+/** The pose of a body. places: for each body [x, y, z] in m; for a turned one a unit quaternion w, x, y, z follows. */
 function poseOf(places, body) {
     const [x, y, z, ...turn] = places[body] ?? [0, 0, 0];
     return {place: [x, y, z], turn: turn.length ? turn : null};
 }
 
-/** A vector turned by a unit quaternion, or as it is where there is none. */
+/** A vector turned by a unit quaternion, or unchanged when there is none. */
 function turnedBy(turn, vector) {
     if (!turn) return vector;
     const [w, ...axis] = turn;
@@ -46,7 +46,7 @@ function turnedBy(turn, vector) {
     return vector.map((value, k) => value + w * twice[k] + aside[k]);
 }
 
-/** From rest to where the body is now, and back; m. */
+/** These move a point from its place at rest to where the body is now, and back; m. */
 function movedBy({place, turn}, point) {
     return turnedBy(turn, point).map((value, axis) => value + place[axis]);
 }
@@ -55,7 +55,7 @@ function atRest({place, turn}, point) {
     return turnedBy(turn && [turn[0], -turn[1], -turn[2], -turn[3]], point.map((value, axis) => value - place[axis]));
 }
 
-/** The same as a matrix, columns first. */
+/** The same motion as a matrix, column by column. */
 function matrixOf({place, turn}) {
     const columns = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => [...turnedBy(turn, axis), 0]);
     return new Float32Array([...columns.flat(), ...place, 1]);
@@ -87,8 +87,8 @@ function fan(faces, points, colour) {
         for (const point of [points[0], points[i], points[i + 1]]) faces.push([...point, ...colour]);
 }
 
-// seams: numbers of the inner sides that are shared with the next piece of a round wall, and get no line. A disc has
-// rims, and no lines between its corners.
+// seams: numbers of the inner sides that are shared with the next piece of a round wall; they get no line. A disc gets
+// its rims, and no lines between its corners.
 function addEdges(edges, inner, outer, colour, seams = []) {
     const line = (from, to) => edges.push([from, to, colour]);
     for (let i = 0; i < inner.length; ++i) {
