@@ -1,4 +1,5 @@
-// Observers of the drive: the time of a row, what the drive does then, and where it has moved the floor.
+// Observers of the drive: the time of a row, the drive's frequency and acceleration, and the place of the
+// floor.
 #pragma once
 
 #include <limits>
@@ -8,7 +9,7 @@
 
 namespace grainreel::observers {
 
-// Step, time, phase and periods of the drive.
+// Observer of step, time, phase and periods of the drive.
 class Times final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -24,8 +25,8 @@ class Times final : public Observer {
     }
 };
 
-// What the drive does: frequency and acceleration of the stage that is on.
-// It gives f and Gamma = a (2 pi f)^2 / g; during a change and the ramp, those of the moment.
+// Observer of the drive's present stage. It gives the frequency f and Gamma = a (2 pi f)^2 / g; during a
+// change and the ramp these are the values of the moment.
 class DriveNow final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -52,7 +53,7 @@ class DriveNow final : public Observer {
     }
 };
 
-// Where the drive has moved to.
+// Observer of the displacement of the drive.
 class FloorPosition final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

@@ -54,7 +54,7 @@ std::vector<BodyPose> poses_of_meshes(const Surroundings& around, const Pose& po
     return poses;
 }
 
-// m/s, where the contact is; pose: of the drive.
+// Velocity (m/s) of the wall at the contact. `pose` is the pose of the drive.
 Vec3 velocity_of_wall(const Surroundings& around, const std::vector<BodyPose>& meshes, const ContactView& c,
                       const Pose& pose) {
     const auto wall = static_cast<std::size_t>(-1 - c.second);
@@ -107,7 +107,7 @@ void EnergyBalance::look(std::int64_t step) {
         const Vec3 on_wall = c.normal_force * c.normal + c.tangential;
         powers_.walls -= on_wall.dot(velocity_of_wall(around_, meshes, c, pose));
     });
-    // The grains' count has the last force for a whole step; half of that is still to come.
+    // Grains::wall_work counts the last force for a whole step, but half of that is still to come.
     note_traffic();
     terms_.wall_work = wall_work(grains_) + traffic_.work_out - half_step_ * powers_.walls - work_at_start_;
 }
@@ -125,7 +125,7 @@ void EnergyBalance::note_traffic() {
     terms_.left = now.energy_out - left_at_start_;
 }
 
-// The contact as it was at the step before; none where it did not touch.
+// The contact as it was at the last step noted; null if it did not touch then.
 const EnergyBalance::Kept* EnergyBalance::found(std::uint64_t key) {
     constexpr std::size_t nearby = 4;
     const std::size_t end = std::min(before_.size(), place_ + nearby);
@@ -152,9 +152,9 @@ void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
     contacts_.push_back({key_of_c, {step, c.latched_energy, c.sideways_energy, c.rubbing_power}});
 }
 
-// What a tangential spring still held when its contact parted goes to friction. Where a grain has left, or
-// an outlet has opened below it, it went out with that. Rising keys make the sum the same in whatever order
-// the contacts stood.
+// Energy that a tangential spring still held when its contact parted counts as friction. If a grain has left,
+// or an outlet has opened below it, this energy has left with it. The sum goes by rising keys, so it does not
+// depend on the order of the contacts.
 void EnergyBalance::end_contacts() {
     ended_.clear();
     for (std::size_t k = 0; k < before_.size(); ++k)
@@ -169,7 +169,7 @@ void EnergyBalance::end_contacts() {
     }
 }
 
-// Everything saved but the contacts, in its order.
+// Calls each() for everything that is saved except the contacts, in the order of the file.
 template <class Balance, class Each>
 void EnergyBalance::transfer(Balance& balance, const Each& each) {
     each(balance.powers_.walls), each(balance.powers_.damping);
@@ -224,10 +224,11 @@ bool EnergyBalance::are_there(std::uint64_t key) const {
     return there(key >> 32) && (is_at_wall(key) || there(second));
 }
 
-// A grain may touch several glued grains of one face: these stand behind the faces. It may also touch a mesh
-// in several places, which stand behind these in the order in which they are shown.
+// A grain may touch several glued grains of one face, so their numbers come behind those of the faces. It may
+// also touch a mesh in several places. These come behind the glued grains, in the order in which they are
+// shown.
 std::uint64_t EnergyBalance::key_at_wall(std::uint64_t first, const ContactView& c) {
-    constexpr std::uint64_t most_places = 64;  // of one grain at one mesh
+    constexpr std::uint64_t most_places = 64;  // places of one grain at one mesh
     const auto wall = static_cast<std::uint64_t>(-1 - c.second);
     const std::uint64_t faces = around_.faces.size(), from = first << 32 | (std::uint64_t{1} << 31);
     if (c.glued >= 0) return from | (faces + static_cast<std::uint64_t>(c.glued));
@@ -236,7 +237,7 @@ std::uint64_t EnergyBalance::key_at_wall(std::uint64_t first, const ContactView&
     return of_mesh + shown_[of_mesh]++;
 }
 
-// Grains by id, for their indices change; walls behind all grains.
+// The key of a contact. Grains count by id, because their indices change, and walls come behind all grains.
 std::uint64_t EnergyBalance::key(const ContactView& c) {
     const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
     const std::uint64_t first = id(c.first);

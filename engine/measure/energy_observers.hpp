@@ -8,7 +8,7 @@
 
 namespace grainreel::observers {
 
-// What the grains hold, what moving walls have put in, and the rest of that balance.
+// Observer of the energies of the grains, the work of moving walls, and the rest of that balance.
 class Energies final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -42,8 +42,8 @@ class Energies final : public Observer {
     double elastic_ = 0;  // J
 };
 
-// Where the energy goes, term by term: each is measured at the contacts, and none is the rest of the others.
-// The formulas are those of engine/measure/energy.hpp.
+// Observer of the terms of the energy balance. Each term is measured at the contacts, and none is the rest of
+// the others. The formulas are those of engine/measure/energy.hpp.
 // This observer looks at all contacts after every step, so a run takes several times as long.
 class EnergyShares final : public Observer {
   public:

@@ -15,10 +15,11 @@ namespace grainreel {
 namespace {
 
 constexpr double kTurnoverShare = 0.05;
-// A share of the largest sum of energies. Rounding adds up to 5e-13 in 26,000 steps of a free fall.
+// Allowance for rounding, as a share of the largest sum of energies. Rounding adds up to 5e-13 in 26,000
+// steps of a free fall.
 constexpr double kRounding = 1e-8;
 constexpr std::int64_t kStepsPerLook = 200;
-constexpr double kFasterMeanwhile = 2;  // a grain may be until the next look: hit by a heavy one
+constexpr double kFasterMeanwhile = 2;  // a grain hit by a heavy one may be so much faster at the next look
 
 std::string moment(const Clock& clock, std::int64_t step) {
     return fmt::format("step {} ({:.6g} s)", step, clock.time(step));
@@ -39,7 +40,7 @@ double largest_mass(const Species& species) {
     return species.density * std::numbers::pi / 6 * std::pow(species.diameter.largest, 3);
 }
 
-// m/s, at which two grains, or a grain and a wall, overlap by `depth` (m).
+// Speed (m/s) of an impact in which two grains, or a grain and a wall, overlap by `depth` (m).
 double speed_for(double depth, const PairPlan& pair, double effective_mass) {
     return depth * std::sqrt(pair.loading_stiffness / effective_mass);
 }
@@ -50,7 +51,7 @@ struct Box {
     double size() const { return (high - low).norm(); }
 };
 
-// m/s: no two grains are faster against each other than its size.
+// The box of all velocities (m/s). No two grains have a larger relative speed than its size.
 Box velocities(const Grains& grains) {
     if (grains.size() == 0) return {Vec3(0, 0, 0), Vec3(0, 0, 0)};
     Box box{grains.motion[0].velocity, grains.motion[0].velocity};
@@ -66,8 +67,8 @@ std::size_t fastest_of(const Grains& grains) {
     return fastest;
 }
 
-// A vessel of one closed sheet of triangles. Grains may leave one that is open above, or whose walls have a
-// thickness, over its rim.
+// Number of the vessel if it is one closed sheet of triangles, else -1. Grains may leave over the rim of a
+// vessel that is open above, or whose walls have a thickness.
 std::int32_t closed_vessel(const Scene& scene) {
     const SceneMesh* vessel = scene.vessel();
     if (vessel == nullptr || !vessel->surface->facts().closed()) return -1;
@@ -121,7 +122,7 @@ std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& 
 
 namespace {
 
-// Within a step no grain may come as far as to meet another unseen.
+// Checks that no grain moves so far in a step that it could meet another one unseen.
 void check_way_of_a_step(const HealthLimits& limits, const Grains& grains, std::int64_t step) {
     const double way = velocities(grains).size() * limits.clock.step;
     if (!(way > limits.smallest_radius)) return;
@@ -133,8 +134,8 @@ void check_way_of_a_step(const HealthLimits& limits, const Grains& grains, std::
                     grain_name(limits, grains, fastest_of(grains))));
 }
 
-// The box around a closed vessel, at rest, costs next to nothing to look at; the step itself notices who
-// crosses a sheet.
+// Checks that grains are in the box around a closed vessel, at rest. This costs almost nothing. The step
+// itself notices grains that cross a sheet.
 void check_vessel(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                   std::int64_t step) {
     if (limits.vessel < 0) return;
@@ -193,7 +194,7 @@ void EnergyWatch::check(double energy, double work, double through, double allow
                         const HealthLimits& limits, const Grains& grains, std::int64_t step) {
     const double balance = energy - work;
     if (std::isnan(balance))
-        return;  // a caller's law does not know its energy; check_state() has seen the rest
+        return;  // the energy of a caller's law is not known; check_state() has made the other checks
     largest_through_ = std::max(largest_through_, through);
     if (std::isnan(first_)) first_ = balance;
     work_done_ = std::max(work_done_, std::abs(work));

@@ -1,4 +1,4 @@
-// The health of a run: a state that is no longer physics stops it. The message names step, grain, place and
+// The health of a run. A state that is no longer physical stops it. The message names step, grain, place and
 // remedy.
 #pragma once
 
@@ -15,35 +15,34 @@ namespace grainreel {
 
 struct HealthLimits {
     Clock clock;
-    double overlap = 1.0 / 3.0;                                   // over the smaller radius
+    double overlap = 1.0 / 3.0;                                   // largest overlap over the smaller radius
     std::vector<std::string> species;                             // names, for messages
-    double safe_speed = std::numeric_limits<double>::infinity();  // m/s, of two grains against each other:
+    double safe_speed = std::numeric_limits<double>::infinity();  // m/s, relative speed of two grains:
                                                                   // no impact below it overlaps so far
     double smallest_radius = std::numeric_limits<double>::infinity();  // m
-    double wall_speed = 0;     // m/s, of the fastest wall with a motion of its own
-    std::int32_t vessel = -1;  // the number of the mesh that is closed around all grains, if there is one
+    double wall_speed = 0;     // m/s, speed of the fastest wall with a motion of its own
+    std::int32_t vessel = -1;  // number of the mesh that is closed around all grains, or -1
 };
 
 HealthLimits health_limits(const Scene& scene, const Plan& plan);
 
-// Throws RunError when a grain has left the finite numbers or the container, overlaps too far, or is so fast
-// that it may pass another between two steps.
+// Throws RunError if a grain has a value that is not finite, has left the container, overlaps too far, or is
+// so fast that it may pass another between two steps.
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const StepLoop& loop, std::int64_t step);
 
-// How many steps may go by until the next look, so that no impact that overlaps too far begins and ends
-// unseen: many, where the speeds are safe.
+// Number of steps until the next look, such that no impact that overlaps too far begins and ends unseen.
+// There are many if the speeds are safe.
 std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                                 std::int64_t step);
 
 // Watches the energy balance: without work done on them, grains can only lose energy.
 class EnergyWatch {
   public:
-    // energy: J, total; work: J, done by walls so far; through: J, the sizes of all terms of both added up;
-    // allowance: J, below which nothing is said.
-    // Throws RunError when energy - work has risen above its lowest value so far by more than 5 % of all that
-    // was turned over and of the motion there is, plus the allowance, plus what rounding may do to the
-    // largest sum there was.
+    // All values are in J. `energy` is the total energy, `work` the work done by walls so far, and `through`
+    // the sum of the sizes of all terms of both. Throws RunError if energy - work has risen too far above its
+    // lowest value so far. The limit is 5 % of the energy that was turned over and of the present motion,
+    // plus `allowance`, plus the possible rounding of the largest sum so far.
     void check(double energy, double work, double through, double allowance, const HealthLimits& limits,
                const Grains& grains, std::int64_t step);
 

@@ -12,7 +12,8 @@ double student_probability(double t, int freedom) {
     const double angle = std::atan2(t, std::sqrt(freedom));  // theta of 26.7.3
     const double cosine = std::cos(angle), sine = std::sin(angle);
     const bool odd = freedom % 2 == 1;
-    // cos + 2/3 cos^3 + ..., up to cos^(freedom - 2); 1 + 1/2 cos^2 + ... as above.
+    // The series is cos + 2/3 cos^3 + ..., up to cos^(freedom - 2), or 1 + 1/2 cos^2 + ... up to the same
+    // power.
     double term = odd ? cosine : 1, sum = 0;
     for (int power = odd ? 1 : 0; power <= freedom - 2; power += 2) {
         sum += term;

@@ -6,15 +6,15 @@
 
 namespace grainreel {
 
-// The t with P(|T| <= t) = probability for `freedom` degrees of freedom, to a relative 1e-12. probability: 0
-// to 1, without; freedom: 1 or more.
+// The t with P(|T| <= t) = probability for `freedom` degrees of freedom, to a relative 1e-12. 0 < probability
+// < 1, freedom >= 1.
 double student_t(double probability, int freedom);
 
-// P(|T| <= t), t >= 0: Abramowitz and Stegun (1964), 26.7.3 and 26.7.4, finite sums.
+// P(|T| <= t) for t >= 0, by the finite sums of Abramowitz and Stegun (1964), 26.7.3 and 26.7.4.
 double student_probability(double t, int freedom);
 
 struct MeanInterval {
-    std::size_t count = 0;  // values that are finite
+    std::size_t count = 0;  // number of finite values
     double mean = 0;        // NaN without any
     double half = 0;        // half the width of the interval, t s / sqrt(n); NaN for fewer than two values
 };

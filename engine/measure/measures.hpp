@@ -1,5 +1,5 @@
 // Measured values in memory: a row of measures.csv (Measures), all its rows (MeasureTable), and fields on
-// grids. Light: who reads, writes or draws values includes it without the observers.
+// grids. Code that reads, writes or draws values includes this header without the observers.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class Measures {
         GRAINREEL_CHECK(names_->size() == values_.size());
     }
 
-    // The column must be there.
+    // The column must exist.
     double at(std::string_view column) const { return values_[index_of(column)]; }
     void set(std::string_view column, double value) { values_[index_of(column)] = value; }
 
@@ -84,7 +84,7 @@ inline void add_no_values(std::vector<double>& row, std::size_t columns) {
     row.insert(row.end(), columns, kNoValue);
 }
 
-// Fields are what an observer knows place by place, on grids that stay the same for the whole run.
+// Fields are values of an observer place by place, on grids that stay the same for the whole run.
 
 // One direction of a grid: a place, a phase of the drive, a species.
 struct FieldAxis {
@@ -95,11 +95,11 @@ struct FieldAxis {
 };
 
 struct FieldInfo {
-    std::string name;               // as in files: "solid_fraction"
-    std::string label;              // where people read: "solid fraction"
+    std::string name;               // name in files: "solid_fraction"
+    std::string label;              // name for readers: "solid fraction"
     std::string unit;               // "1", "m/s"
     std::string about;              // in words, with the source of its formula
-    std::vector<std::string> axes;  // names of its axes; that of the last one runs fastest
+    std::vector<std::string> axes;  // names of its axes; the last axis runs fastest
 };
 
 // Everything that one observer gives.
@@ -108,7 +108,8 @@ struct FieldSet {
     std::vector<FieldInfo> fields;
 };
 
-// For each field of the set, a value for each cell in the order of the field's axes; NaN where there is none.
+// The values of all fields of a set: for each field one value per cell, in the order of the field's axes; NaN
+// if there is none.
 using FieldValues = std::vector<std::vector<double>>;
 
 }  // namespace grainreel

@@ -1,8 +1,8 @@
 // Every observer of measures.csv, in the order of the columns. A new observer is a class beside its formula;
 // its include and its name come here.
 //
-// Two files read this list. columns.cpp takes only what is static of each, so it needs no step loop;
-// observers.cpp makes them.
+// Two files read this list. columns.cpp uses only static members of each observer, so it needs no step loop.
+// observers.cpp makes the observers.
 #pragma once
 
 #include "engine/measure/bed/bed_observers.hpp"

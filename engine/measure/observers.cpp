@@ -42,7 +42,7 @@ Observers::Observers(const std::vector<ObserverEntry>& table, const Scene& scene
     names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
 }
 
-// begin(), contacts and `call` for the entries that are wanted.
+// Calls begin(), contact() for all contacts, and then `call` for the entries that are wanted.
 template <class Wanted, class Call>
 void Observers::visit(const ObservedState& moment, const ShowContacts& show_contacts, const Wanted& wanted,
                       const Call& call) {

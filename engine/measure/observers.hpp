@@ -1,5 +1,5 @@
-// The observers of one run: made from the list, asked for their row of values, and saved with what they
-// gather.
+// The observers of one run. They are made from the list, give their rows of values, and are saved with the
+// data that they gather.
 #pragma once
 
 #include <functional>
@@ -25,32 +25,32 @@ class Observers {
     Observers(const std::vector<ObserverEntry>& table, const Scene& scene, const Plan& plan);
 
     const std::vector<std::string>& names() const { return *names_; }
-    // A value for each name. Calls show_contacts once where an observer needs contacts, else not at all.
+    // Gives a value for each name. Calls show_contacts once if an observer needs contacts, else not at all.
     Measures look(const ObservedState& moment, const ShowContacts& show_contacts);
-    // The value of one column, which must be there. Only the observer that gives it is asked.
+    // Gives the value of one column, which must exist. Only the observer of this column is called.
     double look(const ObservedState& moment, const ShowContacts& show_contacts, const std::string& column);
 
-    // On grids, observer by observer: what they give, and the values of a moment in the same order.
+    // The sets of fields, observer by observer, and their values at a moment in the same order.
     std::vector<const FieldSet*> fields() const;
     std::vector<FieldValues> look_at_fields(const ObservedState& moment, const ShowContacts& show_contacts);
 
-    // Whether somebody needs ObservedState::wall_sums.
+    // Whether an observer needs ObservedState::wall_sums.
     bool need_wall_sums() const;
-    // Starts the observers when the drive starts, or those of which load() has found nothing.
+    // Starts the observers when the drive starts. After load() it starts only those without loaded data.
     void start(const ObservedState& moment, const ShowContacts& show_contacts);
-    // The first step after `step` at which somebody gathers; Observer::kNever.
+    // The first step after `step` at which an observer gathers, or Observer::kNever.
     std::int64_t gathers_after(std::int64_t step) const;
-    // Calls those that gather at this step.
+    // Calls the observers that gather at this step.
     void gather(const ObservedState& moment, const ShowContacts& show_contacts);
 
-    // What they have gathered, for the checkpoint. The reading fails where save() could not have written what
-    // is read. What stands there of observers that are not made is passed over.
+    // Saves and loads the gathered data, for the checkpoint. The reading fails where save() could not have
+    // written what is read. Data of observers that are not made are skipped.
     void save(std::ostream& out) const;
     void load(const ObservedState& moment, Bytes& in);
 
   private:
     struct Entry {
-        std::string name;  // in the checkpoint
+        std::string name;  // name in the checkpoint
         std::unique_ptr<Observer> observer;
         std::vector<std::string> columns;
         bool started = false;

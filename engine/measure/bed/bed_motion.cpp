@@ -20,7 +20,8 @@ void Flight::add(std::int64_t from, double carried) {
 
 void PeriodMultiple::add(std::int64_t number, double height) {
     if (number != next_) heights_.clear();
-    if (heights_.empty() && number % kPhases != 0) return;  // from the first whole period on
+    if (heights_.empty() && number % kPhases != 0)
+        return;  // heights are stored from the first whole period on
     next_ = number + 1;
     heights_.push_back(height);
     if (next_ % kPhases == 0) end_period();
@@ -44,9 +45,9 @@ double PeriodMultiple::difference_to(int periods_before) const {
     return std::sqrt(sum / (kPhases * kWindow));
 }
 
-// The least multiple after which less than half of the difference is left. A drift grows with the number of
-// periods, and noise stays as it is: neither makes a multiple. A larger multiple is looked for only where
-// more than a quarter of the difference is left.
+// Finds the number of periods after which the bed repeats itself. A multiple counts if it leaves at most half
+// of the difference. A drift grows with the number of periods and noise stays as it is, so neither makes a
+// multiple. A larger multiple is looked for only while more than a quarter of the difference is left.
 int PeriodMultiple::multiple_now() const {
     int multiple = 1;
     double left = difference_;

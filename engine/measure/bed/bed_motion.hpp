@@ -1,4 +1,4 @@
-// How a shaken bed moves: when it leaves the floor and lands (Flight), and after how many periods of the
+// The motion of a shaken bed: when it leaves the floor and lands (Flight), and after how many periods of the
 // drive it repeats itself (PeriodMultiple). Observers of bed_observers.hpp feed both.
 #pragma once
 
@@ -11,11 +11,11 @@
 
 namespace grainreel {
 
-// Finds flights of the bed. It is told the mean force on the floor, over the bed's weight, for one stretch of
-// steps after the other. The bed flies from the beginning of the first stretch in which the floor carries
-// less than a tenth of the weight to the beginning of the first one in which it carries more than half. So a
-// few grains that stay behind, or jump, neither end a flight nor make one. Flights shorter than a sixteenth
-// of a period are the bed's own vibrations and do not count.
+// Finds flights of the bed. Its input is the mean force on the floor, divided by the bed's weight, for one
+// stretch of steps after the other. The bed flies from the beginning of the first stretch in which the floor
+// carries less than a tenth of the weight to the beginning of the first one in which it carries more than
+// half. So a few grains that stay behind, or jump, neither end a flight nor make one. Flights shorter than a
+// sixteenth of a period are the bed's own vibrations and do not count.
 //
 // An inelastic block on a plate leaves it where the plate's acceleration is that of gravity, at the phase
 // asin(1 / Gamma) / 2 pi of a sine.
@@ -29,7 +29,7 @@ class Flight {
 
     explicit Flight(std::int64_t period) : least_(period / 16) {}
 
-    // The stretch from step `from` to the one that the next call begins with.
+    // Adds the stretch from step `from` to the first step of the next call.
     void add(std::int64_t from, double carried);
 
     // The last flight that has ended.
@@ -40,7 +40,7 @@ class Flight {
         bool flying = false;
         std::int64_t since = 0;  // step at which the present flight began
         Times last;
-        bool any = false;  // whether there was a last one
+        bool any = false;  // whether a flight has ended
     };
     const State& state() const { return state_; }
     void set(const State& state) { state_ = state; }
@@ -50,29 +50,31 @@ class Flight {
     State state_;
 };
 
-// After how many periods of the drive the bed repeats itself. A bed that is thrown so high that it lands only
-// in every second period does so after two: an inelastic block on a plate at more than sqrt(pi^2 + 4) g.
+// Finds after how many periods of the drive the bed repeats itself. A bed that is thrown so high that it
+// lands only in every second period repeats itself after two. An inelastic block on a plate does so above
+// sqrt(pi^2 + 4) g.
 //
 // It sees the height of the bed's centre of mass at the same phases of every period, and compares each period
 // with the one before it, with the one before that, and so on.
 class PeriodMultiple {
   public:
-    static constexpr int kPhases = 8;   // looked at in a period, evenly
-    static constexpr int kMost = 4;     // periods after which a bed is seen to repeat itself
+    static constexpr int kPhases = 8;   // moments in a period, evenly spaced
+    static constexpr int kMost = 4;     // largest multiple that can be found, periods
     static constexpr int kWindow = 4;   // periods over which differences are taken
     static constexpr int kConfirm = 3;  // periods for which a first multiple must have held ...
-    static constexpr int kChange = 10;  // ... and another one, so that a slip of some periods does not count
+    static constexpr int kChange =
+        10;  // periods for which another multiple must have held, so that a short slip does not count
 
-    // diameter: m, of a grain; periods that differ by a tenth of it are equal.
+    // `diameter` (m) is that of a grain. Periods that differ by less than a tenth of it are equal.
     explicit PeriodMultiple(double diameter) : least_(0.1 * diameter) {}
 
-    // m above the floor, at phase number `number`, which counts on from period to period and starts anywhere.
-    // After a gap everything begins anew.
+    // Adds the height (m) above the floor at phase number `number`. The number counts on from period to
+    // period and starts anywhere. After a gap everything begins anew.
     void add(std::int64_t number, double height);
 
-    // Periods; 1 until another multiple is known.
+    // Number of periods; 1 until another multiple is known.
     int value() const { return value_; }
-    // m: root mean square difference between a period and the one before it.
+    // Root mean square difference (m) between a period and the one before it.
     double difference() const { return difference_; }
 
     // Everything it knows, for the checkpoint.
@@ -85,8 +87,8 @@ class PeriodMultiple {
     int multiple_now() const;
 
     const double least_;          // m
-    std::deque<double> heights_;  // m, of whole periods
-    std::int64_t next_ = -1;      // number that is expected
+    std::deque<double> heights_;  // m, heights of whole periods
+    std::int64_t next_ = -1;      // next number that is expected
     int value_ = 1, other_ = 1, confirmed_ = 0;
     double difference_ = 0;
 };

@@ -1,5 +1,5 @@
 // Observers of the bed as a whole: its shape and motion, its centre of mass, its contacts and a single
-// intruder. Each class gives columns of measures.csv; the formulas stand in bed_shape.hpp and bed_motion.hpp.
+// intruder. Each class gives columns of measures.csv; the formulas are in bed_shape.hpp and bed_motion.hpp.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace grainreel::observers {
 
-// How high the bed is, and how dense.
+// Observer of the bed's height and density.
 class BedShape final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -37,7 +37,7 @@ class BedShape final : public Observer {
     }
 };
 
-// How the bed as a whole moves: when it flies, and how far it has expanded.
+// Observer of the motion of the bed as a whole: its flights and its expansion.
 class BedMotion final : public Observer {
   public:
     static constexpr const char* instrument = "bed";
@@ -62,7 +62,7 @@ class BedMotion final : public Observer {
 
     bool needs_wall_sums() const override { return true; }
     std::int64_t gathers_after(std::int64_t step) const override {
-        if (!shaken_) return step < 0 ? 0 : kNever;  // the bed at rest is needed all the same
+        if (!shaken_) return step < 0 ? 0 : kNever;  // only the bed at rest is needed then
         return (step + every_) / every_ * every_;
     }
     void start(const ObservedState& m) override {
@@ -96,12 +96,12 @@ class BedMotion final : public Observer {
     }
 
   private:
-    static constexpr std::int64_t kLooks = 128;  // a period
+    static constexpr std::int64_t kLooks = 128;  // looks per period
 
     static bool has_floor(const ObservedState& m) {
         return m.scene.container.shape != Container::Shape::none && m.wall_sums != nullptr;
     }
-    // A vessel that is a mesh has no floor of its own and carries the grains as a whole.
+    // A vessel that is a mesh has no floor of its own, so the whole mesh counts as the floor.
     static const FaceSums& floor_of(const ObservedState& m) {
         const std::optional<std::size_t> vessel = vessel_of(m.scene);
         return m.wall_sums->faces.at(vessel ? m.faces.size() + *vessel : 0);
@@ -114,8 +114,8 @@ class BedMotion final : public Observer {
         step_ = m.step;
         if (has_floor(m)) floor_ = floor_of(m);
     }
-    // Mean force of the grains on the floor along gravity since the step before, over their weight. The sums
-    // are those of walls/wall_forces_observer.hpp.
+    // Mean force of the grains on the floor along gravity since the last look, divided by their weight. The
+    // sums are those of walls/wall_forces_observer.hpp.
     double carried(const ObservedState& m) const {
         const FaceSums& now = floor_of(m);
         double counts = 0, mass = 0;  // counts times m/s2
@@ -132,11 +132,11 @@ class BedMotion final : public Observer {
     const bool shaken_;
     double rest_height_ = kNoValue;  // m
     Flight flight_;
-    std::int64_t step_ = 0;  // of the last look at the floor
-    FaceSums floor_;         // at that step
+    std::int64_t step_ = 0;  // step of the last look at the floor
+    FaceSums floor_;         // sums at that step
 };
 
-// After how many periods of the drive the bed repeats itself.
+// Observer of the number of periods after which the bed repeats itself.
 class BedPeriods final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -189,7 +189,7 @@ class BedPeriods final : public Observer {
     PeriodMultiple multiple_;
 };
 
-// Centre of mass of all grains.
+// Observer of the centre of mass of all grains.
 class CentreOfMass final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -211,7 +211,7 @@ class CentreOfMass final : public Observer {
     }
 };
 
-// Mean place of the grains of each species. Every grain counts alike.
+// Observer of the mean place of the grains of each species. Every grain has the same weight.
 class SpeciesPlaces final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene& scene) {
@@ -247,7 +247,7 @@ class SpeciesPlaces final : public Observer {
     }
 };
 
-// How many contacts carry a grain.
+// Observer of the mean number of contacts that carry a grain.
 class ContactNumber final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -265,10 +265,10 @@ class ContactNumber final : public Observer {
     }
 
   private:
-    double carrying_ = 0;  // a pair counted for both grains
+    double carrying_ = 0;  // number of contacts that carry force; a pair counts for both grains
 };
 
-// How far bodies overlap at most.
+// Observer of the largest overlap of two bodies.
 class LargestOverlap final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -315,7 +315,7 @@ class ContactFabric final : public Observer {
     Fabric fabric_;
 };
 
-// A single large grain: how high it is in the bed, and when it came up.
+// Observer of a single large grain: its height in the bed, and the time at which it came up.
 class Intruder final : public Observer {
   public:
     static constexpr const char* instrument = "intruder";

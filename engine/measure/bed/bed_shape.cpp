@@ -52,7 +52,7 @@ double intruder_height(const Scene& scene, const Grains& grains, std::size_t int
     for (const Place& p : grains.place) diameters += 2 * p.radius;
     const double mean = (diameters - 2 * own.radius) / static_cast<double>(grains.size() - 1);
     const double reach = own.radius + 2 * mean;
-    std::vector<Place> around;  // places against the intruder's own in x and y
+    std::vector<Place> around;  // places relative to the intruder's in x and y
     for (std::size_t i = 0; i < grains.size(); ++i) {
         Place p = grains.place[i];
         p.position.x() = nearest_image(p.position.x() - own.position.x(), period);

@@ -1,5 +1,5 @@
-// How the bed is built: its solid fraction, the directions of its contacts (Fabric), and the height of a
-// single large grain in it. Plain formulas without the step loop.
+// Formulas for the structure of the bed: its solid fraction, the directions of its contacts (Fabric), and the
+// height of a single large grain in it. They do not need the step loop.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace grainreel {
 
-// Volume of the grains below `top` over the container's volume between `floor` and `top`; both m, in the
-// room. A grain that reaches through the plane z = top counts by its part below: a cap of height h of a
-// sphere of radius r has the volume pi h^2 (3 r - h) / 3. NaN in empty space, and where top is not above
-// floor.
+// Volume of the grains below `top`, divided by the container's volume between `floor` and `top` (both m, in
+// the frame of the scene). A grain that reaches through the plane z = top counts by its part below it: a cap
+// of height h of a sphere of radius r has the volume pi h^2 (3 r - h) / 3. NaN if there is no container, or
+// if `top` is not above `floor`.
 double solid_fraction(const Container& container, const Grains& grains, double floor, double top);
 
 // How the contacts between grains are oriented.
@@ -31,7 +31,7 @@ class Fabric {
     double contacts() const { return contacts_; }
     // All NaN without contacts.
     Eigen::Matrix3d tensor() const { return sum_ / contacts_; }
-    // Largest less smallest eigenvalue of F: 0 without a preferred direction, 1 when all normals are
+    // Largest minus smallest eigenvalue of F: 0 without a preferred direction, 1 when all normals are
     // parallel.
     double anisotropy() const;
     // F_zz, the mean square of the cosine between a normal and the vertical: 1/3 without a preferred
@@ -43,13 +43,14 @@ class Fabric {
     double contacts_ = 0;
 };
 
-// Index of the one grain of the species of the largest mean diameter; none where there is one species only,
-// or that species has not just one grain.
+// Index of the intruder: the only grain of the species with the largest mean diameter. Empty if there is only
+// one species, or if this species does not have exactly one grain.
 std::optional<std::size_t> find_intruder(const Scene& scene, const Grains& grains);
 
-// Height of the intruder's top over that of the bed's surface around it, both above the floor: 1 when it
-// comes to the surface. The surface is that of the other grains (surface.hpp) in a square around the intruder
-// which reaches two of their mean diameters beyond it. NaN without other grains there.
+// Height of the intruder's top divided by the height of the bed's surface around it, both above the floor. It
+// is 1 when the intruder comes to the surface. The surface is that of the other grains (surface.hpp) in a
+// square around the intruder which reaches two of their mean diameters beyond it. NaN without other grains
+// there.
 double intruder_height(const Scene& scene, const Grains& grains, std::size_t intruder, double floor);
 
 }  // namespace grainreel

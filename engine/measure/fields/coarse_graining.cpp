@@ -10,7 +10,7 @@
 namespace grainreel {
 namespace {
 
-// Pairs of axes of a symmetric tensor, as its components are listed.
+// Pairs of axes of a symmetric tensor, in the order of its components.
 constexpr std::array<std::array<int, 2>, 6> upper{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
 constexpr std::size_t motion_width = 1 + 3 + upper.size();
 constexpr std::size_t contact_width = 9;
@@ -32,7 +32,7 @@ std::array<double, contact_width> product_of(const Vec3& force, const Vec3& bran
     return all;
 }
 
-// Eigen's arrays, for GCC leaves the plain loop in scalars.
+// Adds numbers to a cell. It uses Eigen's arrays, because GCC does not vectorise the plain loop.
 template <std::size_t Width>
 void add_to(double* cell, const std::array<double, Width>& numbers, double weight) {
     using Numbers = Eigen::Array<double, static_cast<int>(Width), 1>;
@@ -59,7 +59,7 @@ void CoarseGraining::clear() {
     moments_ = 0;
 }
 
-// Whether its cell is one of the grid, and partly inside the container.
+// Whether the cell of a place belongs to the grid and is partly inside the container.
 bool CoarseGraining::is_inside(const Vec3& place) const {
     std::array<std::int64_t, 3> at{};
     for (int k = 0; k < 3; ++k) {

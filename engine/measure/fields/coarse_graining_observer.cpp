@@ -10,7 +10,7 @@ namespace grainreel {
 
 namespace {
 
-// What every program takes for a name: ASCII letters, digits and underscores.
+// Makes a name that every program accepts, of ASCII letters, digits and underscores.
 std::string plain(const std::string& name) {
     std::string result = name;
     const auto odd = [](char c) {

@@ -1,5 +1,5 @@
 // The observer of coarse-grained fields (density, velocity, temperature, stress): their names and units, and
-// their means over the stretches of time that fields.nc has. The formulas stand in coarse_graining.hpp.
+// their means over the records (stretches of time) of fields.nc. The formulas are in coarse_graining.hpp.
 #pragma once
 
 #include <iosfwd>
@@ -14,42 +14,42 @@
 
 namespace grainreel {
 
-// The fields of coarse-graining by name and unit, as files have them.
+// Names and units of the fields of coarse-graining, as files have them.
 FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by);
 
-// The values in the order of that set. `fields` may be missing: then all are NaN.
+// The values in the order of that set. Without `fields` all are NaN.
 FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const CoarseGraining& by);
 
-// Gathers moments while a run goes on, and has the mean of each stretch of time when the stretch ends.
+// Gathers moments while a run goes on, and computes the mean of each record when the record ends.
 class FieldMeans {
   public:
     FieldMeans(const Scene& scene, const FieldTimes& times);
 
     const CoarseGraining& sums() const { return sums_; }
     const FieldTimes& times() const { return times_; }
-    // At the step where the run begins, or goes on without what was gathered before: then gathering waits for
-    // the next record. `state` is that of the step.
+    // Call this at the step where the run begins, or where it goes on without the moments gathered before. In
+    // the second case gathering waits for the next record. `state` is the state at the step.
     void start(std::int64_t step, const FieldState& state);
-    // At every step that times().next() names.
+    // Call this at every step that times().next() gives.
     void gather(std::int64_t step, const FieldState& state);
     // The mean over the record that ended last; none before the first has ended.
     const std::optional<CoarseFields>& last() const { return last_; }
 
-    // What was gathered of the record that goes on, and the mean of the one that has ended just now: it may
+    // Saves the sums of the present record, and the mean of a record that has just ended, because that may
     // not have been written yet.
     void save(std::ostream& out) const;
-    // Makes the reading fail where save() could not have written what is read. What was gathered with other
-    // settings is left: gathering then waits for the next record.
+    // The reading fails where save() could not have written what is read. Sums that were gathered with other
+    // settings are ignored, and gathering then waits for the next record.
     void load(Bytes& in);
 
   private:
     FieldTimes times_;
-    std::vector<double> settings_;  // by which saved sums are told from those of other fields
+    std::vector<double> settings_;  // tell saved sums from those of other fields
     CoarseGraining sums_;
     void load_last(Bytes& in);
 
     bool open_ = false;   // whether a record has begun
-    bool ended_ = false;  // whether one ended at the step that was gathered last
+    bool ended_ = false;  // whether a record ended at the step that was gathered last
     std::optional<CoarseFields> last_;
 };
 

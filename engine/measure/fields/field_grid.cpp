@@ -22,7 +22,7 @@ int FieldGrid::dimensions() const {
 
 namespace {
 
-// Whole cells from wall to wall, none larger than wanted.
+// Makes whole cells from wall to wall, none larger than wanted.
 GridAxis axis_between(double low, double high, double wanted) {
     GridAxis axis;
     axis.count = std::max<std::int64_t>(1, std::llround(std::ceil((high - low) / wanted * (1 - 1e-12))));
@@ -62,8 +62,8 @@ namespace {
 
 constexpr double gaussian_cutoff = 3;  // widths
 
-// Over the standard deviation along one axis: from the mean of r2, 5/28 of the squared cutoff in two
-// dimensions and 1/4 in three, shared out among the axes.
+// Cutoff of Lucy's kernel, divided by the standard deviation along one axis. The mean of r2 is 5/28 of the
+// squared cutoff in two dimensions and 1/4 in three, and all axes have equal shares of it.
 double lucy_cutoff(int dimensions) {
     return dimensions == 2 ? std::sqrt(56.0 / 5) : std::sqrt(12.0);
 }
@@ -85,13 +85,13 @@ FieldKernel::FieldKernel(FieldOutput::Kernel kind, double width, int dimensions)
     values_.insert(values_.end(), {0.0, 0.0});
 }
 
-// How much of each cell of a grid is inside the container: exact areas of straight and round cuts.
+// Shares of the cells inside the container, from exact areas of straight and round cuts.
 
 namespace {
 
 using Corner = std::array<double, 2>;  // y and z, m
 
-// What a face leaves of a polygon: the side that its normal points to.
+// Cuts a polygon by a face. The side that the face's normal points to stays.
 std::vector<Corner> cut(const std::vector<Corner>& polygon, const Face& face) {
     const auto height = [&](const Corner& c) {
         return face.normal.y() * (c[0] - face.point.y()) + face.normal.z() * (c[1] - face.point.z());
@@ -117,7 +117,7 @@ double area(const std::vector<Corner>& polygon) {
     return 0.5 * twice;
 }
 
-// Faces that are seen edge-on in the y-z plane.
+// Faces that are edge-on in the y-z plane.
 std::vector<Face> upright_faces(const Scene& scene) {
     std::vector<Face> faces = container_faces(scene.container, scene.drive);
     std::erase_if(faces, [](const Face& f) { return f.kind != Face::Kind::plane || f.normal.x() != 0; });
@@ -139,7 +139,7 @@ double quarter_area(double radius, double x, double y) {
     const auto under_arc = [&](double to) {
         return 0.5 * (to * std::sqrt(radius * radius - to * to) + radius * radius * std::asin(to / radius));
     };
-    const double corner = std::sqrt(radius * radius - b * b);  // up to there the rectangle is lower
+    const double corner = std::sqrt(radius * radius - b * b);  // up to this x the rectangle is lower
     return sign * (a <= corner ? a * b : corner * b + under_arc(a) - under_arc(corner));
 }
 
@@ -178,14 +178,14 @@ std::vector<double> inside_shares(const FieldGrid& grid, const Scene& scene) {
     return shares;
 }
 
-// How much of each cell of a grid is inside a vessel that is a mesh: lengths along rows of cells are exact
-// between the places where the row meets the surface; across the rows the share is a mean over 16 of them.
+// Shares of the cells inside a vessel that is a mesh. Along a row through a cell, the length inside is exact.
+// The share is the mean over 16 rows.
 
 namespace {
 
-constexpr int kRows = 4;  // a cell, along y and along z
+constexpr int kRows = 4;  // rows per cell, along y and along z
 
-// A part of a row that is inside.
+// A part of a row that is inside the vessel.
 struct Piece {
     double from, to;  // m, x
 };

@@ -1,5 +1,5 @@
-// The grid on which fields are given. It follows the container: places are counted from where the middle of
-// its floor is now.
+// The grid on which fields are given. It follows the container: places are relative to the present middle of
+// its floor.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct GridAxis {
     double low = 0;   // m, where the first cell begins
     double cell = 0;  // m
     std::int64_t count = 1;
-    bool resolved = true;  // false: one cell that has all, and fields are means along this direction
+    bool resolved = true;  // false: there is one cell, and fields are means along this direction
     bool periodic = false;
 
     double middle(std::int64_t k) const { return low + (static_cast<double>(k) + 0.5) * cell; }
@@ -39,37 +39,37 @@ struct FieldGrid {
 };
 
 // The outermost cells inside end at the container's walls, and beyond each wall there are as many more as the
-// kernel of the largest grain reaches: stress is spread beyond the walls, too.
+// kernel of the largest grain reaches, because stress is spread beyond the walls too.
 FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields);
 
-// How much of each cell is inside the container at rest, 0 to 1. Where the floor alone moves, the container
-// counts from the floor's lowest place. Planes of the scene cut nothing off.
+// Share of each cell that is inside the container at rest, 0 to 1. If only the floor moves, the container
+// begins at the floor's lowest place. Planes of the scene do not cut anything off.
 std::vector<double> inside_shares(const FieldGrid& grid, const Scene& scene);
 
-// The kernels of coarse-graining: how a grain, which is a point, is spread over its surroundings.
+// The kernels of coarse-graining, by which a grain, taken as a point, is spread over its surroundings.
 //
 // Both are radial, in two or three dimensions, and end at a cutoff. Only their shape matters here: a
 // footprint (footprint.hpp) scales the values to a sum of one over the cells of its grid.
 
-// Value at a distance of q cutoffs, 0 <= q < 1; 1 in the middle.
+// Value of a kernel at a distance of q cutoffs, 0 <= q < 1; it is 1 in the middle.
 // Gaussian: exp(-r2 / 2 w2), with its cutoff at 3 w (Weinhart, Hartkamp, Thornton & Luding 2013, Phys. Fluids
 // 25, 070605). Lucy (1977, Astron. J. 82, 1013): (1 + 3 q)(1 - q)^3.
 double kernel_value(FieldOutput::Kernel kind, double q);
 
-// m, of the kernel that a grain of this radius is spread with, where the fields ask for `width`: its own
-// radius at least. A narrower kernel has more in its middle than the grain's volume has room for, and a solid
-// fraction above 1. From half a diameter on fields hardly depend on the width (Goldenberg, Atman, Claudin,
-// Combe & Goldhirsch 2006, Phys. Rev. Lett. 96, 168001; Weinhart, Hartkamp, Thornton & Luding 2013), so that
-// each grain has a kernel of that size: what adaptive kernels are in density estimation (Silverman 1986,
-// Density Estimation, section 5.3).
+// Width (m) of the kernel for a grain of this radius, where the fields ask for `width`. It is at least the
+// radius, because a narrower kernel would give a solid fraction above 1 in the middle of the grain. From half
+// a diameter on fields hardly depend on the width (Goldenberg, Atman, Claudin, Combe & Goldhirsch 2006, Phys.
+// Rev. Lett. 96, 168001; Weinhart, Hartkamp, Thornton & Luding 2013), so each grain has a kernel of that
+// size. In density estimation these are called adaptive kernels (Silverman 1986, Density Estimation, section
+// 5.3).
 inline double kernel_width(double width, double radius) {
     return std::max(width, radius);
 }
 
 class FieldKernel {
   public:
-    // width: m, the standard deviation along one axis: exactly with Lucy's kernel, before the cutoff with the
-    // Gaussian. dimensions: 2 or 3.
+    // `width` (m) is the standard deviation along one axis, exactly for Lucy's kernel, and before the cutoff
+    // for the Gaussian. `dimensions` is 2 or 3.
     FieldKernel(FieldOutput::Kernel kind, double width, int dimensions);
 
     double width() const { return width_; }    // m
@@ -78,12 +78,14 @@ class FieldKernel {
     // Whether at(a + b) = at(a) at(b) within the cutoff.
     bool is_product() const { return is_product_; }
 
-    // Value at a distance whose square (m2) is given; 0 from the cutoff on. From a table over the square,
-    // within 2e-5 of the formula.
+    // Value at a distance whose square (m2) is given; 0 from the cutoff on. It comes from a table over the
+    // square, and is within 2e-5 of the formula.
     double at(double square) const {
         const double exact = square * places_;
         const double place =
-            exact < kEntries ? exact : kEntries + 1.0;  // no jump: it is as often one as the other
+            exact < kEntries
+                ? exact
+                : kEntries + 1.0;  // a selection, not a jump, because both cases are equally frequent
         const auto entry = static_cast<std::size_t>(place);
         const double share = place - static_cast<double>(entry);
         return values_[entry] + share * (values_[entry + 1] - values_[entry]);
@@ -95,10 +97,10 @@ class FieldKernel {
     bool is_product_;
     double width_, cutoff_;       // m
     double places_;               // 1/m2, entries for each square metre
-    std::vector<double> values_;  // with zeros behind
+    std::vector<double> values_;  // the table, with zeros at its end
 };
 
-// As inside_shares(), of a vessel that is a mesh.
+// Does what inside_shares() does, for a vessel that is a mesh.
 std::vector<double> shares_inside_mesh(const FieldGrid& grid, const Scene& scene);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// What fields are made from: the grains and contacts of one moment, seen from the container.
+// The input of fields: the grains and contacts of one moment, seen from the container.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct FieldGrain {
     double mass;    // kg
     double volume;  // m3
     std::int32_t species;
-    double radius = 0;  // m, below which no kernel spreads it; 0: as a point
+    double radius = 0;  // m, least width of its kernel; 0 for a point
 };
 
 // A contact of a grain with another grain or a wall.
@@ -24,7 +24,7 @@ struct FieldContact {
     Vec3 begin;   // m, the grain's centre
     Vec3 branch;  // m, from there to the other grain's centre, or to the point of the wall that it touches
     Vec3 force;   // N, on the other body
-    double radius = 0, other_radius = 0;  // m, of both grains; at a wall the grain's twice
+    double radius = 0, other_radius = 0;  // m, of both grains; at a wall both are the grain's
 };
 
 struct FieldState {
@@ -32,10 +32,10 @@ struct FieldState {
     std::vector<FieldContact> contacts;
 };
 
-// From a moment of a run to what coarse-graining takes.
+// Makes the input of coarse-graining from a moment of a run.
 
-// Places and velocities are seen from the container where the drive moves it, and from the lab where it moves
-// the floor alone.
+// Pose relative to which places and velocities are given. It is the container's if the drive moves the
+// container, and that of the lab if the drive moves only the floor.
 inline Pose seen_from(const ObservedState& moment) {
     return moment.scene.drive.moves == Drive::Moves::container ? moment.pose : Pose();
 }

@@ -15,13 +15,13 @@ constexpr std::array<std::array<double, 2>, 4> quadrature{
      {0.5 * (1 + 0.3399810435848563), 0.5 * 0.6521451548625461},
      {0.5 * (1 + 0.8611363115940526), 0.5 * 0.3478548451374538}}};
 
-// std::floor is a call where the program is built for any processor.
+// The floor of a value. std::floor() is a function call if the program is built for any processor.
 std::int64_t floor_of(double value) {
     const auto towards_zero = static_cast<std::int64_t>(value);
     return towards_zero - (value < static_cast<double>(towards_zero));
 }
 
-// The cell of the grid that a number stands for; -1 beyond its edge.
+// The cell of the grid with number k; -1 beyond the grid's edge.
 std::int64_t inside(const GridAxis& axis, std::int64_t k) {
     if (k >= 0 && k < axis.count) return k;
     return axis.periodic ? ((k % axis.count) + axis.count) % axis.count : -1;
@@ -29,7 +29,7 @@ std::int64_t inside(const GridAxis& axis, std::int64_t k) {
 
 }  // namespace
 
-// All cells whose middles may lie between low and high; all of a direction that is not resolved.
+// All cells whose middles may lie between low and high; all cells if the direction is not resolved.
 Footprint::Range Footprint::range_of(std::size_t k, double low, double high) const {
     const GridAxis& axis = grid_.axes[k];
     if (!axis.resolved) return {};
@@ -37,8 +37,8 @@ Footprint::Range Footprint::range_of(std::size_t k, double low, double high) con
     return {floor_of((low - axis.low) * cells), floor_of((high - axis.low) * cells) + 1};
 }
 
-// Notes the cells of a box, and what each of them adds to an index of the grid, axis by axis: -1 beyond the
-// grid's edge.
+// Notes the cells of a box and, axis by axis, the offset that each of them adds to an index of the grid; -1
+// beyond the grid's edge.
 void Footprint::set_box(const Vec3& low, const Vec3& high) {
     std::int64_t stride = 1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -61,8 +61,9 @@ void Footprint::set_box(const Vec3& begin, const Vec3& end, double stretch, doub
     set_box((begin - reach).cwiseMin(end - end_reach), (begin + reach).cwiseMax(end + end_reach));
 }
 
-// Calls each(z, other, begin, end, value) for each row of cells within the cutoff of a point: indices in the
-// box, and value(k) is the kernel's value in cell k of the row. The kernel is `stretch` times as wide.
+// Calls each(z, other, begin, end, value) for each row of cells within the cutoff of a point: the indices are
+// those in the box, and value(k) is the kernel's value in cell k of the row. The kernel is `stretch` times as
+// wide.
 template <class Each>
 void Footprint::each_near(const Vec3& middle, double stretch, const Each& each) {
     std::array<std::size_t, 3> first{};
@@ -105,8 +106,8 @@ void Footprint::each_near(const Vec3& middle, double stretch, const Each& each) 
         }
 }
 
-// Lists the cells of rows that have a value, and scales these. rows(add) calls add(z, other, begin, end,
-// value) as each_near() does.
+// Lists those cells of rows that have a value, and scales the values. rows(add) calls add(z, other, begin,
+// end, value) as each_near() does.
 template <class Rows>
 std::span<const CellWeight> Footprint::listed(const Rows& rows) {
     cells_.resize(std::max(cells_.size(), offsets_[0].size() * offsets_[1].size() * offsets_[2].size()));
@@ -163,9 +164,9 @@ std::span<const CellWeight> Footprint::of_line(const Vec3& begin, const Vec3& br
     });
 }
 
-// A kernel of another width is the first one drawn out about its middle, so each part of it goes from
-// begin + x to begin + branch + x w_1 / w_0 in a straight line. As much of W_s flows through a place as the
-// continuity equation asks for: with the velocity branch + x d(ln w_s)/ds, x from the middle.
+// The kernel at the end of the line is the one at the beginning, stretched about its middle. So each part of
+// it goes from begin + x to begin + branch + x w_1 / w_0 in a straight line. By the continuity equation W_s
+// flows with the velocity branch + x d(ln w_s)/ds, where x is the place relative to the middle.
 std::span<const CellWay> Footprint::of_changing_line(const Vec3& begin, const Vec3& branch, double radius,
                                                      double other_radius) {
     const double stretch = stretch_of(radius), growth = stretch_of(other_radius) - stretch;
@@ -178,7 +179,7 @@ std::span<const CellWay> Footprint::of_changing_line(const Vec3& begin, const Ve
             const double s = (n + at) / stretches, here = stretch + s * growth, drift = growth / here;
             const Vec3 middle = begin + s * branch;
             const double part = share * std::pow(here, -grid_.dimensions());
-            // of a cell: how fast it drifts along an axis.
+            // The drift of a cell along an axis.
             const auto drift_at = [&](std::size_t axis, std::size_t k) {
                 const GridAxis& of = grid_.axes[axis];
                 const auto cell = box_[axis].begin + static_cast<std::int64_t>(k);
@@ -202,8 +203,8 @@ std::span<const CellWay> Footprint::of_changing_line(const Vec3& begin, const Ve
     return listed_ways(branch);
 }
 
-// Scaled so that the sum of the weights times volume is 1, and that of the drifts 0, which it would be in
-// cells without size.
+// Lists the ways, scaled so that the sum of the weights times volume is 1 and the sum of the drifts is 0, as
+// it would be in infinitely small cells.
 std::span<const CellWay> Footprint::listed_ways(const Vec3& branch) {
     const std::size_t cells = flows_.size() / 4;
     Eigen::Array4d sum = Eigen::Array4d::Zero();

@@ -14,7 +14,7 @@ namespace {
 constexpr double kCell = 2;  // diameters
 constexpr double kMostCells = 255;
 
-// Cells two mean diameters wide and high; an odd number across, so that one stands in the middle.
+// Makes cells two mean diameters wide and high. Their number across is odd, so that one is in the middle.
 VelocityGrid cells_of(const Scene& scene) {
     VelocityGrid grid;
     const Container& c = scene.container;
@@ -33,7 +33,7 @@ VelocityGrid cells_of(const Scene& scene) {
     return grid;
 }
 
-// Cell of a place; what lies outside belongs to the outermost ones.
+// Cell of a place. Places outside belong to the outermost cells.
 std::size_t cell_at(const VelocityGrid& grid, double y, double z) {
     const auto number = [](double at, std::size_t count) {
         return static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(count - 1)));
@@ -48,7 +48,7 @@ void add(VelocityGrid& sums, std::size_t cell, double right, double up, double w
     sums.weight[cell] += weight;
 }
 
-// From sums to means.
+// Turns sums into means.
 void divide(VelocityGrid& grid) {
     for (std::size_t i = 0; i < grid.weight.size(); ++i) {
         if (grid.weight[i] == 0) continue;
@@ -77,7 +77,7 @@ void Drift::note(std::int64_t period, const Grains& grains, const Pose& pose) {
     if (period != next_) windows_.clear();
     if (period == next_) {
         Window window = compare(grains, pose);
-        // A window that no grain has gone through tells nothing: a feed may come later.
+        // A window without grains is dropped, because a feed may come later.
         if (holds_grains(window.grid)) windows_.push_back(std::move(window));
     }
     if (windows_.size() > kWindows) windows_.pop_front();
@@ -187,7 +187,8 @@ void Drift::load(Bytes& in) {
 
 namespace {
 
-// Around the square whose corners are the middles of cell (j, k) and its neighbours to the right and above.
+// The integral of u . dl around the square whose corners are the middles of cell (j, k) and its neighbours to
+// the right and above.
 double around_square(const VelocityGrid& g, std::size_t j, std::size_t k) {
     const std::size_t a = g.index(j, k), b = g.index(j + 1, k), c = g.index(j + 1, k + 1),
                       d = g.index(j, k + 1);
@@ -195,12 +196,12 @@ double around_square(const VelocityGrid& g, std::size_t j, std::size_t k) {
            0.5 * g.height * (g.up[b] + g.up[c] - g.up[d] - g.up[a]);
 }
 
-// Which squares lie between four filled cells, in a range of y.
+// The squares that lie between four filled cells, in a range of y.
 class Squares {
   public:
     Squares(const VelocityGrid& grid, double from, double to) : grid_(grid), from_(from), to_(to) {}
 
-    // Outside the grid there is none.
+    // Whether there is such a square. There is none outside the grid.
     bool there(std::size_t j, std::size_t k) const {
         if (j >= grid_.across - 1 || k >= grid_.high - 1) return false;
         const double slack = 1e-9 * grid_.width;
@@ -208,7 +209,8 @@ class Squares {
         return grid_.weight[grid_.index(j, k)] > 0 && grid_.weight[grid_.index(j + 1, k)] > 0 &&
                grid_.weight[grid_.index(j, k + 1)] > 0 && grid_.weight[grid_.index(j + 1, k + 1)] > 0;
     }
-    // m, of its sides that no other square shares. 0 - 1 is a large number, and outside.
+    // Length (m) of the sides of a square that no other square shares. For j = 0, j - 1 is a large number,
+    // and so outside.
     double free_sides(std::size_t j, std::size_t k) const {
         return (there(j - 1, k) ? 0 : grid_.height) + (there(j + 1, k) ? 0 : grid_.height) +
                (there(j, k - 1) ? 0 : grid_.width) + (there(j, k + 1) ? 0 : grid_.width);

@@ -1,5 +1,5 @@
 // Convection of a shaken bed: the mean drift of grains in a period of the drive (in the container's frame),
-// what turns in that velocity field, and the observer of both.
+// the rolls in this velocity field, and the observer of both.
 #pragma once
 
 #include <array>
@@ -23,14 +23,14 @@ namespace grainreel {
 
 // A velocity field on equal cells of a plane.
 //
-// Cells in (y, z), y to the right and z up; cell (j, k) at index j + k * across. Any unit of speed: m/s, or m
-// a period.
+// The cells lie in (y, z), with y to the right and z up; cell (j, k) has the index j + k * across. Speeds may
+// have any unit: m/s, or m per period.
 struct VelocityGrid {
     std::size_t across = 0, high = 0;
     double left = 0, bottom = 0;    // m, the corner of the first cell
     double width = 0, height = 0;   // m, of a cell
     std::vector<double> right, up;  // mean velocity in a cell
-    std::vector<double> weight;     // how much there is of it (grains, mass); 0 where the cell is empty
+    std::vector<double> weight;     // weight of a cell (grains, mass); 0 if it is empty
 
     std::size_t index(std::size_t j, std::size_t k) const { return j + k * across; }
     double y(std::size_t j) const { return left + (static_cast<double>(j) + 0.5) * width; }  // of the middle
@@ -40,21 +40,22 @@ struct VelocityGrid {
 struct Circulation {
     double along = 0;  // closed integral of u . dl, speed times m; positive counter-clockwise (y to z)
     double edge = 0;   // m, length of the closed line
-    double area = 0;   // m2, inside it
+    double area = 0;   // m2, area inside the line
     // Mean velocity along the line; NaN without one.
     double speed() const { return along / edge; }
 };
 
-// Around the part of the field whose cells are filled and have their middles from y = from to y = to. By
-// Stokes' theorem the integral around it is the sum of the integrals around all squares between the middles
-// of four filled cells, each by the trapezoidal rule, which is exact where u is linear. A rigid rotation by w
-// has 2 w times the area.
+// The circulation around the part of the field whose cells are filled and have their middles between y = from
+// and y = to. By Stokes' theorem the integral around it is the sum of the integrals around all squares
+// between the middles of four filled cells, each by the trapezoidal rule, which is exact where u is linear.
+// For a rigid rotation by w it is 2 w times the area.
 Circulation circulation(const VelocityGrid& grid, double from, double to);
 
-// psi at the right edge of each cell, by rows as in the grid: what flows up through the row between the left
-// side and there, -psi = sum of weight * up * cell width, over the mean weight of the filled cells (speed
-// times m). In a steady field no more flows up through a row than down; what is left over by scatter is
-// spread evenly over the row's weight, so that psi is 0 at the right side.
+// The stream function psi at the right edge of each cell, by rows as in the grid (speed times m). It is the
+// flow up through the row between the left side and this edge: -psi = sum of weight * up * cell width,
+// divided by the mean weight of the filled cells. In a steady field as much flows up through a row as down.
+// The difference that scatter leaves is spread evenly over the row's weight, so that psi is 0 at the right
+// side.
 std::vector<double> stream_function(const VelocityGrid& grid);
 
 struct RollCentre {
@@ -62,7 +63,7 @@ struct RollCentre {
     double psi = 0;                     // speed times m; positive where the field turns counter-clockwise
 };
 
-// Where |psi| is largest between y = from and y = to; NaN where nothing turns.
+// The place where |psi| is largest between y = from and y = to; NaN if nothing turns.
 RollCentre roll_centre(const VelocityGrid& grid, const std::vector<double>& psi, double from, double to);
 
 // A mean and its standard error.
@@ -70,30 +71,30 @@ struct Estimate {
     double mean, error;
 };
 
-// Compares where each grain is with where it was four periods before. Four is a multiple of the 1, 2 and 4
-// periods after which beds repeat themselves, so that bouncing does not count as drift. What is told is the
-// mean over the last windows of four periods, four of them at most; errors are standard errors over those
-// windows, NaN with one. All NaN before the first window is over.
+// Compares the place of each grain with its place four periods before. Four is a multiple of the 1, 2 and 4
+// periods after which beds repeat themselves, so that bouncing does not count as drift. Results are means
+// over the last windows of four periods, at most four of them. Errors are standard errors over these windows,
+// and NaN if there is only one. All results are NaN before the first window is over.
 class Drift {
   public:
-    static constexpr int kPeriods = 4;  // of a window
+    static constexpr int kPeriods = 4;  // periods of a window
     static constexpr std::size_t kWindows = 4;
 
     enum Zone : std::size_t { at_left_wall, in_middle, at_right_wall, zones };
 
     explicit Drift(const Scene& scene);
 
-    // At the beginning of every window, all at one phase; a call at another time than the end of the last
-    // window begins anew.
+    // Call this at the beginning of every window, always at the same phase. A call at any other time than the
+    // end of the last window begins anew.
     void note(std::int64_t period, const Grains& grains, const Pose& pose);
 
-    // m a period: mean upward way of the grains of a zone, less that of all grains. In the middle are those
-    // of the middle third of the width.
+    // Mean upward way (m per period) of the grains of a zone, minus that of all grains. The middle zone is
+    // the middle third of the width.
     Estimate rise(Zone zone) const;
-    // m a period, mean way along the edge of the bed's left or right half (Circulation::speed), positive
-    // where the bed rises in the middle and sinks at the wall.
+    // Mean way (m per period) along the edge of the bed's left or right half (Circulation::speed()), positive
+    // if the bed rises in the middle and sinks at the wall.
     Estimate roll(Side half) const;
-    // m: in the middle of which flow the half turns, y from the middle of the container, z from its floor.
+    // Centre (m) of the roll in a half; y counts from the middle of the container, and z from its floor.
     RollCentre centre(Side half) const { return half == Side::left ? left_centre_ : right_centre_; }
 
     // Everything it knows, for the checkpoint; the reading fails where save() could not have written it.
@@ -101,7 +102,7 @@ class Drift {
     void load(Bytes& in);
 
   private:
-    // One window. m a period.
+    // Results of one window, in m per period.
     struct Window {
         std::array<double, zones> rise{};
         double left_roll = 0, right_roll = 0;
@@ -119,7 +120,7 @@ class Drift {
     SideWalls walls_;
     double half_width_ = 0;       // m, of the container
     VelocityGrid cells_;          // empty
-    std::vector<Place2> before_;  // by id, NaN where there is none
+    std::vector<Place2> before_;  // place of each grain by id; NaN for ids without a grain
     std::int64_t next_ = -1;      // period that ends the window
     std::deque<Window> windows_;
     RollCentre left_centre_, right_centre_;
@@ -127,7 +128,7 @@ class Drift {
 
 }  // namespace grainreel
 
-// Convection: how the bed drifts at its walls and in its middle, and how it turns.
+// Observer of convection: the drift of the bed at its walls and in its middle, and its rolls.
 
 namespace grainreel::observers {
 
@@ -200,7 +201,7 @@ class Convection final : public Observer {
         row.insert(row.end(), {estimate.mean, estimate.error});
     }
 
-    const Rhythm windows_{0, Drift::kPeriods};  // of periods of the drive
+    const Rhythm windows_{0, Drift::kPeriods};  // rhythm of the windows, in periods of the drive
     const bool shaken_;
     const Clock clock_;
     Drift drift_;

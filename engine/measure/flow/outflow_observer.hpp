@@ -1,5 +1,5 @@
-// The observer of outflow: how much of each species has left, how fast, and when the container was empty.
-// Masses are whole numbers of a quantum, so that no rounding adds up.
+// The observer of outflow: the mass of each species that has left, its rate, and the time at which the
+// container was empty. Masses are whole numbers of a quantum, so that no rounding adds up.
 #pragma once
 
 #include <algorithm>
@@ -16,31 +16,31 @@
 
 namespace grainreel {
 
-// Masses as whole numbers, species by species. What has come, what is there and what has left then agree to
-// the last digit, in whatever order they are summed.
+// Masses as whole numbers, species by species. The masses that have come, stayed and left then agree to the
+// last digit, in whatever order they are summed.
 using MassCounts = std::vector<WideInt>;
 
 WideInt total(const MassCounts& counts);
 
-// kg, what a count is worth where no grain is heavier than `largest`: 2^-60 of that at least.
+// Mass (kg) of a count if no grain is heavier than `largest`: at least 2^-60 of `largest`.
 double mass_quantum(double largest);
 WideInt mass_count(double mass, double quantum);
 
-// kg, the largest that a grain of the scene may have.
+// The largest mass (kg) that a grain of the scene may have.
 double largest_mass(const Scene& scene);
 
 class FedMass {
   public:
-    // The scene must outlive it.
+    // The scene must outlive this object.
     explicit FedMass(const Scene& scene) : scene_(scene) {}
 
-    // What the feeds have given when each has given so many: counts, by species.
+    // Masses in counts, by species, that the feeds have given when each has given so many grains.
     const MassCounts& of(std::span<const std::int64_t> given, double quantum);
 
   private:
     const Scene& scene_;
     double quantum_ = 0;
-    std::vector<std::int64_t> given_;  // that are summed up already
+    std::vector<std::int64_t> given_;  // numbers of grains that are summed already
     MassCounts sums_;
 };
 
@@ -48,9 +48,9 @@ class FedMass {
 
 namespace grainreel::observers {
 
-// What has left is what there was when the drive started, and what feeds have given since, less what is
-// there. Where grains have come from elsewhere that is not known: then all is NaN. A grain that has fallen
-// below the floor into a tray has left.
+// The mass that has left is the mass at the start of the drive, plus what feeds have given since, minus the
+// present mass. If grains have come from elsewhere, it is not known, and all values are NaN. A grain that has
+// fallen below the floor into a tray has left.
 class Outflow final : public Observer {
   public:
     static constexpr const char* instrument = "outflow";
@@ -115,7 +115,7 @@ class Outflow final : public Observer {
         std::int64_t step = 0;
         WideInt gone = 0;
     };
-    // Member by member: there is a gap in between, whose bytes could be anything.
+    // Members are saved one by one, because padding between them could have any bytes.
     template <class Self, class Each>
     static void name_all(Self& self, const Each& each) {
         each(self.quantum_), each(self.at_start_), each(self.most_), each(self.emptied_);
@@ -142,8 +142,8 @@ class Outflow final : public Observer {
     const Rows rows_;
     FedMass fed_;
     double quantum_ = 1;         // kg
-    MassCounts at_start_;        // less what feeds had given by then
-    WideInt most_ = 0;           // that was inside at a row
+    MassCounts at_start_;        // masses at the start, minus what feeds had given by then
+    WideInt most_ = 0;           // largest mass that was inside at a row
     Noted before_, last_;        // at the last two rows
     double emptied_ = kNoValue;  // s
 };

@@ -14,7 +14,7 @@ namespace {
 
 using Indices = std::span<std::int32_t>;
 
-// Longest edge of the box around the grains.
+// Axis of the longest edge of the box around the grains.
 int longest_axis(Indices grains, const std::vector<Vec3>& position) {
     Vec3 low = position[grains[0]], high = low;
     for (const std::int32_t i : grains) {
@@ -38,7 +38,7 @@ double summed_variance(Indices grains, int samples, const std::vector<Vec3>& pos
     const int axis = longest_axis(grains, position);
     const int left = samples / 2;
     const auto middle = grains.size() * left / samples;
-    // The index settles ties, so that the cut does not depend on the order the grains come in.
+    // The index decides between equal places, so that the cut does not depend on the order of the grains.
     std::nth_element(grains.begin(), grains.begin() + static_cast<std::ptrdiff_t>(middle), grains.end(),
                      [&](std::int32_t a, std::int32_t b) {
                          return std::pair(position[a][axis], a) < std::pair(position[b][axis], b);
@@ -77,7 +77,8 @@ double share_above(std::vector<double>& these, std::vector<double>& those) {
     if (these.empty() || those.empty()) return kNoValue;
     std::sort(these.begin(), these.end());
     std::sort(those.begin(), those.end());
-    std::size_t lower = 0, not_higher = 0;  // of those, than the present one
+    std::size_t lower = 0,
+                not_higher = 0;  // numbers of `those` that are lower, or not higher, than the present height
     double above = 0;
     for (const double height : these) {
         while (lower < those.size() && those[lower] < height) ++lower;
@@ -107,7 +108,7 @@ BigAndSmall big_and_small(const std::vector<Species>& species) {
 }
 
 SideWalls::SideWalls(const Scene& scene) {
-    const bool stands = !turns_over(scene);  // else its walls are at its sides by turns
+    const bool stands = !turns_over(scene);  // in a container that turns over, left and right mean nothing
     for (const Face& face : container_faces(scene.container, scene.drive))
         if (stands && (face.kind == Face::Kind::cylinder || face.normal.y() != 0)) faces_.push_back(face);
     if (scene.species.empty()) return;

@@ -12,7 +12,7 @@
 
 namespace grainreel::observers {
 
-// How much higher big grains lie than small ones.
+// Observer of the height of big grains above small ones.
 class HeightDifference final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -31,7 +31,7 @@ class HeightDifference final : public Observer {
     }
 };
 
-// How often a big grain lies above a small one.
+// Observer of the probability that a big grain lies above a small one.
 class BigAboveSmall final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -49,7 +49,7 @@ class BigAboveSmall final : public Observer {
     }
 };
 
-// How many of the big grains lie on top, and how many at the bottom.
+// Observer of the shares of big grains at the top and at the bottom of the bed.
 class BigInQuarters final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -71,7 +71,7 @@ class BigInQuarters final : public Observer {
     }
 };
 
-// How many of the big grains lie beside the left and right walls.
+// Observer of the shares of big grains beside the left and right walls.
 class BigAtWalls final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -99,7 +99,7 @@ class BigAtWalls final : public Observer {
     const SideWalls walls_;
 };
 
-// How well big grains are mixed with all others, by samples of equal count.
+// Observer of the mixing of big grains with all others, by samples of equal count.
 class Mixing final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
@@ -128,7 +128,7 @@ class Mixing final : public Observer {
     }
 };
 
-// Whether grains of different species lie side by side as often as by chance.
+// Observer of unlike neighbours: whether grains of different species are neighbours as often as by chance.
 class Unlike final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

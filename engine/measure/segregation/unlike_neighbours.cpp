@@ -15,7 +15,7 @@ struct Radii {
         sum += radius;
         squares += radius * radius;
     }
-    // Sum of (r_i + r_j)^2 over all pairs among them.
+    // Sum of (r_i + r_j)^2 over all pairs of these grains.
     double pairs() const { return (count - 2) * squares + sum * sum; }
 };
 

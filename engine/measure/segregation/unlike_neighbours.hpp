@@ -1,5 +1,5 @@
-// Whether grains of different species lie side by side as often as by chance, and the search for neighbours
-// that this needs.
+// Finds whether grains of different species are neighbours as often as by chance, and has the search for
+// neighbours that this needs.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,23 @@
 
 namespace grainreel {
 
-// Neighbours are grains whose surfaces are closer than this, over the smallest species' mean diameter.
+// Neighbours are grains whose surfaces are closer than this, in units of the smallest species' mean diameter.
 inline constexpr double kNeighbourGap = 0.25;
 
-// The share that pairs of different species have in all pairs of neighbours, over the share they would have
-// by chance: 0 apart, 1 mixed at random, above 1 in order. It is 1 - a with a the order parameter of alloys
-// (Cowley 1950, Phys. Rev. 77, 669), whose atoms are of one size. Here sizes differ, and a large grain has
-// more neighbours: by chance, two grains are neighbours with a weight of (r_i + r_j)^2, as the surface on
-// which the centre of one that touches the other can lie. That weight is ours; for grains of one size it is
-// 1, and chance is that of all ways to hand out the labels again.
+// The share of pairs of different species in all pairs of neighbours, divided by the share that they would
+// have by chance. It is 0 if the species are apart, 1 if they are mixed at random, and above 1 if they
+// alternate in order. It is 1 - a, where a is the order parameter of alloys (Cowley 1950, Phys. Rev. 77,
+// 669), whose atoms have one size. Here sizes differ, and a large grain has more neighbours. So by chance two
+// grains are neighbours with a weight of (r_i + r_j)^2, the area on which the centre of one that touches the
+// other can lie. This weight is our own choice. For grains of one size it is 1, and chance then means all
+// ways to permute the labels.
 //
-// Species go with the places. gap: m, between surfaces. period: m, of x; 0 for none. NaN without neighbours,
-// or where all grains are of one species.
+// `species` holds the species of the grain at each place, `gap` (m) is between surfaces, and `period` (m) is
+// the period of x or 0. NaN without neighbours, or if all grains are of one species.
 double unlike_neighbours(const LargeArray<Place>& place, const std::vector<std::int32_t>& species, double gap,
                          double period);
 
-// All pairs of grains whose surfaces are closer than a gap.
+// Whether the surfaces of two grains are closer than a gap.
 inline bool are_neighbours(const Place& a, const Place& b, double gap, double period) {
     Vec3 apart = a.position - b.position;
     apart.x() = nearest_image(apart.x(), period);
@@ -36,7 +37,7 @@ inline bool are_neighbours(const Place& a, const Place& b, double gap, double pe
 
 class NeighbourPairs {
   public:
-    // gap: m. period: m, of x; 0 for none.
+    // `gap` is in m, and `period` is the period of x in m, or 0.
     NeighbourPairs(const LargeArray<Place>& place, double gap, double period) : gap_(gap), period_(period) {
         LargeArray<Place> wrapped = place;
         if (period > 0) {
@@ -48,7 +49,7 @@ class NeighbourPairs {
         cells_.lay(place_, gap);
     }
 
-    // see(a, b) for each pair once, by places in the array that was given.
+    // Calls see(a, b) for each pair once, with places in the given array.
     template <class See>
     void each(const See& see) const {
         for (std::int32_t i = 0; i < static_cast<std::int32_t>(place_.size()); ++i) {
@@ -67,8 +68,9 @@ class NeighbourPairs {
   private:
     const double gap_, period_;
     Cells cells_;
-    std::vector<std::int32_t> order_;  // by the order of the cells, which find partners fast only there
-    LargeArray<Place> place_;          // as above
+    std::vector<std::int32_t>
+        order_;  // order of the grains by cells, because cells find partners fast only in this order
+    LargeArray<Place> place_;  // places in the same order
 };
 
 }  // namespace grainreel

@@ -14,7 +14,7 @@ constexpr std::size_t kFewest = 20;  // grains
 constexpr double kOutermost = 0.01;  // share of the grains at either end, which may be in flight
 constexpr double kStands = 0.5;      // sine of the angle between axis and gravity
 
-// The slope of the line of least squares through the bins between two places.
+// Slope of the least-squares line through the bins between two places.
 double slope_between(const BedOutline& surface, double from, double to) {
     double count = 0, y = 0, h = 0, yy = 0, yh = 0;
     for (std::size_t i = 0; i < surface.height.size(); ++i) {

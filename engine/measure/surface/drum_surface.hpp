@@ -1,9 +1,10 @@
 // The free surface of a bed in a drum that turns: its dynamic angle of repose.
 //
-// The bed is looked at along the axis. The line of least squares through the middle third of its surface has
-// the angle against the horizontal: away from the walls the surface is straight as long as the bed rolls or
-// cascades (Yamane, Nakagawa, Altobelli, Tanaka and Tsuji 1998, Phys. Fluids 10, 1419; Orpe and Khakhar 2001,
-// Phys. Rev. E 64, 031302). The surface is that of surface.hpp, so grains in flight have no say.
+// The bed is seen along the axis. The angle is that of the least-squares line through the middle third of its
+// surface against the horizontal, because away from the walls the surface is straight as long as the bed
+// rolls or cascades (Yamane, Nakagawa, Altobelli, Tanaka and Tsuji 1998, Phys. Fluids 10, 1419; Orpe and
+// Khakhar 2001, Phys. Rev. E 64, 031302). The surface is that of surface.hpp, so grains in flight do not
+// count.
 #pragma once
 
 #include <numbers>
@@ -21,26 +22,27 @@
 
 namespace grainreel {
 
-// Three unit directions at right angles: along the axis, across it to the side where the drum carries the bed
-// up, and upwards.
+// Three perpendicular unit vectors: along the axis, across it to the side where the drum carries the bed up,
+// and upwards.
 struct DrumAxes {
     Vec3 along, across, up;
 };
-// Empty where the axis stands (within 30 degrees of gravity) or nothing pulls.
+// Empty if the axis stands (within 30 degrees of gravity) or there is no gravity.
 std::optional<DrumAxes> drum_axes(const BodyTurn& turn, const Vec3& gravity);
 
-// rad, above 0 where the bed is highest on the side where the drum carries it up. diameter: m, mean of the
-// grains. NaN with fewer than 20 grains, or where the middle third has fewer than three bins, which are about
-// two diameters wide.
+// The angle (rad) is above 0 if the bed is highest on the side where the drum carries it up. `diameter` (m)
+// is the mean of the grains. NaN with fewer than 20 grains, or if the middle third has fewer than three bins.
+// Bins are about two diameters wide.
 double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, double diameter);
 
-// w^2 R / g. Below 1e-4 a bed slips or slumps, it rolls and cascades up to about 0.1, then cataracts, and at
-// 1 it goes round with the drum (Mellmann 2001, Powder Technol. 118, 251).
+// The Froude number w^2 R / g. Below 1e-4 a bed slips or slumps, up to about 0.1 it rolls and cascades, above
+// that it cataracts, and at 1 it goes round with the drum (Mellmann 2001, Powder Technol. 118, 251).
 double froude_number(double rate, double radius, double gravity);
 
 }  // namespace grainreel
 
-// A drum, or whatever else turns the grains: how far it has turned, and how the bed's surface lies in it.
+// Observer of a drum, or of another body that turns the grains: its angle of turn, and the bed's surface in
+// it.
 
 namespace grainreel::observers {
 

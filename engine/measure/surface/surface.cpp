@@ -23,7 +23,7 @@ constexpr double kGap = 1.5;   // diameters between grains that stand on each ot
 constexpr double kEmpty = -std::numeric_limits<double>::infinity();
 constexpr int kMostColumns = 512;  // along one edge
 
-// What a grain takes up of the vertical through a column. m
+// The part (m) of the vertical through a column that a grain takes up.
 struct Chord {
     double low, high;
 };
@@ -98,10 +98,11 @@ class Columns {
     const int across_, deep_;
     const double width_, depth_;  // m, of a column
     std::vector<std::vector<Chord>> chords_;
-    std::vector<bool> covered_;  // by a grain whose centre is in the column, or that reaches over its middle
+    std::vector<bool>
+        covered_;  // columns with a grain whose centre is in the column or that reaches over its middle
 };
 
-// The mean of the nearest filled bins on both sides, or that of one side.
+// Fills empty bins with the mean of the nearest filled bins on both sides, or with the bin on one side.
 void fill_gaps(std::vector<double>& height) {
     const std::vector<double> given = height;
     const auto count = static_cast<std::ptrdiff_t>(given.size());
@@ -201,7 +202,7 @@ Mound mound_of(const BedOutline& s) {
     const double middle = mean_between(s, s.left + 2 * sixth, right - 2 * sixth);
     const double edges =
         0.5 * (mean_between(s, s.left, s.left + sixth) + mean_between(s, right - sixth, right));
-    const std::size_t half = count / 2;  // of an odd number the middle bin belongs to neither half
+    const std::size_t half = count / 2;  // with an odd number of bins, the middle bin belongs to neither half
     return {middle - edges, 0.5 * (slope_of(s, 0, half) - slope_of(s, count - half, count)),
             slope_of(s, 0, count)};
 }
@@ -212,7 +213,7 @@ struct Spectrum::Plan {
     }
 
     const std::size_t bins;
-    Eigen::FFT<double> transform;  // keeps its twiddles
+    Eigen::FFT<double> transform;  // the object keeps its tables of factors
     std::vector<double> in;
     std::vector<std::complex<double>> out;
 };

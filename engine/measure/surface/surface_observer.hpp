@@ -1,4 +1,4 @@
-// The shape of the bed's surface: waves across the container, and heaps.
+// Observer of the shape of the bed's surface: waves across the container, and heaps.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +45,7 @@ class BedSurface final : public Observer {
 
     std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
     void start(const ObservedState& m) override { gather(m); }
-    // The surfaces of all rows of the last periods.
+    // Keeps the surfaces of all rows of the last periods.
     void gather(const ObservedState& m) override {
         if (m.clock.steps_per_period == 0 || !has_surface(m)) return;
         earlier_.push_back({m.step, surface_at(m).height});
@@ -91,7 +91,7 @@ class BedSurface final : public Observer {
         std::vector<double> height;  // m
     };
 
-    static constexpr double kHair = 1e-3;  // of a period: rows are whole steps
+    static constexpr double kHair = 1e-3;  // of a period, tolerance because rows are at whole steps
 
     static double periods_since(const ObservedState& m, const Earlier& earlier) {
         return m.clock.cycles(m.step) - m.clock.cycles(earlier.step);
@@ -105,7 +105,7 @@ class BedSurface final : public Observer {
         frame.back += m.pose.offset.x(), frame.front += m.pose.offset.x();
         return surface_of(m.grains.place, frame);
     }
-    // NaN until as many periods have been seen at this phase, and where rows do not come whole periods apart.
+    // NaN until enough periods have been seen at this phase, and if rows are not whole periods apart.
     Subharmonics compare_with_earlier(const ObservedState& m, const std::vector<double>& height) const {
         if (m.clock.steps_per_period == 0) return {kNoValue, kNoValue};
         std::vector<const std::vector<double>*> same_phase;

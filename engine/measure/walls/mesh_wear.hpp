@@ -9,18 +9,18 @@
 
 namespace grainreel {
 
-// As it is drawn, and as fields.nc has it: a number for each triangle of one mesh.
+// Pressure and wear of one mesh, a number for each triangle, as drawn and as in fields.nc.
 struct MeshWear {
     std::vector<double>
-        pressure;              // Pa, mean normal force over area since the last record began; NaN: not known
+        pressure;  // Pa, mean normal force over area since the last record began; NaN if not known
     std::vector<double> wear;  // J/m2, work of rubbing over area since the drive started
 };
-// The names of its fields. name: of the mesh, as face_names() has it.
+// The names of its fields. `name` is the name of the mesh as in face_names().
 std::string pressure_field(const std::string& name);
 std::string wear_field(const std::string& name);
 
-// Picks the wear of each mesh from what all observers give on grids. The vectors are empty where the
-// instrument `wear` is not among them.
+// Picks the wear of each mesh from the fields of all observers. The vectors are empty if the instrument
+// `wear` is not among them.
 std::vector<MeshWear> wear_among(const Scene& scene, const std::vector<const FieldSet*>& sets,
                                  const std::vector<FieldValues>& values);
 

@@ -48,7 +48,7 @@ double from_axis(const BodyTurn& turn, const Vec3& place) {
     return turn.axis.cross(place - turn.through).norm();
 }
 
-// The largest distance of a circle's points from an axis. The circle lies level, about a point of the z axis.
+// The largest distance of a circle's points from an axis. The circle is level, with its centre on the z axis.
 double circle_from_axis(const BodyTurn& turn, double radius, double z) {
     constexpr int kPoints = 720;  // the error of the distance is below 1e-5 of the radius
     double farthest = 0;

@@ -1,4 +1,5 @@
-// The walls of a scene, the bodies that they belong to, and which of these turn. Needs no step loop.
+// The walls of a scene, the bodies to which they belong, and the bodies that turn. This header does not need
+// the step loop.
 #pragma once
 
 #include <cstddef>
@@ -12,35 +13,35 @@
 
 namespace grainreel {
 
-// A wall as its sums are numbered: faces first, then meshes.
+// A wall, numbered as in the sums of walls: faces first, then meshes.
 struct WallBody {
-    std::size_t body = 0;  // its number; of a tray that of the container
-    bool mesh = false;     // a mesh, or a face
-    bool fixed = true;     // whether it stays where it is, but for the drive's motion of a face
-    bool turns = false;    // about `axis`, through `point`
-    Vec3 point{0, 0, 0};   // m, at rest: what its sums of moments are about
+    std::size_t body = 0;  // number of its body; the container's for a tray
+    bool mesh = false;     // true for a mesh, false for a face
+    bool fixed = true;     // whether it stays where it is, apart from the drive's motion of a face
+    bool turns = false;    // whether it turns about `axis`, through `point`
+    Vec3 point{0, 0, 0};   // m, at rest, about which its moments count
     Vec3 axis{0, 0, 0};    // unit
 };
 std::vector<WallBody> wall_bodies(const Scene& scene);
 
-// Which of the scene's meshes is the container; empty where none is.
+// Number of the mesh that is the scene's container; empty if there is none.
 std::optional<std::size_t> vessel_of(const Scene& scene);
 
 // Whether the container turns about an axis that does not stand, so that left, right and floor mean nothing.
 bool turns_over(const Scene& scene);
 
-// m, at rest: the moment of the grains on a mesh counts about it. It moves with the mesh.
+// The point (m, at rest) about which the moment of the grains on a mesh counts. It moves with the mesh.
 Vec3 moment_point(const SceneMesh& mesh);
 
 // A body that turns about an axis.
 struct TurningBody {
-    std::int32_t body = 0;  // its number
+    std::int32_t body = 0;  // its number as a body
     BodyTurn turn;
-    double radius = 0;  // m, of its farthest point from the axis
+    double radius = 0;  // m, distance of its farthest point from the axis
 };
 
-// What the grains are turned by: the container, else the mesh that is the container, else the first mesh that
-// turns. Empty where nothing turns.
+// The body that turns the grains: the container, else the mesh that is the container, else the first mesh
+// that turns. Empty if nothing turns.
 std::optional<TurningBody> turning_body(const Scene& scene);
 
 }  // namespace grainreel

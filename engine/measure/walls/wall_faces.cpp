@@ -23,11 +23,11 @@ double largest_radius(const Scene& scene) {
     return largest;
 }
 
-// Each two diameters of the largest grain high, about.
+// Number of slices of height. Each is about two diameters of the largest grain high.
 int slices_of(const Scene& scene) {
     if (scene.container.shape == Container::Shape::none || scene.container.shape == Container::Shape::mesh)
         return 0;
-    if (scene.container.turn) return 0;  // its walls stand nowhere
+    if (scene.container.turn) return 0;  // no wall of it keeps standing
     const double slices = scene.container.height / (4 * largest_radius(scene));
     return static_cast<int>(std::clamp(std::round(slices), 1.0, double{kMostSlices}));
 }
@@ -101,14 +101,15 @@ namespace {
 
 constexpr double kLooksAPeriod = 128, kLooksARow = 64;
 
-// Whether its velocity changes, or its rate.
+// Whether the velocity of a body changes, or its rate of turning.
 bool is_unsteady(const Body& body, const Drive& drive) {
     const bool ramps =
         body.turn && (body.turn->from > 0 || body.turn->over > 0 || std::isfinite(body.turn->until));
     return (body.driven && drive.present) || body.path || ramps;
 }
 
-// In counts. What was counted is subtracted as whole numbers, so that nothing is lost late in a run.
+// The difference of two sums, in counts. Whole numbers are subtracted, so that no digits are lost late in a
+// run.
 using Three = std::array<WideInt, 3>;
 Vec3 sum(const Three& then, const Three& now, double felt, const Three& last_then, const Three& last_now) {
     Vec3 counts;

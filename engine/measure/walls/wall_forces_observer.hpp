@@ -1,14 +1,13 @@
-// What each wall takes: the mean force on it and its moment, the weight that it carries, and the pressure
-// against height; of walls that turn or move by themselves also the torque about their axis and the power
-// that they give (WallWork in wall_faces.hpp). The forces are summed at every step, so that no impact is
-// missed. Forces are means between two rows of measures.csv, pressures between two ends of records of
-// fields.nc.
+// Observer of each wall: the mean force on it and its moment, the weight that it carries, and the pressure by
+// height. For walls that turn or move by themselves, also the torque about their axis and the power that they
+// give (WallWork in wall_faces.hpp). The forces are summed at every step, so that no impact is missed. Forces
+// are means between two rows of measures.csv, pressures between two ends of records of fields.nc.
 //
 // Between the steps n1 < n2 the impulse on a face is dt (C(n2) - C(n1)) with C(n) = F_1 + ... + F_n - (1 - s)
 // F_n, where s is the share of a step's force that the grains have felt by its end: 1/2 with velocity Verlet.
-// So the impulse of all walls is the change of the grains' momentum less that of gravity, but for rounding
-// (sums of eqs. 4 and 5 of Swope et al. 1982, J. Chem. Phys. 76, 637). Gear's method corrects places and
-// velocities by other weights and keeps this to the order of its step only.
+// So the impulse of all walls is the change of the grains' momentum minus the impulse of gravity, except for
+// rounding (sums of eqs. 4 and 5 of Swope et al. 1982, J. Chem. Phys. 76, 637). Gear's method corrects places
+// and velocities by other weights and keeps this to the order of its step only.
 #pragma once
 
 #include <algorithm>
@@ -70,7 +69,8 @@ class WallForces final : public Observer {
         return std::min({rows_.after(step), records_.next_end(step + 1), work_.gathers_after(step)});
     }
 
-    // Where a run goes on without what was gathered before, a record has no pressures from its middle on.
+    // If a run goes on without the data gathered before, the present record has no pressures, because it
+    // begins in the middle.
     void start(const ObservedState& m) override {
         work_.start(m);
         last_ = before_ = {m.step, m.wall_sums->faces, work_.until(m)};
@@ -95,7 +95,7 @@ class WallForces final : public Observer {
         const std::vector<double> work = work_.until(m);
         for (std::size_t f = 0; f < from.faces.size(); ++f) {
             const WallSum all = sum_between(from.faces[f], m.wall_sums->faces[f], *m.wall_sums);
-            // NaN as long as there is no step to take the mean of.
+            // This is NaN as long as there is no step to take the mean of.
             const Vec3 force = all.force / steps;
             Vec3 moment = all.moment / steps;
             const WallBody& wall = walls_.at(f);
@@ -140,11 +140,11 @@ class WallForces final : public Observer {
     struct Noted {
         std::int64_t step = 0;
         std::vector<FaceSums> faces;
-        std::vector<double> work = {};  // J, given by each wall; none where no wall moves by itself
+        std::vector<double> work = {};  // J, given by each wall; empty if no wall moves by itself
     };
     struct Record {
         std::int64_t step = 0;
-        std::vector<WideInt> slices;  // none: not known
+        std::vector<WideInt> slices;  // empty if not known
     };
     template <class Self, class Each>
     static void name_all(Self& self, const Each& each) {

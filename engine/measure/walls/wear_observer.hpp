@@ -1,5 +1,5 @@
-// What grains do to the surfaces of meshes: the work of impacts and of rubbing on each mesh, and on each of
-// its triangles how hard they press and how they wear it.
+// Observer of the wear of meshes: the work of impacts and of rubbing on each mesh, and the pressure and wear
+// on each of its triangles.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 namespace grainreel {
 
 // The tally, triangle by triangle. A contact with the normal force N and the tangential force T on the mesh,
-// and the velocity u of the grain's surface against the mesh there: it presses with N; impacts do the work N
-// max(0, u . n) dt, n into the mesh, which is what compresses the two; rubbing does T . u dt. All are looked
-// at every second step, six times or more in a collision, and each look counts for the steps since the one
-// before. The work of rubbing over the area is what Archard's law of wear is proportional to (J. F. Archard
-// 1953, J. Appl. Phys. 24, 981, at a constant coefficient of friction), that of impacts what erodes (I.
-// Finnie 1960, Wear 3, 87).
+// has the velocity u of the grain's surface relative to the mesh there. It presses with N. Impacts do the
+// work N max(0, u . n) dt, where n points into the mesh; this work compresses the bodies. Rubbing does the
+// work T . u dt. Contacts are looked at every second step, six times or more in a collision, and each look
+// counts for the steps since the one before. Archard's law makes wear proportional to the work of rubbing
+// over the area (J. F. Archard 1953, J. Appl. Phys. 24, 981, at a constant coefficient of friction). The work
+// of impacts causes erosion (I. Finnie 1960, Wear 3, 87).
 inline constexpr std::int64_t kLookSteps = 2;
 
 // One number for each triangle of one mesh, since the drive started.
@@ -37,21 +37,22 @@ class WearTally {
 
     void begin() { seen_.clear(); }
     void contact(const ObservedState& m, const ContactView& c);
-    // Adds what was seen since begin(), for so long (s). The same bits in whatever order it was seen.
+    // Adds the contacts seen since begin(), which count for `time` (s). The bits do not depend on the order
+    // in which they were seen.
     void add(double time);
 
-    const std::vector<WearSums>& sums() const { return sums_; }  // a mesh each
+    const std::vector<WearSums>& sums() const { return sums_; }  // one for each mesh
     std::vector<WearSums>& sums() { return sums_; }
-    bool fits(const std::vector<WearSums>& sums) const;  // whether they can be of these meshes
+    bool fits(const std::vector<WearSums>& sums) const;  // whether the sums can belong to these meshes
 
   private:
     struct Seen {
         std::size_t mesh, triangle;
-        std::int32_t grain;           // its id
+        std::int32_t grain;           // id of the grain
         double press, impact, shear;  // N, W, W
     };
     std::vector<Body> bodies_;
-    std::size_t first_ = 0;  // number of the first mesh's body
+    std::size_t first_ = 0;  // number of the first mesh as a body
     std::vector<WearSums> sums_;
     std::vector<Seen> seen_;
 };
@@ -145,7 +146,8 @@ class Wear final : public Observer {
     }
 
   private:
-    // Where a record began: the sums of the normal forces then, of each mesh; none: not known.
+    // The beginning of a record, with the sums of normal forces of each mesh at that step; empty if not
+    // known.
     struct Record {
         std::int64_t step = 0;
         std::vector<std::vector<double>> press;  // N s
@@ -163,7 +165,7 @@ class Wear final : public Observer {
         }
     }
 
-    // As face_names() has them, behind those of the faces.
+    // Names of the meshes, which face_names() has behind those of the faces.
     static std::vector<std::string> mesh_names(const Scene& scene) {
         const std::vector<std::string> names = face_names(scene);
         return {names.end() - static_cast<std::ptrdiff_t>(scene.meshes.size()), names.end()};
@@ -200,8 +202,8 @@ class Wear final : public Observer {
     WearTally tally_;
     FieldSet set_;
     std::vector<std::vector<double>> areas_;  // m2, of each triangle of each mesh
-    std::int64_t step_ = 0;                   // of the last look
-    Record record_, record_before_;           // where the last two records began
+    std::int64_t step_ = 0;                   // step of the last look
+    Record record_, record_before_;           // beginnings of the last two records
 };
 
 }  // namespace grainreel::observers
