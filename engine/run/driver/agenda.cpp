@@ -59,11 +59,11 @@ std::optional<Stop> Agenda::next() {
 namespace {
 
 constexpr double most_bytes = 40e6;
-constexpr double bytes_a_grain = 68 + 3 * 44;  // its place in one file, and three contacts in the other
-constexpr int last_periods = 2, phases = 8;    // of the drive, and moments in each
+constexpr double bytes_a_grain = 68 + 3 * 44;  // its row in one file, and three contacts in the other
+constexpr int last_periods = 2, phases = 8;    // periods of the drive, and moments in each
 constexpr int between = 12;
 
-// What matters most comes first.
+// The wanted steps, the most important ones first.
 std::vector<std::int64_t> wanted_steps(const Scene& scene, const Plan& plan, std::int64_t first,
                                        const std::vector<double>& named) {
     const std::int64_t last = plan.steps;

@@ -33,7 +33,7 @@ std::vector<std::string> names_of(const AlsoFormats& also) {
     return names;
 }
 
-// What an earlier run that was killed has left there unfinished.
+// Removes unfinished files of an earlier run that was killed.
 void remove_parts(const fs::path& also) {
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(also, ignored)) {

@@ -1,5 +1,5 @@
-// Remembers what went wrong first while the rest is still tried, so that a run that ends badly keeps all it
-// can.
+// Remembers the first failure while the remaining work is still tried, so that a failed run keeps as much as
+// it can.
 #pragma once
 
 #include <exception>

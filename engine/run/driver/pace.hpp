@@ -1,5 +1,4 @@
-// The pace of a run by the clock on the wall: steps at a stretch, times of its stages, and when checkpoints
-// are due.
+// The pace of a run in wall time: steps at a stretch, times of its stages, and when checkpoints are due.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +11,12 @@
 
 namespace grainreel {
 
-// How many steps to take at a stretch, so that Ctrl-C and the progress line never wait long, and the rate to
-// show.
+// Finds how many steps to take at a stretch, so that Ctrl-C and the progress line never wait long.
 class Pace {
   public:
     std::int64_t steps() const { return steps_; }
 
-    // The last stretch was `steps` long and took this many seconds.
+    // Notes that the last stretch had `steps` steps and took `seconds` seconds.
     void took(std::int64_t steps, double seconds) {
         // At most four times more than before: one quick stretch says little about the next.
         const double most = 4.0 * static_cast<double>(steps_);
@@ -32,7 +30,7 @@ class Pace {
     std::int64_t steps_ = 8;
 };
 
-// Work in a second. It forgets what is a few seconds old.
+// Work per second. Work that is a few seconds old is forgotten.
 class RecentRate {
   public:
     void add(double work, double seconds) {
@@ -94,21 +92,21 @@ class StageTimes {
 };
 
 // When a run writes its checkpoints. The second one comes 2 s after the first, the next after 4 s, 8 s, ...
-// 30 s, so that a killed run never loses much more than it has done. Checkpoints of the ring come beside
-// them. All together never cost more than a hundredth of the run, because a checkpoint of a million grains
-// takes its time.
+// 30 s, so that a killed run never loses much more than it has done. Checkpoints of the ring come in
+// addition. All together never take more than a hundredth of the run's time, because a checkpoint of a
+// million grains takes long.
 class CheckpointPace {
   public:
-    // Call after a checkpoint. cost: s, how long it took to write.
+    // Call this after a checkpoint that took `cost` seconds to write.
     void saved(double cost) {
         interval_ = std::min(longest, 2 * interval_);
         cost_ = cost;
         since_ = Stopwatch();
     }
     bool due() const { return due(since_.seconds()); }
-    // Whether a checkpoint is due so many seconds after the last one.
+    // Whether a checkpoint is due `seconds` after the last one.
     bool due(double seconds) const { return seconds > std::max(interval_, share * cost_); }
-    // Whether one more costs no more than it may.
+    // Whether one more checkpoint stays within the allowed share of time.
     bool affordable() const { return since_.seconds() > share * cost_; }
 
   private:

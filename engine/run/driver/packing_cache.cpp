@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;  // of all packings together
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;  // bytes of all packings together
 constexpr const char* kEnd = ".grs";
 
 struct One {
@@ -38,7 +38,8 @@ std::vector<One> all_in(const fs::path& folder) {
     return all;
 }
 
-// Another run may be at work on it. What is older than a day was left by one that was killed.
+// Whether another run may still be writing this file. A file older than a day was left by a run that was
+// killed.
 bool is_being_made(const One& one) {
     return one.file.extension() != kEnd &&
            fs::file_time_type::clock::now() - one.used < std::chrono::hours(24);

@@ -1,9 +1,9 @@
 // Packings that runs have left in the user's cache folder ($XDG_CACHE_HOME/grainreel/packings), where a later
 // run of the same start finds them.
 //
-// A packing has its key in its file and a checksum over all of it. The file's name is a hash of the key. So
-// what is damaged, foreign or of another program is never taken, whoever wrote it. A file gets its name when
-// it is whole, so runs at the same time do each other no harm.
+// The file of a packing holds its key and a checksum over the whole file. The file's name is a hash of the
+// key. So files that are damaged, foreign or of another program are never used. A file gets its name when it
+// is whole, so runs at the same time do not disturb each other.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,23 @@
 
 namespace grainreel {
 
-// Where the packing of a key is, or would be. Empty where the user has no cache folder.
+// Path at which the packing of a key is, or would be. Empty if the user has no cache folder.
 std::filesystem::path place_of_packing(const std::string& key);
 
-// Packings that were not used for longest are removed first.
+// Notes that a packing has been used. Packings that were not used for the longest time are removed first.
 void note_packing_used(const std::filesystem::path& place);
 
-// Keeps what `write` writes to the name that it is given, and removes what was not used for longest while all
-// together are larger than the limit. Never throws: returns why it could not be kept, in words, or nothing.
+// Keeps the file that `write` writes under the name that it is given. Removes the packings that were not used
+// for the longest time while all together exceed the limit. Never throws. Returns the reason, in words, if
+// the packing could not be kept, else nothing.
 std::string keep_packing(const std::filesystem::path& place,
                          const std::function<void(const std::filesystem::path&)>& write);
 
-// What the folder holds.
+// The content of the folder.
 struct PackingsKept {
     std::filesystem::path folder;
     std::size_t packings = 0;
-    std::uintmax_t bytes = 0, most_bytes = 0;  // of all together, and how many are kept
+    std::uintmax_t bytes = 0, most_bytes = 0;  // of all packings together, and the limit
 };
 PackingsKept packings_kept();
 

@@ -20,7 +20,7 @@ namespace grainreel {
 
 namespace {
 
-// A hard link that takes the place of what `name` was. False where the file system knows none.
+// Makes a hard link that replaces the file `name`. Returns false if the file system has no hard links.
 bool give_second_name(const std::filesystem::path& file, const std::filesystem::path& name) {
     const std::filesystem::path part = name.string() + ".part";
     std::error_code error;
@@ -56,7 +56,8 @@ void RunDriver::keep_former(const FolderLock& folder, bool hands_out, const std:
     former_kept_ = true;
 }
 
-// A run that ends where it was, its film being unfinished, has all its files whole again by then.
+// Gives up the saved former state once the run has gone past its former end. A run may also end exactly at
+// its former end, to finish its film. Its files are then whole again too.
 void RunDriver::let_former_go(bool at_its_end) {
     if (!former_kept_ || !(at_its_end || simulation_.step() > former_end_)) return;
     FormerRun::let_go(folder_->folder());
@@ -131,7 +132,7 @@ void RunDriver::start(FrameWishes wishes) {
     if (files_->keeps_key_moments())
         agenda_->want_keys(key_steps(scene_, plan_, first_step_, wishes_.key_times));
     if (simulation_.step() > first_step_) agenda_->goes_on();
-    save_checkpoint();  // of a packing that may have taken hours
+    save_checkpoint();  // a packing may have taken hours
 }
 
 void RunDriver::open_files() {
@@ -195,7 +196,7 @@ bool RunDriver::advance_to(std::int64_t target, const GoOn& go_on) {
     return go_on();
 }
 
-// The frame is null where nobody wants one.
+// Does the work of a stop. The frame is null if none is wanted.
 std::shared_ptr<Frame> RunDriver::serve(const Stop& stop) {
     if (stop.measures) {
         const auto timer = times_.during("measuring");
@@ -231,7 +232,7 @@ bool RunDriver::ring_due() const {
     return ring_ && ring_->due(simulation_.step()) && checkpoints_.affordable();
 }
 
-// One of the ring is the run's last one too, under a second name.
+// A checkpoint of the ring is also the run's last one, under a second name.
 void RunDriver::save_checkpoint() {
     folder_->check_there();
     const auto timer = times_.during("writing");
@@ -261,7 +262,7 @@ void RunDriver::close(FirstFailure& failure) {
     failure.attempt([&] { state_hash_ = simulation_.state_hash(); });
 }
 
-// What a run says of itself: to its user, and in run.json.
+// Texts about the run for its user, and for run.json.
 std::string RunDriver::found_packing_text() const {
     if (!found_packing_) return "";
     return fmt::format(

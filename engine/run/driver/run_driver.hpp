@@ -1,7 +1,7 @@
-// One scene that is run: packing, vibration up to the moments that somebody wants to see, and the files it
-// leaves in its folder. Prints nothing and draws nothing.
+// Runs one scene: packing, vibration up to the moments that are to be seen, and the files in the run's
+// folder. It prints nothing and draws nothing.
 //
-// use_folder(), pack(), start(), next() until it gives nothing, close(): in this order.
+// Call use_folder(), pack(), start(), next() until it gives nothing, and close(), in this order.
 #pragma once
 
 #include <filesystem>
@@ -29,51 +29,52 @@ namespace grainreel {
 
 class RunDriver {
   public:
-    // Asked every tenth of a second or so; false: stop.
+    // Called about every tenth of a second. It returns false to stop the run.
     using GoOn = std::function<bool()>;
 
-    // Throws UserError for what scene or plan get wrong; nothing is on disk then.
+    // Throws UserError for mistakes in scene or plan. Nothing is on disk then.
     RunDriver(const Scene& scene, const Plan& plan, int threads);
-    // A run that goes on in its folder. It is packed.
+    // A run that goes on in its folder. It is already packed.
     RunDriver(const Scene& scene, const Plan& plan, ResumePoint point);
     RunDriver(const RunDriver&) = delete;
     RunDriver& operator=(const RunDriver&) = delete;
 
-    // Writes scene.toml and the files of meshes there; the other files follow with start(). The lock outlives
-    // the run; from here pack() and next() throw RunError soon after the folder is gone. previous: as in
-    // keep_mesh_files.
+    // Writes scene.toml and the files of meshes there; the other files follow with start(). The lock must
+    // outlive the run. From here on pack() and next() throw RunError soon after the folder is gone.
+    // `previous` is as in keep_mesh_files().
     void use_folder(const FolderLock& folder, const std::string& program_version,
                     const std::filesystem::path& previous = {});
-    // For a run that goes on, before use_folder(): looks at all its files, and keeps what it was until it has
-    // gone past its former end. hands_out: whether frames will be wanted of it, so that film_moments.nc goes
-    // on. Throws UserError or RunError; nothing in the folder has changed then.
+    // Call this for a run that goes on, before use_folder(). It checks all files of the run, and keeps the
+    // former state until the run has gone past its former end. `hands_out` says whether frames will be handed
+    // out, so that film_moments.nc goes on. Throws UserError or RunError; nothing in the folder has changed
+    // then.
     void keep_former(const FolderLock& folder, bool hands_out, const std::string& program_version);
-    // Whether it goes on and has not come to where it was.
+    // Whether the run goes on and has not yet reached its former end.
     bool is_behind_former() const { return former_kept_; }
-    // Closes its files, and the folder is as it was. Nothing else may be called afterwards.
+    // Closes the files and restores the folder as it was. Nothing else may be called afterwards.
     void put_back();
-    // From here on pack() takes a packing that an earlier run has kept in the user's cache folder, and keeps
-    // its own there where that took `shortest` seconds or longer. No bit of the run changes by that.
+    // Lets pack() use a packing that an earlier run has kept in the user's cache folder, and keep its own
+    // there if it took `shortest` seconds or longer. The bits of the run do not change.
     void keep_packings(double shortest) { shortest_kept_ = shortest; }
-    // False when the watcher stopped it.
+    // Returns false if the watcher stopped it.
     bool pack(const PackingWatcher& watcher);
     const PackingResult& packing() const { return packing_; }
-    // A line on the packing that pack() found; empty where it packed by itself.
+    // A line about the packing that pack() found; empty if it made the packing itself.
     std::string found_packing_text() const;
 
-    // After packing: opens the files.
+    // Opens the files. Call it after packing.
     void start(FrameWishes wishes);
-    // Goes to the next step at which a frame is wanted, writes on the way what the scene asks for, and hands
-    // the frame out. Nothing after the last (the run is then at its end), and when told to stop. Throws
-    // RunError when the run stopped being healthy, a file cannot be written, or the folder is gone.
+    // Goes to the next step at which a frame is wanted, writes the files of the scene on the way, and hands
+    // the frame out. Returns null after the last frame (the run is then at its end), and if it was told to
+    // stop. Throws RunError if the run is not healthy, a file cannot be written, or the folder is gone.
     std::shared_ptr<Frame> next(const GoOn& go_on);
-    // An earlier moment that the frame of the last next() wants; null where it was not kept.
+    // An earlier moment that the frame of the last next() needs; null if it was not kept.
     FramePtr kept(std::int64_t step) const { return kept_.at(step); }
-    // What was found when it started.
+    // Findings when the run started, a line each.
     const std::vector<std::string>& news() const { return news_; }
 
-    // After packing, whatever happened: last row of measures, end state, checkpoint. Nothing when its folder
-    // is gone.
+    // Writes the last row of measures, the end state and the checkpoint. Call it after packing, whatever
+    // happened. It does nothing if the folder is gone.
     void close(FirstFailure& failure);
 
     const Scene& scene() const { return scene_; }
@@ -87,9 +88,9 @@ class RunDriver {
     bool has_other_formats() const {
         return scene_.output.also.any() && files_ && files_->trajectory_frames() > 0;
     }
-    bool goes_on() const { return goes_on_; }                // in the folder of an earlier run, which it is
-    std::int64_t first_step() const { return first_step_; }  // at which the drive began, once it is packed
-    // Frames of film_moments.nc that were handed out before, for a run that goes on.
+    bool goes_on() const { return goes_on_; }                // whether the run goes on in its folder
+    std::int64_t first_step() const { return first_step_; }  // step at which the drive began, once packed
+    // Number of frames in film_moments.nc that were handed out before, for a run that goes on.
     std::size_t frames_before() const { return frames_before_; }
     double done() const;                                   // share of the vibration
     double recent_speed() const { return rate_.value(); }  // particle-steps/s
@@ -99,7 +100,7 @@ class RunDriver {
     std::optional<std::string> packing_warning() const;
     // "trajectory.nc (4 frames), measures.csv (30 rows), ..."
     std::string files_text() const;
-    // What is known when the run begins, and when it has ended.
+    // Adds to the record what is known when the run begins, and when it has ended.
     void describe(RunJson& record) const;
     void conclude(RunJson& record) const;
 
@@ -119,10 +120,10 @@ class RunDriver {
     Plan plan_;
     Simulation simulation_;
     const FolderLock* folder_ = nullptr;
-    std::string program_version_;  // as files tell it
+    std::string program_version_;  // as written in files
     PackingResult packing_;
     bool packed_ = false;
-    std::optional<double> shortest_kept_;  // s, of packings that are kept
+    std::optional<double> shortest_kept_;  // s, shortest time of packings that are kept
     bool found_packing_ = false;
     std::string not_kept_;  // why the packing could not be kept
     std::int64_t first_step_ = 0;
@@ -142,10 +143,10 @@ class RunDriver {
     Pace pace_;
     CheckpointPace checkpoints_;
     std::optional<CheckpointRing> ring_;
-    double particle_steps_ = 0;                // of vibration
+    double particle_steps_ = 0;                // particle steps of the vibration
     RecentRate rate_;                          // particle-steps/s
-    std::optional<std::uint64_t> state_hash_;  // of the end state
-    std::optional<TableMark> final_table_;     // of its table
+    std::optional<std::uint64_t> state_hash_;  // hash of the end state
+    std::optional<TableMark> final_table_;     // mark of the end state's table
 };
 
 }  // namespace grainreel

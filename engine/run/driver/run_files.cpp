@@ -82,7 +82,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
     if (scene.output.contacts) contacts_.emplace(folder / "contacts.nc", frames);
 }
 
-// Takes over the rows of measures.csv, for plots and for the end's comparison with the beginning.
+// Reads the former rows of measures.csv, for plots and for the comparison of end and beginning.
 void RunFiles::take_over_rows(const Simulation& simulation) {
     const std::shared_ptr<const MeasureTable> rows = read_measures(folder_ / "measures.csv");
     if (!rows) return;
@@ -164,7 +164,7 @@ namespace {
 
 constexpr int most_periods = 10;
 constexpr double late_share = 0.1;  // of a run without a drive
-constexpr double hair = 1e-3;       // of a period: rows are whole steps
+constexpr double hair = 1e-3;       // of a period, tolerance because rows are at whole steps
 
 }  // namespace
 

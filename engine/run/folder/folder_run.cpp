@@ -61,7 +61,8 @@ FolderRun::Ended FolderRun::run() {
     }
     find_folder();
     keep_state();
-    // What was asked to stop says so from here on: a third signal may end it while side work is finished.
+    // A stopped run has this status in its record from here on, because a third signal may end it while side
+    // work is finished.
     if (stopped) close_record(stopped);
     close_side_work();
     find_folder();
@@ -74,7 +75,7 @@ FolderRun::Ended FolderRun::run() {
     return {*desk_.record.exit_status, has_folder_ ? std::optional(folder()) : std::nullopt};
 }
 
-// For a run that goes on and did not come to where it was.
+// Ends a run that goes on and did not reach its former end.
 FolderRun::Ended FolderRun::end_as_before(bool mistaken) {
     if (SideWork* const side = side_work()) side->drop();
     if (desk_.failure.any()) desk_.listener.error(desk_.failure.what());
@@ -98,13 +99,13 @@ void FolderRun::mark_begun() {
     desk_.listener.keep_before_exit();
 }
 
-// A folder that is gone is why anything else failed.
+// Notes a missing folder first, because it is then the cause of all other failures.
 void FolderRun::note_folder() {
     desk_.failure.attempt([&] { desk_.folder->lock().check_there(); });
 }
 
-// Where the folder is now. Its side work is left before its name changes: that work's threads use the old
-// one.
+// Checks whether the folder has been moved or removed. Side work is dropped before the folder's name changes,
+// because its threads use the old name.
 void FolderRun::find_folder() {
     if (desk_.folder->lock().is_there()) return;
     note_folder();
@@ -158,7 +159,8 @@ void FolderRun::write_record() {
     write_run_json(folder() / "run.json", now);
 }
 
-// For a run whose other files are closed, also one that failed. A run without its page has failed at nothing.
+// Makes the page of a run whose other files are closed, also of a failed run. A missing page is not a failure
+// of the run.
 void FolderRun::make_page() {
     if (!request_.page || !has_folder_) return;
     if (desk_.listener.in_a_hurry()) return stop_before_page();

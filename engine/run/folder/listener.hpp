@@ -1,5 +1,5 @@
-// Who is told what a run does, and who may ask it to stop. Nothing here prints or ends the process: the
-// caller of a run decides where the words go.
+// Listeners are told what a run does, and may ask it to stop. Nothing here prints or ends the process: the
+// caller of a run decides where messages go.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace grainreel {
 
-// How far a run has come.
+// The progress of a run.
 struct Progress {
     enum class Stage {
         growing,
@@ -32,13 +32,13 @@ struct Progress {
         exporting
     };
     Stage stage = Stage::growing;
-    double done = 0;                              // of this stage, 0 to 1
-    std::string what;                             // while charting, timing or studying
+    double done = 0;                              // share of this stage, 0 to 1
+    std::string what;                             // subject while charting, timing or studying
     double time = 0, end = 0;                     // s simulated, while vibrating
-    double particle_steps_per_second = 0;         // 0: not known yet
-    std::int64_t frames = 0, frames_planned = 0;  // of the film; planned 0: no film
+    double particle_steps_per_second = 0;         // 0 if not known yet
+    std::int64_t frames = 0, frames_planned = 0;  // of the film; frames_planned is 0 without a film
     double elapsed = 0;                           // s of wall time since the run began
-    double remaining = -1;                        // s of wall time; negative: not known yet
+    double remaining = -1;                        // s of wall time; negative if not known yet
 };
 
 // "0.4 s", "45 s", "1 min 05 s", "2 h 03 min".
@@ -48,23 +48,24 @@ class RunListener {
   public:
     virtual ~RunListener() = default;
 
-    // Messages, a line each. On the thread that runs.
-    virtual void detail(const std::string& text) = 0;  // for those who want to know all
+    // Messages, a line each, called on the thread that runs.
+    virtual void detail(const std::string& text) = 0;  // for detailed logs
     virtual void info(const std::string& text) = 0;
     virtual void warning(const std::string& text) = 0;
     virtual void error(const std::string& text) = 0;
-    // As often as the run likes. On the thread that runs.
+    // Called as often as the run likes, on the thread that runs.
     virtual void progress(const Progress& progress) = 0;
 
-    // The signal (SIGINT, say) that asked the run to end in good order; 0 while none did. On any thread.
+    // The signal (SIGINT, say) that asked the run to end in good order; 0 if there was none. May be called on
+    // any thread.
     virtual int stop_signal() const = 0;
-    // From now on there is something that must not be lost, however much of a hurry there is.
+    // Says that from now on there are results that must not be lost, even in a hurry.
     virtual void keep_before_exit() = 0;
-    // Whether the run is to end at once, apart from what must be kept. On any thread.
+    // Whether the run is to end at once, except for results that must be kept. May be called on any thread.
     virtual bool in_a_hurry() const = 0;
 };
 
-// Tells nobody anything, and nobody asks the run to stop.
+// A listener that ignores all messages and never asks the run to stop.
 class SilentListener : public RunListener {
   public:
     void detail(const std::string&) override {}
@@ -77,11 +78,11 @@ class SilentListener : public RunListener {
     bool in_a_hurry() const override { return false; }
 };
 
-// Passes everything on, and writes the messages to a log too once there is one.
+// Passes everything on, and also writes the messages to a log once there is one.
 class LoggingListener final : public RunListener {
   public:
     explicit LoggingListener(RunListener& to) : to_(to) {}
-    void keep_log(RunLog* log) { log_ = log; }  // null ends that
+    void keep_log(RunLog* log) { log_ = log; }  // null ends the log
 
     void detail(const std::string& text) override {
         if (log_ != nullptr) log_->info(text);
@@ -109,11 +110,11 @@ class LoggingListener final : public RunListener {
     RunLog* log_ = nullptr;
 };
 
-// A watcher that tells how far a replay has come. It tells `tell` once the replay has gone on for a second,
-// with the time that is left. It never stops the replay.
+// Makes a watcher that reports the progress of a replay to `tell`, with the remaining time, once the replay
+// has taken a second. It never stops the replay.
 ReplayWatcher replay_progress(std::function<void(const Progress&)> tell);
 
-// What all parts that work on one run's folder share.
+// Objects that all parts working on one run's folder share.
 struct RunDesk {
     explicit RunDesk(RunListener& to) : listener(to) {}
 

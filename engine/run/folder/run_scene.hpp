@@ -10,7 +10,7 @@
 //     };
 //     const SceneEnd end = run_scene(scene, how);
 //
-// A frame's arrays have one entry a grain, in order of rising ids: position (m), velocity (m/s), spin
+// A frame's arrays have one entry per grain, in order of rising ids: position (m), velocity (m/s), spin
 // (rad/s), radius (m), species (its place in scene.species). SI units throughout; z points up, and the origin
 // is the middle of the floor at rest (engine/frame.hpp).
 #pragma once
@@ -24,16 +24,17 @@
 namespace grainreel {
 
 struct RunSceneOptions {
-    // Where the run's files go: scene.toml, trajectory.nc, measures.csv and what else the scene asks for. New
-    // or empty. An empty name: nothing is written.
+    // Folder of the run's files: scene.toml, trajectory.nc, measures.csv and others that the scene asks for.
+    // It must be new or empty. With an empty name nothing is written.
     std::filesystem::path folder{};
-    // Threads of the engine; 0: as the scene says, or as many as are of use. Their number changes no bit of
-    // the run.
+    // Threads of the engine; 0 for as many as the scene says, or as many as are useful. Their number does not
+    // change the bits of the run.
     int threads = 0;
     // s of simulated time between the frames that are looked at, from the start of the drive on, each at the
-    // step that is nearest; 0: none is.
+    // nearest step; 0 for no frames.
     double every = 0;
-    // Sees each of them, on the calling thread; false ends the run there in good order.
+    // Called with each of these frames, on the calling thread. If it returns false, the run ends there in
+    // good order.
     std::function<bool(const Frame&)> look{};
 };
 
@@ -42,10 +43,10 @@ struct SceneEnd {
     bool complete = false;  // false when look() ended it
 };
 
-// Packs the grains, if the scene does, and runs to the end of scene.run.duration. Throws UserError for what
-// is wrong with the scene or the folder, before anything is worth keeping; RunError when the run fails on its
-// way (it stopped being healthy, the disk is full): what was written until then stays. What look() throws
-// comes through, with a folder as a RunError.
+// Packs the grains, if the scene does, and runs to the end of scene.run.duration. Throws UserError for
+// mistakes in the scene or the folder, before there are results. Throws RunError if the run fails on its way
+// (for example if it is not healthy, or the disk is full); files written until then stay. Exceptions of
+// look() are passed on, with a folder as a RunError.
 SceneEnd run_scene(const Scene& scene, const RunSceneOptions& how = {});
 
 }  // namespace grainreel

@@ -186,7 +186,7 @@ void SceneFolderRun::report_segregation() {
 
 namespace {
 
-// Both indices are 0 when segregated and 1 when mixed. They disagree when they are so far apart.
+// Both indices are 0 when segregated and 1 when mixed. They disagree if they are farther apart than this.
 constexpr double wide_apart = 0.25;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One scene that is run in a folder, from the accepted scene to the closed files. Complete as it is; who
+// Runs one scene in a folder, from the accepted scene to the closed files. The class is complete; code that
 // makes a film of the run derives from it.
 //
 //     const Scene scene = read_scene("scene.toml", {}, measurable_in);
@@ -20,35 +20,34 @@ namespace grainreel {
 
 class SceneFolderRun : public FolderRun {
   public:
-    // With as many threads as the scene says, or as are of use. Throws UserError for what scene, plan or
-    // request get wrong; nothing is on disk then. The listener must outlive the run.
+    // A new run, with as many threads as the scene says, or as are useful. Throws UserError for mistakes in
+    // scene, plan or request. Nothing is on disk then. The listener must outlive the run.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
-    // The run in the folder request.out, which is locked, goes on from that point. A film's wishes are those
-    // of before, in scene.wishes. Throws UserError or
-    // RunError; nothing in the folder has changed then.
+    // A run that goes on from `point` in the folder request.out, which is locked. A film's wishes are the
+    // former ones, in scene.wishes. Throws UserError or RunError; nothing in the folder has changed then.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
                    ResumePoint point, std::shared_ptr<FolderLock> lock);
 
-    // Its grains and all else: as it starts, and after run() as it ended.
+    // The simulation, as it starts, and after run() as it ended.
     const Simulation& simulation() const { return driver_.simulation(); }
 
   protected:
-    // For who derives: without a folder yet, which new_folder() or go_on_in() takes.
+    // For derived classes: a run without a folder, which new_folder() or go_on_in() sets.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
                    int threads);
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
                    ResumePoint point);
     void new_folder();
-    // hands_out: as in RunDriver::keep_former().
+    // `hands_out` is as in RunDriver::keep_former().
     void go_on_in(std::shared_ptr<FolderLock> lock, bool hands_out);
 
-    // What is wanted of the run on its way. By default nothing.
+    // Starts the driver with the wishes for the run. By default there are none.
     virtual void start() { driver_.start({}); }
-    // Goes to the next frame that is wanted and takes it; false after the last, and when told to stop.
+    // Goes to the next wanted frame and takes it. Returns false after the last frame, and if told to stop.
     virtual bool next(const RunDriver::GoOn& go_on) { return driver_.next(go_on) != nullptr; }
-    // A line each; more may come at the end while the run goes on.
+    // News, a line each. Lines may be appended while the run goes on.
     virtual std::vector<std::string> news() const { return driver_.news(); }
-    // Beside those of the plan.
+    // Warnings besides those of the plan.
     virtual std::vector<std::string> more_warnings() const { return {}; }
     virtual std::string threads_text() const;
     virtual void add_progress(Progress& /*progress*/) const {}
@@ -75,12 +74,12 @@ class SceneFolderRun : public FolderRun {
     void report_segregation();
 
     std::optional<Stopwatch> vibrating_;
-    std::size_t told_ = 0;  // lines of news
+    std::size_t told_ = 0;  // number of lines of news that were shown
 };
 
-// How far a run has separated its species, in one line: what a scene with two species or more did, in words.
-// to: means over the rows that `over` names. Indices that are not defined at the start and then are left out;
-// empty where none is. Where the two that are 1 in a mixture disagree, it says so.
+// One line about how far a run with two or more species has separated them. `to` holds means over the rows
+// that `over` names. Indices that are not defined both at the start and at the end are left out; the text is
+// empty if none is left. If the two indices that are 1 in a mixture disagree, the line says so.
 std::string segregation_text(const Scene& scene, const Measures& from, const Measures& to,
                              const std::string& over);
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// "000000012345.grs"
+// The name of a checkpoint in the ring: "000000012345.grs".
 std::string file_name(std::int64_t step) {
     return fmt::format("{:012}.grs", step);
 }

@@ -1,6 +1,6 @@
-// The checkpoints of a run's way, from which each of its moments can be brought back. They lie in the folder
-// `checkpoints` of the run, named by their steps, and cover the run evenly: where there would be too many of
-// them, or too many bytes, the one goes whose neighbours are closest to each other. The first one stays.
+// The checkpoints of a run, from which each of its moments can be computed again. They are in the folder
+// `checkpoints` of the run, named by their steps, and cover the run evenly. If there are too many of them, or
+// too many bytes, the one whose neighbours are closest to each other is removed. The first one stays.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ struct KeptCheckpoint {
     std::uintmax_t bytes = 0;
 };
 
-// Those of a run's folder, checkpoint.grs among them, by rising step. Whether they are whole shows when they
-// are read.
+// The checkpoints of a run's folder, including checkpoint.grs, by rising step. They may be damaged; that
+// shows only when they are read.
 std::vector<KeptCheckpoint> kept_checkpoints(const std::filesystem::path& run);
 
-// Where the ring of a run's folder has the checkpoint of a step.
+// Path of the checkpoint of a step in the ring of a run's folder.
 std::filesystem::path place_in_ring(const std::filesystem::path& run, std::int64_t step);
 
 class CheckpointRing {
@@ -28,14 +28,14 @@ class CheckpointRing {
     static constexpr std::size_t kMost = 20;
     static constexpr const char* kFolder = "checkpoints";
 
-    // Checkpoints of a run from step `first` to `last`, of at most so many bytes. Takes over those up to
-    // `first` that lie there, and removes those beyond it, which are of a future that will be run again.
+    // The ring of a run from step `first` to `last`, with at most `most_bytes` bytes. Existing checkpoints up
+    // to `first` are taken over. Later ones are removed, because these steps will be run again.
     CheckpointRing(const std::filesystem::path& run, std::int64_t most_bytes, std::int64_t first,
                    std::int64_t last);
 
-    // Whether the last one is so far back that the next is wanted.
+    // Whether the last checkpoint is so far back that the next one is due.
     bool due(std::int64_t step) const;
-    // `save` writes the checkpoint of this step to the file that it is given.
+    // Adds the checkpoint of a step. `save` writes it to the given file.
     void add(std::int64_t step, const std::function<void(const std::filesystem::path&)>& save);
 
     const std::vector<KeptCheckpoint>& kept() const { return kept_; }
@@ -48,7 +48,7 @@ class CheckpointRing {
     std::uintmax_t most_bytes_;
     std::int64_t last_;
     std::vector<KeptCheckpoint> kept_;
-    bool none_fits_ = false;  // a single one is larger than all may be
+    bool none_fits_ = false;  // a single checkpoint exceeds the limit for all
 };
 
 }  // namespace grainreel

@@ -30,7 +30,7 @@ Scene started_from(const Scene& scene, const fs::path& checkpoint) {
     return there;
 }
 
-// From the last one that is whole.
+// Loads the last checkpoint that is whole.
 Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
                               int threads) {
     std::optional<UserError> mistake;
@@ -62,7 +62,7 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
 
 Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
     Scene scene = scene_of_checkpoint(checkpoint);
-    // Instruments and fields see the run and change nothing of it.
+    // Instruments and fields observe the run and do not change it.
     scene.output.instruments.clear();
     scene.wishes = {};
     scene.output.fields = {};
@@ -79,7 +79,7 @@ Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept
 void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher) {
     constexpr std::chrono::duration<double> stretch(0.1);
     const std::int64_t from = simulation.step();
-    std::int64_t steps = 8;  // at a time
+    std::int64_t steps = 8;  // steps at a time
     while (simulation.step() < step) {
         const auto start = std::chrono::steady_clock::now();
         simulation.advance(std::min(step, simulation.step() + steps));
@@ -114,7 +114,7 @@ const Simulation& Replayer::at(std::int64_t step, const ReplayWatcher& watcher) 
     if (goes_on) {
         replay_on(*simulation_, step, watcher);
     } else {
-        simulation_.reset();  // before the next one takes as much memory
+        simulation_.reset();  // frees its memory before the next one is made
         simulation_.emplace(replayed(run_, kept_, step, threads_, watcher));
     }
     return *simulation_;
@@ -126,7 +126,8 @@ namespace {
 
 constexpr const char* kDamaged = "is damaged, or of another version of grainreel";
 
-// What a scene that an earlier version kept means today: keys that it did not know have their defaults.
+// The text of a scene as this version would write it. Keys that an earlier version did not know get their
+// defaults.
 std::string meant_today(const fs::path& checkpoint, const std::string& kept) {
     try {
         const Scene scene = scene_of_checkpoint(checkpoint);
@@ -140,7 +141,7 @@ std::string value_text(const std::string& value) {
     return value.empty() ? "not there" : excerpt(value);
 }
 
-// Why a checkpoint is not of the run with this scene; empty: it is.
+// The reason why a checkpoint does not belong to the run with this scene; empty if it does.
 std::string why_not(const KeptCheckpoint& one, const std::string& today,
                     const std::vector<AcceptedKey>& accepted) {
     const std::optional<CheckpointLabel> label = label_of_checkpoint(one.file);
@@ -174,7 +175,7 @@ OwnCheckpoints own_checkpoints(const fs::path& run, const Scene& scene) {
         const std::string why = why_not(one, today, accepted);
         why.empty() ? own.kept.push_back(std::move(one)) : pass_over(one.file, why);
     }
-    // It says how far the run has come.
+    // The last checkpoint says how far the run has come, so it must be whole.
     while (!own.kept.empty() && !is_whole_checkpoint(own.kept.back().file)) {
         pass_over(own.kept.back().file, kDamaged);
         own.kept.pop_back();

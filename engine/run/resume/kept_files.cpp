@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether `steps`, which rise, have each step of the rhythm from `first` up to, without, `end`.
+// Whether the rising `steps` contain each step of the rhythm from `first` up to, but not including, `end`.
 bool has_all(const std::vector<std::int64_t>& steps, const Rhythm& rhythm, const Clock& clock,
              std::int64_t first, std::int64_t end) {
     for (std::int64_t step = rhythm.next(first, clock); step < end; step = rhythm.next(step + 1, clock))
@@ -38,7 +38,7 @@ bool has_all_fields(const fs::path& file, const Plan& plan, std::int64_t first, 
     return FieldsWriter::records_before(file, plan.clock.time(step)) == records;
 }
 
-// Those of the frames before the step.
+// Whether contacts.nc has the contacts of all frames before the step.
 bool has_all_contacts(const fs::path& run, std::int64_t step) {
     const std::vector<std::int64_t> steps = steps_in_trajectory(run / "trajectory.nc");
     const auto frames = std::lower_bound(steps.begin(), steps.end(), step) - steps.begin();
@@ -59,7 +59,7 @@ std::vector<std::int64_t> steps_in_trajectory(const fs::path& file) {
         const TrajectoryReader reader(file);
         for (std::size_t k = 0; k < reader.frames(); ++k) steps.push_back(reader.read_moment(k).step);
     } catch (const UserError&) {
-        return steps;  // those before the damage
+        return steps;  // the steps before the damage
     }
     return steps;
 }
@@ -100,7 +100,7 @@ void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& pla
     if (!read_measures(run / "measures.csv"))
         throw UserError(fmt::format("{}: cannot be read, so the run cannot go on; run its scene.toml again",
                                     (run / "measures.csv").string()));
-    // Each says by itself that it cannot be read.
+    // Each reader throws if its file cannot be read.
     if (plan.trajectory_every > 0) TrajectoryReader reader(run / "trajectory.nc");
     if (plan.trajectory_every > 0 && scene.output.contacts) ContactsReader reader(run / "contacts.nc");
     if (scene.output.fields.wanted()) FieldsWriter::records_before(run / "fields.nc", 0);
@@ -147,7 +147,8 @@ class Ready {
         const fs::path file = run_ / "outflow.csv";
         const OutflowWriter::Kept kept = OutflowWriter::kept_until(file, now());
         OutflowSums::read(file, scene_);
-        // With the clock of an earlier run its grains have left too, and are in its file.
+        // If the scene keeps the clock of an earlier run, the grains that left in that run are in that run's
+        // file.
         if (!scene_.start.keep_clock && kept.rows != simulation_.traffic().left)
             throw UserError(fmt::format(
                 "{}: has {} grains up to {:.6g} s, where {} have left; the run cannot go on without them",
@@ -169,7 +170,7 @@ class Ready {
             former_.cut("contacts.nc", ContactsWriter::kept_of(run_ / "contacts.nc", frames));
     }
 
-    // One of which nothing is kept may be damaged: a new one takes its place.
+    // If no frames are kept, the file may be damaged, because a new one replaces it.
     void film_moments(std::size_t frames) {
         if (!is_there(run_ / kFilmMoments)) return;
         if (frames == 0)
@@ -178,11 +179,11 @@ class Ready {
             moments(kFilmMoments, frames);
     }
 
-    // A run does without them where they are damaged.
+    // If the key moments are damaged, the run goes on without them.
     ReadyFiles key_moments() {
         const bool moments_there = is_there(run_ / kKeyMoments),
                    contacts_there = is_there(run_ / kKeyContacts);
-        if (!moments_there && !contacts_there) return {};  // of a run without a page
+        if (!moments_there && !contacts_there) return {};  // the run has no page
         if (!moments_there || !contacts_there)
             return {false, fmt::format("{} is not there",
                                        (run_ / (moments_there ? kKeyContacts : kKeyMoments)).string())};
@@ -201,7 +202,7 @@ class Ready {
     double now() const { return plan_.clock.time(simulation_.step()); }
 
     std::size_t frames_before(const fs::path& file) const {
-        const TrajectoryReader whole(file);  // says what is wrong
+        const TrajectoryReader whole(file);  // throws and says what is wrong
         const std::vector<std::int64_t> steps = steps_in_trajectory(file);
         return static_cast<std::size_t>(std::lower_bound(steps.begin(), steps.end(), simulation_.step()) -
                                         steps.begin());

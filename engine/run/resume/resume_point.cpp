@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// How much is kept of checkpoints and of the film's moments may change.
+// Whether a key may change: the number of checkpoints and of film moments that are kept.
 bool may_change(const std::string& key) {
     return key == "output.checkpoints" || key == "output.film_moments";
 }
 
-// What is measured and kept must be what it was, for the files go on.
+// Checks that the settings of measures and files are the former ones, because the files go on.
 void check_same_files(const std::string& then, const Scene& scene, const Plan& plan) {
     for (const KeyDifference& difference : differences_of_table(then, scene_to_keep(scene, plan), "output")) {
         if (may_change(difference.key)) continue;
@@ -40,11 +40,11 @@ void check_same_files(const std::string& then, const Scene& scene, const Plan& p
 
 struct Limits {
     std::int64_t first = 0,
-                 film = 0;  // steps: where the run began; checkpoints up to there will do for its film
+                 film = 0;  // steps: where the run began, and the last checkpoint that serves its film
 };
 
-// Whether the run had come to its end there, and is longer now. Its last record of fields may have been cut
-// short then, and what was gathered of it is gone.
+// Whether the run had ended at this checkpoint and is longer now. Its last record of fields may then have
+// been cut short, and the data gathered for it are lost.
 bool is_former_end(const KeptCheckpoint& one, const CheckpointLabel& label, const Scene& scene,
                    const Plan& plan) {
     for (const KeyDifference& difference :
@@ -68,7 +68,7 @@ std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, 
     return std::nullopt;
 }
 
-// Why the run goes on from this checkpoint and not from the last one; empty for the last one.
+// The reason why the run goes on from this checkpoint and not from the last one; empty for the last one.
 std::string why_held_back(const KeptCheckpoint& one, const KeptCheckpoint& last, const Limits& limits,
                           const Plan& plan) {
     if (one.step == last.step) return "";
@@ -137,7 +137,7 @@ bool is_friction(const std::string& key) {
     return key.starts_with("contact.pair[") && (ends_in(key, "friction") || ends_in(key, "rolling_friction"));
 }
 
-// Whether the user meant this key of the resolved scene.
+// Whether the user named this key of the resolved scene.
 bool is_named(const std::string& key, const std::vector<std::string>& accepted) {
     return std::any_of(accepted.begin(), accepted.end(), [&](const std::string& name) {
         if (name == key) return true;
@@ -209,7 +209,7 @@ Drive drive_changed_at(double time, const Scene& before, const Scene& after,
     return drive;
 }
 
-// "Γ" and friction are what people know; of pairs that change alike it says so once.
+// The text names "Γ" and friction, which users know. Pairs that change alike are named once.
 std::string words_of_changes(const Scene& before, const Scene& after,
                              const std::vector<AcceptedChange>& changes) {
     if (changes.empty()) return "";

@@ -1,4 +1,4 @@
-// A simulation that is saved and taken up again, bit by bit.
+// Saves a simulation and resumes it, bit by bit.
 #include <fmt/format.h>
 #include <xxhash.h>
 
@@ -54,7 +54,7 @@ void Simulation::Impl::check_not_over() const {
                         scene.where("run.duration"), step, plan.steps));
 }
 
-// What was gathered of walls stands before what the observers have gathered. Without it, it begins here.
+// Loads the sums of walls, and then the data of the observers. If these are missing, gathering begins here.
 void Simulation::Impl::take_gathered(const std::string& bytes) {
     Bytes in(bytes);
     take_wall_sums(in);

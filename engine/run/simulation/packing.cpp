@@ -1,4 +1,4 @@
-// How the grains of a simulation come to be where the drive finds them.
+// Puts the grains of a simulation where the drive starts with them: from a file, a list, or a packing.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -42,7 +42,7 @@ double solid_fraction(const Container& container, const Grains& grains) {
 
 }  // namespace
 
-// Those of a file or a list, where they are.
+// Takes the grains of a file or a list at their places.
 void Simulation::Impl::take_grains() {
     const bool from_checkpoint = scene.start.method == Start::Method::file && is_checkpoint(scene.start.file);
     if (from_checkpoint && scene.start.keep_clock) return go_on();
@@ -57,8 +57,8 @@ void Simulation::Impl::take_grains() {
     check_grains_clear(scene, around, grains, *loop);
 }
 
-// Where the checkpoint's contacts follow the same law here, with their histories. Latches of the others are
-// set where the bed rests.
+// Begins with the grains that were taken. Contacts of a checkpoint that follow the same law here keep their
+// histories. For the others, latches are set such that the bed rests.
 void Simulation::Impl::begin_with_taken() {
     set_orientations();
     make_loop();
@@ -74,7 +74,7 @@ void Simulation::Impl::begin_with_taken() {
     if (plan.start.relaxes) set_latches(plan, around, grains, is_fresh, *loop);
 }
 
-// Where the file's bed turns out not to rest in this scene, it starts as it is in the file.
+// Relaxes the bed of a file. If it turns out not to rest in this scene, it starts as it is in the file.
 SettleReport Simulation::Impl::relax_taken(const std::function<bool(double, std::int64_t)>& watcher) {
     const Grains before = grains;
     SettleReport report = relax(scene, plan, around, grains, *loop, watcher);
@@ -84,7 +84,7 @@ SettleReport Simulation::Impl::relax_taken(const std::function<bool(double, std:
     return report;
 }
 
-// They decide nothing: a run may begin or cease to keep them when it goes on.
+// Orientations do not act on the run, so a run may begin or cease to keep them when it goes on.
 void Simulation::Impl::set_orientations() {
     if (!orientations)
         grains.orientation.clear();
@@ -95,7 +95,7 @@ void Simulation::Impl::set_orientations() {
 bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
     grains = place_in_layers(scene);
     set_orientations();
-    if (grains.size() == 0) {  // all that there will be are fed
+    if (grains.size() == 0) {  // all grains will come from feeds
         make_loop();
         loop->restart();
         return true;
@@ -131,7 +131,7 @@ void Simulation::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
-    if (std::isnan(start_energy)) start_energy = 0;  // a caller's law does not know it, now and ever
+    if (std::isnan(start_energy)) start_energy = 0;  // the energy of a caller's law is never known
     step = 0;
     if (observers.need_wall_sums()) loop->tally_walls(wall_scale(scene, plan), step);
     open_when_due();
@@ -157,7 +157,8 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
             progress.steps = steps;
             return watcher(progress);
         };
-        // From here, for a law may act over a step with another force than it has at its end.
+        // The tally begins here, because a law may act over a step with another force than it has at the
+        // step's end.
         if (m.observers.need_wall_sums()) m.loop->tally_walls(wall_scale(m.scene, m.plan), -1);
         const SettleReport settled = m.plan.start.relaxes
                                          ? m.relax_taken(watch)
@@ -172,11 +173,11 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     return result;
 }
 
-// A packing that is kept, and a run that begins with it instead of packing by itself.
+// Kept packings, and runs that begin with one instead of packing by themselves.
 
 namespace {
 
-constexpr int kFormat = 1;  // of keys and files; another one where either changes
+constexpr int kFormat = 1;  // version of keys and files; to be raised if either changes
 
 std::string text_of(const PairPlan& p) {
     std::string text = fmt::format(
@@ -210,8 +211,9 @@ bool any_own_law(const Plan& plan) {
     return false;
 }
 
-// Radii grow from step 0 on, so they see the drive's first steps. All else comes before step 0, when what the
-// drive moves stands still; the last force of a bed that does not settle is one of step 0.
+// Whether the packing depends on the drive. Growing radii begin at step 0, so the drive's first steps act on
+// them. All other packing comes before step 0, when the driven parts stand still. Only the last force of a
+// bed that does not settle belongs to step 0.
 bool sees_drive(const Scene& scene) {
     return scene.start.method == Start::Method::layers;
 }
@@ -222,7 +224,7 @@ std::string text_of(const Drive& drive, const Pose& at_begin) {
                        numbers(at_begin.offset), numbers(at_begin.velocity));
 }
 
-// Without what only shows or records the run, and without its end.
+// The part of a scene on which the packing depends, without film, output and duration.
 Scene packed_part(const Scene& scene, const Plan& plan) {
     Scene part = with_choices(scene, plan);
     part.title.clear();
@@ -282,7 +284,8 @@ std::optional<Simulation> Simulation::with_packing(const Scene& scene, const Pla
     }
 }
 
-// What observers gather begins with the drive and is not kept, but for what the last forces did to walls.
+// Begins with a kept packing. Observers gather from the start of the drive, so nothing of theirs is kept
+// except the last forces on walls.
 void Simulation::Impl::begin_packed(const std::string& gathered) {
     Bytes in(gathered);
     take_wall_sums(in);

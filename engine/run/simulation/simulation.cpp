@@ -42,14 +42,14 @@ std::int32_t Simulation::Impl::insert(const std::vector<NewGrain>& more) {
     const std::int32_t first = loop->insert(more);
     if (more.empty()) return first;
     set_orientations();
-    next_look = step;  // they must overlap nothing
+    next_look = step;  // new grains must overlap nothing
     return first;
 }
 
 void Simulation::Impl::look_at_health() {
     check_state(limits, around, grains, *loop, step);
-    // Round-off and a law's own closed loops must not stop a bed at rest: a hundredth of its weight over a
-    // radius.
+    // The allowance is the energy of a hundredth of the bed's weight over a radius. Round-off, and closed
+    // loops of a law, then do not stop a bed at rest.
     const Traffic& traffic = loop->traffic();
     const Kinetic kinetic = kinetic_energy(grains);
     const double work = wall_work(grains) + traffic.work_out;
@@ -68,7 +68,7 @@ void Simulation::Impl::look_at_health() {
 void Simulation::advance(std::int64_t target) {
     Impl& m = *impl_;
     while (m.step < target) {
-        if (m.next_look <= m.step) m.look_at_health();  // the first: where all begins
+        if (m.next_look <= m.step) m.look_at_health();  // the first look is at the start
         const std::int64_t gathering = m.observers.gathers_after(m.step), feed = m.feeder.next_look(m.step);
         std::int64_t until = std::min({target, m.next_look, gathering, feed});
         if (!m.opened && m.plan.opens) until = std::min(until, *m.plan.opens);
@@ -107,7 +107,7 @@ int Simulation::threads() const {
     return impl_->team.size();
 }
 
-// What leaves a simulation: frames, measures, fields and contacts.
+// Output of a simulation: frames, measures, fields and contacts.
 Frame Simulation::frame() const {
     const Impl& m = *impl_;
     Frame f;
@@ -184,7 +184,7 @@ std::vector<SavedContact> Simulation::contacts() const {
         contacts.push_back(
             {impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point, c.triangle});
     });
-    // Each thread shows its own contacts, so they come in no order to rely on.
+    // Each thread shows its own contacts, so their order must be set here.
     std::sort(contacts.begin(), contacts.end(), [](const SavedContact& a, const SavedContact& b) {
         return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
     });
@@ -229,8 +229,8 @@ namespace {
 
 constexpr double kLeastPatience = 20;  // looks
 
-// How long a grain may wait for a place, s: twice as long as a fall through the container takes, so that the
-// grain before it has had time to leave the box; and at least some looks.
+// Time (s) for which a grain may wait for a place. It is twice the time of a fall through the container, so
+// that the grain before it has had time to leave the box, and at least some looks.
 double patience(const Scene& scene, double look) {
     const double gravity = scene.gravity.norm();
     const double height = scene.container.height - scene.container.base();
@@ -238,8 +238,8 @@ double patience(const Scene& scene, double look) {
     return std::max(2 * fall, kLeastPatience * look);
 }
 
-// Whether the vessel's room holds a part of the box. Grains then come in the room alone: a box may lie across
-// the walls of a vessel.
+// Whether the vessel's room contains a part of the feed's box. Grains then come only in the room, because a
+// box may lie across the walls of a vessel.
 bool reaches_into_vessel(const Scene& scene, const Feed& feed) {
     constexpr int places = 9;  // along each axis
     for (int at = 0; at < places * places * places; ++at) {
@@ -288,7 +288,7 @@ std::vector<NewGrain> Feeder::take(std::int64_t step, const Grains& grains) {
     return more;
 }
 
-// Throws RunError where the next grain of a feed has waited too long for a place. time: s.
+// Throws RunError if the next grain of a feed has waited too long for a place. `time` is in s.
 void Feeder::check_patience(std::size_t feed, double time) const {
     const Feed& from = scene_.feeds[feed];
     const double waited = time - from.from - static_cast<double>(given_[feed] + 1) / from.rate;
@@ -301,7 +301,8 @@ void Feeder::check_patience(std::size_t feed, double time) const {
         scene_.species[from.species].name, waited));
 }
 
-constexpr std::int64_t grains_a_thread = 500;  // fewer, and the barriers cost more than the company is worth
+constexpr std::int64_t grains_a_thread =
+    500;  // with fewer grains, a further thread costs more time at barriers than it saves
 
 int useful_threads(int processors, std::int64_t grains) {
     return static_cast<int>(std::clamp<std::int64_t>(grains / grains_a_thread, 1, processors));

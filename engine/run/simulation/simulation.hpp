@@ -1,5 +1,4 @@
-// One scene in motion: packing, then the step loop, with health checks. What leaves it are frames and
-// measures.
+// One scene in motion: packing, then the step loop, with health checks. The output is frames and measures.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@
 
 namespace grainreel {
 
-// A contact with all that a question about the forces on a grain needs.
+// A contact with all data that a question about the forces on a grain needs.
 struct ContactForce {
     std::int32_t first, second;  // ids; second is -1 - face for a wall
     Vec3 normal;                 // unit, from first to second
@@ -28,28 +27,28 @@ struct ContactForce {
     Vec3 tangential;             // N, on second
     Vec3 torque_on_first;        // N m
     Vec3 torque_on_second;       // N m; zero for a wall
-    double friction;             // coefficient of this pair
+    double friction;             // friction coefficient of this pair
     Vec3 point;                  // m
-    double smaller_radius;       // m, of the two; of a wall that of the grain
-    double stored_energy;        // J, that unloading would give back
-    std::int32_t triangle = -1;  // of a mesh: where it is touched
+    double smaller_radius;       // m, of the two grains; at a wall the grain's
+    double stored_energy;        // J, energy that unloading would give back
+    std::int32_t triangle = -1;  // triangle of a mesh that is touched; -1 for other bodies
 
     Vec3 on_second() const { return normal_force * normal + tangential; }  // N
     Vec3 on_first() const { return -on_second(); }
     // Bodies may also touch without a force: springs that are latched, and grains that part.
     bool pushes() const { return normal_force != 0 || !tangential.isZero(0); }
-    // Whether friction is all used up, so that the surfaces slide.
+    // Whether friction is at its limit, so that the surfaces slide.
     bool slides() const {
         constexpr double all = 1 - 1e-6;
         return friction > 0 && normal_force > 0 && tangential.norm() >= all * friction * normal_force;
     }
 };
 
-// What happens before the drive starts, for the progress line.
+// Progress before the drive starts, for the progress line.
 struct PackingProgress {
     enum class Stage { growing, raining, settling };
     Stage stage = Stage::growing;
-    double done = 0;  // 0 to 1: share of the wanted radii, of the grains, or of the time limit of settling
+    double done = 0;  // 0 to 1, share of the wanted radii, of the grains, or of the time limit of settling
     std::int64_t steps = 0;  // so far
 };
 // Return false to stop.
@@ -68,19 +67,19 @@ void check_start(const Scene& scene, const Plan& plan);
 
 class Simulation {
   public:
-    // threads: 0 takes what the machine gives. Takes the grains of a file or a list, and throws UserError
-    // where they do not fit the scene.
+    // With `threads` = 0 the machine decides. Takes the grains of a file or a list, and throws UserError if
+    // they do not fit the scene.
     Simulation(const Scene& scene, const Plan& plan, int threads);
-    // The run of the scene as a checkpoint of it has it, which may be its last step. Takes the place of the
-    // scene's own start and of pack(). Throws UserError where the checkpoint cannot be used, or is of another
-    // run. may_change: the scene may be another one from then on, which the caller has checked. replays: it
-    // has orientations where the checkpoint has them, whatever the scene says.
+    // The run of the scene at a checkpoint, which may be its last step. This replaces the scene's own start
+    // and pack(). Throws UserError if the checkpoint cannot be used or belongs to another run. With
+    // `may_change`, the scene may differ from then on, which the caller has checked. With `replays`, the run
+    // has orientations if the checkpoint has them, whatever the scene says.
     static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
                                     const std::filesystem::path& checkpoint, int threads,
                                     bool may_change = false, bool replays = false);
-    // The run of the scene from a packing that save_packing() has kept under the same key, and what its
-    // pack() gave. Takes the place of pack(); from here on the run is the one that packs by itself, bit by
-    // bit. None where the file is none, is damaged or has another key; nothing in it is believed.
+    // The run of the scene from a packing that save_packing() has kept under the same key, with the result of
+    // that pack(). This replaces pack(), and the run has the same bits as one that packs by itself. Empty if
+    // the file is missing, damaged or has another key; nothing in it is trusted.
     static std::optional<Simulation> with_packing(const Scene& scene, const Plan& plan,
                                                   const std::filesystem::path& file, const std::string& key,
                                                   int threads, PackingResult& result);
@@ -88,51 +87,52 @@ class Simulation {
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
 
-    // Places the grains (layers and radius growth, or rain, then settling), if they are not there already.
+    // Places the grains (layers and radius growth, or rain, then settling), if they are not placed yet.
     // Afterwards step() is 0, or the file's step when the scene keeps its clock.
     PackingResult pack(const PackingWatcher& watcher);
     PackingResult pack();
-    // All that decides how pack() leaves the grains, as text: two scenes with the same key have the same
-    // packing to the bit, in this program on this processor. Empty where nothing is packed, or where a
-    // caller's law acts. The keys of film, output and duration are not in it. The drive's are where radii
-    // grow, because the walls already move then; else only whether and what it moves.
+    // Everything that decides the result of pack(), as text. Two scenes with the same key have the same
+    // packing to the bit, in this program on this processor. Empty if nothing is packed, or if a caller's law
+    // acts. The keys of film, output and duration are not in it. The drive's keys are in it if radii grow,
+    // because the walls already move then. Otherwise it says only whether there is a drive and what it moves.
     std::string packing_key() const;
-    // After pack(), before any step: what with_packing() takes. Throws RunError when it cannot be written.
+    // Writes the file for with_packing(). Call it after pack(), before any step. Throws RunError if it cannot
+    // be written.
     void save_packing(const std::filesystem::path& file, const std::string& key,
                       const PackingResult& result) const;
 
-    // Runs up to step `target`. Throws RunError when the run stopped being healthy.
+    // Runs up to step `target`. Throws RunError if the run is not healthy.
     void advance(std::int64_t target);
 
-    // At the step that has been reached. New grains must touch nothing; returns the id of the first of them.
-    // Both once the run is packed.
+    // These two remove and add grains at the step that has been reached, once the run is packed. New grains
+    // must touch nothing. insert() returns the id of the first of them.
     void remove(const std::vector<std::int32_t>& ids);
     std::int32_t insert(const std::vector<NewGrain>& grains);
-    // What came and left since the start of the drive, and who has left since the last call.
+    // The account of grains since the start of the drive, and the grains that have left since the last call.
     const Traffic& traffic() const;
     std::vector<Departure> take_departures();
 
     std::int64_t step() const;
-    std::size_t grains() const;  // that are there now
+    std::size_t grains() const;  // number of grains that are there now
     int threads() const;
 
     Frame frame() const;
     Measures measures() const;                         // all columns of measures.csv
     const std::vector<std::string>& measured() const;  // their names
-    // One of them. Looks at no more than that needs.
+    // One of these columns. Computes only what it needs.
     double measure(const std::string& column) const;
-    // On grids: what the observers give, which stays the same, and the values now in the same order.
+    // Fields on grids: their sets, which stay the same, and their present values in the same order.
     std::vector<const FieldSet*> field_sets() const;
     std::vector<FieldValues> fields() const;
-    std::uint64_t state_hash() const;  // of every bit that decides the future
+    std::uint64_t state_hash() const;  // hash of every bit that decides the future
 
     // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.
     using SavedContact = grainreel::SavedContact;
     std::vector<SavedContact> contacts() const;
-    // All contacts that touch now, with what they do to the grains; in the same order.
+    // All contacts that touch now, with their forces on the grains, in the same order.
     std::vector<ContactForce> contact_forces() const;
 
-    // Everything needed to go on bit-identically; written to a temporary name and renamed.
+    // Writes everything needed to go on bit-identically, under a temporary name that is then changed.
     void save_checkpoint(const std::filesystem::path& path) const;
 
   private:
@@ -141,11 +141,11 @@ class Simulation {
     std::unique_ptr<Impl> impl_;
 };
 
-// How many of these processors to use. A thread with too few grains waits longer than it works.
+// Number of these processors to use. A thread with too few grains waits longer than it works.
 int useful_threads(int processors, std::int64_t grains);
 
-// How many threads a run takes that has the processors for itself: those that the scene grants it, or all
-// that this process may use.
+// Number of threads of a run that has the processors for itself: as many as the scene allows, or all that
+// this process may use.
 int engine_threads(const Scene& scene);
 
 }  // namespace grainreel

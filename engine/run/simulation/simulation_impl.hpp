@@ -1,4 +1,4 @@
-// The parts of a simulation, for the files that make it up: simulation.cpp (steps, feeds and what leaves it),
+// The parts of a simulation, for the files that implement it: simulation.cpp (steps, feeds and output),
 // packing.cpp (packings, new or kept) and going_on.cpp (checkpoints). No other file includes this.
 #pragma once
 
@@ -28,22 +28,22 @@ namespace grainreel {
 
 // The scene's feeds at work: which grains come, and when.
 //
-// Feeds look for places only every so many steps, so that lists are not made anew more often. A grain comes
-// at the first look after it is due. One that finds no place waits for the next look, and those behind it
-// wait too.
+// Feeds look for places only once in a number of steps, so that lists are not made anew more often. A grain
+// comes at the first look after it is due. A grain that finds no place waits for the next look, and the
+// grains behind it wait too.
 class Feeder {
   public:
     // The scene and the surroundings must outlive it.
     Feeder(const Scene& scene, const Plan& plan, const Surroundings& around);
 
-    // The first step after this one at which to look; far away where there are no feeds.
+    // The first step after this one at which to look; far away if there are no feeds.
     std::int64_t next_look(std::int64_t step) const;
 
-    // The grains that come at a step, which is one to look at. Throws RunError where grains have waited in
-    // vain, because the place is full.
+    // The grains that come at a step at which feeds look. Throws RunError if grains have waited too long,
+    // because the place is full.
     std::vector<NewGrain> take(std::int64_t step, const Grains& grains);
 
-    // How many each feed has given: what a checkpoint must hold.
+    // Number of grains that each feed has given. Checkpoints save it.
     const std::vector<std::int64_t>& given() const { return given_; }
     void set_given(std::vector<std::int64_t> given) { given_ = std::move(given); }
 
@@ -54,12 +54,13 @@ class Feeder {
     const Clock clock_;
     const Surroundings& around_;
     std::vector<std::int64_t> given_;  // by feed
-    std::vector<bool> into_vessel_;    // by feed: its grains come in the room of a vessel of triangles
+    std::vector<bool>
+        into_vessel_;  // for each feed, whether its grains come in the room of a vessel of triangles
 };
 
 struct Simulation::Impl {
-    // What a checkpoint is taken for: to go on as the run that it is of, as another one from then on, as a
-    // run of before for its moments, or as a packing, from which a run begins.
+    // Use of a checkpoint: to go on with its run, to go on with a changed run, to replay moments of its run,
+    // or as a packing from which a run begins.
     enum class Takes { same_run, changed_run, replay, packing };
 
     Impl(const Scene& s, const Plan& p, int threads, Takes what = Takes::same_run)
@@ -88,14 +89,14 @@ struct Simulation::Impl {
     EnergyWatch energy_watch;
     std::int64_t next_look = 0;  // step
 
-    bool continued = false;  // goes on where the file stopped
-    bool opened = false;     // the container's outlet
+    bool continued = false;  // whether the run goes on where the file stopped
+    bool opened = false;     // whether the container's outlet is open
 
     Observers observers;
     Takes takes = Takes::same_run;
-    PackingResult packed;  // of a packing that was taken
+    PackingResult packed;  // result of a packing that was taken
     bool orientations = scene.keeps_orientations();
-    std::optional<WallSums> wall_sums;  // of the last moment, where an observer needs them
+    std::optional<WallSums> wall_sums;  // of the last moment, if an observer needs them
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();
