@@ -104,7 +104,7 @@ void FolderRun::note_folder() {
     desk_.failure.attempt([&] { desk_.folder->lock().check_there(); });
 }
 
-// Checks whether the folder has been moved or removed. Side work is dropped before the folder's name changes,
+// Follows a folder that has been moved or removed. Side work is closed before the folder's name changes,
 // because its threads use the old name.
 void FolderRun::find_folder() {
     if (desk_.folder->lock().is_there()) return;

@@ -74,7 +74,7 @@ std::string species_text(const ForeignArchive& archive, const ImportSurvey& surv
     return text;
 }
 
-// Writes STL as text with all digits, so that the shape is read back exactly as it is in the trajectory.
+// Writes PLY as text with all digits, so that the shape is read back exactly as it is in the trajectory.
 void write_ply(const fs::path& file, const TriangleMesh& mesh) {
     std::string text = fmt::format(
         "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
