@@ -13,10 +13,10 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 // Velocity of i's surface against j's surface, from the velocity of the centres and the spins times arms.
-// Both belong to the middle of the step, but the normal k belongs to its end. The normal of the middle is k +
-// change. So the velocity is computed with k + change, and its normal part is then laid along k. Without
-// this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al., Comput.
-// Phys. Commun. 310, 109524: time levels).
+// Velocity and spins belong to the middle of the step, but the normal k belongs to its end. The normal of the
+// middle is k + change. So the velocity is computed with k + change, and its normal part is then laid along
+// k. Without this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al.,
+// Comput. Phys. Commun. 310, 109524: time levels).
 template <class L>
 HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spins, const Triple<L>& k,
                                  const Triple<L>& change) {

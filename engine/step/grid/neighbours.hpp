@@ -67,7 +67,7 @@ std::int32_t keep_near(const Grains& grains, std::int32_t i, double skin, double
 // body that carries the grains.
 class GluedSearch {
   public:
-    // Glued grains and faces must outlive the search. period: m, of x; 0 for none.
+    // Glued grains and faces must outlive the search. `period` is the period of x in m, or 0.
     GluedSearch(const GluedGrains& glued, const std::vector<Face>& faces, double period);
 
     // Calls each(number, distance) for all glued grains whose surface is closer to `centre` than `gap` (m),
