@@ -36,7 +36,7 @@ std::string hash_of_file(const std::filesystem::path& file);
 // Joins equal vertices, drops doubled triangles and triangles without area, and gives each connected part one
 // orientation (winding.hpp). Vertices are equal if they are closer than 1e-9 of the extent. Along open edges
 // they are equal if they are closer than 1e-5 of the extent and a hundredth of the shortest open edge at
-// them. Sets all of `facts` but format and read.
+// them. Sets all of `facts` except format and read.
 void mend(TriangleMesh& mesh, MeshFacts& facts);
 
 }  // namespace grainreel
