@@ -38,8 +38,8 @@ class ImportWear {
     // Whether some wall has stress or wear at each of its moments.
     static bool known(const ForeignArchive& archive);
 
-    // scene: of the imported run; its last meshes are the walls of the archive. Throws RunError where the
-    // file cannot be made.
+    // `scene` is the scene of the imported run; its last meshes are the walls of the archive. Throws RunError
+    // if the file cannot be made.
     ImportWear(const std::filesystem::path& file, const Scene& scene, const ForeignArchive& archive,
                const std::string& program_version);
     ~ImportWear();
