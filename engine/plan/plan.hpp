@@ -104,7 +104,7 @@ struct Plan {
     StartPlan start;                                            // only where the run starts from a file
     std::string step_reason;                                    // names the condition that binds the step
     double impact_speed = 0;                                    // m/s, v* of the stiffness rule
-    double wall_speed = 0;  // m/s, of the fastest wall with a motion of its own (wall_speeds.hpp)
+    double wall_speed = 0;  // m/s, of the fastest wall with a motion of its own (reach.hpp)
     // Overlap over the smaller diameter: the largest that is expected, and that of most contacts. `deepest`
     // names the kind of contact that has the largest.
     double expected_overlap = 0, usual_overlap = 0;

@@ -58,9 +58,8 @@ struct BoundKey {
     Read read;
     Write write;                                     // value as TOML; empty: not written
     std::function<void(const T& from, T& to)> copy;  // copies this one member
-    Useless
-        useless;  // says why the key means nothing beside the values of others; null: it does mean something
-    Usual usual;  // sets the member when the scene says nothing, from the values of others
+    Useless useless;  // why the key means nothing beside the values of others; null: it has a meaning
+    Usual usual;      // sets the member when the scene says nothing, from the values of others
     std::function<bool(const T&)> unwritten;
     int turn = 0, line = 0;  // order of reading and of writing; keys with the same number go as listed
 
