@@ -14,7 +14,7 @@
 namespace grainreel {
 
 // The change from one vibration to another: frequency and acceleration go smoothly from one value to the
-// other. With u = time since the start over `duration`, from 0 to 1, and s(u) as in smooth_step.hpp:
+// other. With u = time since the start over `duration`, from 0 to 1, and s(u) = smooth_step::value(u):
 //   f = f0 + (f1 - f0) s,   A = A0 + (A1 - A0) s,   a = A / (2 pi f)^2,   z = a sin(2 pi integral of f dt).
 // Place, velocity and acceleration are continuous at both ends.
 struct DriveChange {
