@@ -1,4 +1,4 @@
-// What `check` says of the results of a run and of their cost, and what it says of the cost of a study.
+// What `check` says about the results of a run and their cost, and about the cost of a study.
 #include "render/app/check/check_cost.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a study will cost, from the scenes of its settings.
+// Estimates what a study will cost, from the scenes of its settings.
 #pragma once
 
 #include <cstddef>

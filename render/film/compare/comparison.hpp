@@ -1,4 +1,4 @@
-// What `compare` is to show, read and checked: the panels, and the moments that all of them show.
+// Reads and checks what `compare` will show: the panels, and the moments that all of them show.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments&
 FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
 
 // How high the grains of a finished run got, in m above the floor's rest position: in every frame 99 of 100
-// grains lie entirely below this height. Of a long trajectory with many grains only evenly spread frames are
+// grains lie entirely below this height. For a long trajectory with many grains only evenly spread frames are
 // read. Damaged frames do not count. Empty without grains.
 std::optional<double> known_reach(const FrameArchive& archive);
 
