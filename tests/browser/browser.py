@@ -11,7 +11,7 @@ from selenium.webdriver.chrome.service import Service
 KEPT = pathlib.Path(__file__).parent / "kept"
 MOST_MEAN, MOST_BLOCKS = 6, 0.03  # by which pictures of the same page may differ, see Browser.difference
 SECONDS_UNTIL_PAINTED = 20  # a frame of a film, on a busy machine
-SECONDS_UNTIL_READY = 60  # software graphics on a busy machine; a page that hangs fails
+SECONDS_UNTIL_READY = 180  # software graphics on a busy machine, where 60 s were too few once; a page that hangs fails
 
 
 class Browser:
