@@ -29,6 +29,13 @@ struct FlowedOut {
     double mass = 0;  // kg
 };
 
+// The row in which rising ids have the wanted one; empty where they lack it.
+inline std::optional<std::size_t> row_of_id(const std::vector<std::int32_t>& ids, std::int64_t wanted) {
+    const auto found = std::lower_bound(ids.begin(), ids.end(), wanted);
+    if (found == ids.end() || *found != wanted) return std::nullopt;
+    return static_cast<std::size_t>(found - ids.begin());
+}
+
 struct Frame {
     std::int64_t step = 0;
     double time = 0;    // s since the drive started, negative before
@@ -74,11 +81,7 @@ struct Frame {
 
     std::size_t size() const { return id.size(); }
     // The row of the grain with this id; empty where there is no such grain.
-    std::optional<std::size_t> row_of(std::int64_t wanted) const {
-        const auto found = std::lower_bound(id.begin(), id.end(), wanted);
-        if (found == id.end() || *found != wanted) return std::nullopt;
-        return static_cast<std::size_t>(found - id.begin());
-    }
+    std::optional<std::size_t> row_of(std::int64_t wanted) const { return row_of_id(id, wanted); }
 };
 
 using FramePtr = std::shared_ptr<const Frame>;

@@ -55,6 +55,9 @@ inline void drop_byte_order_mark(std::string_view& text) {
 // a third of the word are wrong.
 std::optional<std::string> nearest_name(std::string_view word, const std::vector<std::string>& names);
 
+// The text without blanks at both ends, as a view of the given text.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\n\v\f");
+
 // A word as it must be typed into a POSIX shell: in single quotes, unless it has only letters, digits and
 // harmless signs.
 std::string shell_word(const std::string& word);

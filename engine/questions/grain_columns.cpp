@@ -213,15 +213,8 @@ double potential_energy(const Snapshot& s, std::size_t i) {
     return -s.mass(i) * s.scene.gravity.dot(s.frame.position[i]);
 }
 
-std::optional<std::size_t> place_at_start(const Snapshot& s, std::size_t i) {
-    const auto& ids = s.start.id;
-    const auto at = std::lower_bound(ids.begin(), ids.end(), s.frame.id[i]);
-    if (at == ids.end() || *at != s.frame.id[i]) return std::nullopt;
-    return static_cast<std::size_t>(at - ids.begin());
-}
-
 double start_height(const Snapshot& s, std::size_t i) {
-    const auto start = place_at_start(s, i);
+    const auto start = s.start.row_of(s.frame.id[i]);
     return start ? (s.start.position[*start] - floor_offset(s.scene, s.start)).z() : none;
 }
 
@@ -231,7 +224,7 @@ double rise(const Snapshot& s, std::size_t i) {
 }
 
 double moved(const Snapshot& s, std::size_t i) {
-    const auto start = place_at_start(s, i);
+    const auto start = s.start.row_of(s.frame.id[i]);
     if (!start) return none;
     return ((s.frame.position[i] - container_offset(s.scene, s.frame)) -
             (s.start.position[*start] - container_offset(s.scene, s.start)))

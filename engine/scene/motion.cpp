@@ -117,18 +117,11 @@ enum Column { of_time, of_x, of_y, of_z, of_qw, of_qx, of_qy, of_qz, columns };
 const std::array<std::vector<std::string_view>, columns> column_names{
     {{"time_s", "t", "time"}, {"x_m", "x"}, {"y_m", "y"}, {"z_m", "z"}, {"qw"}, {"qx"}, {"qy"}, {"qz"}}};
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r\"";
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::vector<std::string_view> cells_of(std::string_view line) {
     std::vector<std::string_view> cells;
     for (;;) {
         const std::size_t comma = line.find(',');
-        cells.push_back(trimmed(line.substr(0, comma)));
+        cells.push_back(trimmed(line.substr(0, comma), " \t\r\""));
         if (comma == std::string_view::npos) return cells;
         line.remove_prefix(comma + 1);
     }

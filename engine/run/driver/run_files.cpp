@@ -24,8 +24,7 @@ double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t fra
 void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
     frame.contact_number.assign(frame.size(), 0);
     const auto count = [&](std::int32_t id) {
-        const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), id);
-        if (id >= 0) ++frame.contact_number[static_cast<std::size_t>(at - frame.id.begin())];
+        if (const auto row = frame.row_of(id)) ++frame.contact_number[*row];  // none for walls
     };
     for (const SavedContact& contact : contacts) {
         count(contact.first);

@@ -37,12 +37,6 @@ constexpr double shortest_period = 2.5;
     throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
 }
 
-// The name as a reader sees it: "big " and "big" look alike.
-std::string trimmed(const std::string& name) {
-    const auto first = name.find_first_not_of(' ');
-    return first == std::string::npos ? "" : name.substr(first, name.find_last_not_of(' ') - first + 1);
-}
-
 // Names that differ only in commas or quotes would share their columns of measures.csv.
 void check_columns(const Scene& scene) {
     std::set<std::string> columns;
@@ -59,10 +53,11 @@ void check_names(const Scene& scene) {
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         const std::string key = fmt::format("species[{}].name", i);
         const std::string& name = scene.species[i].name;
-        if (trimmed(name).empty()) fail(scene, key, "must not be empty; write for example \"small\"");
+        if (trimmed(name, " ").empty()) fail(scene, key, "must not be empty; write for example \"small\"");
         if (name == "wall")
             fail(scene, key, "must not be \"wall\", which stands for the container; choose another");
-        if (!names.insert(trimmed(name)).second)
+        // "big " and "big" look alike.
+        if (!names.insert(std::string(trimmed(name, " "))).second)
             fail(scene, key, fmt::format("\"{}\" is taken; choose another", excerpt(name)));
     }
     check_columns(scene);

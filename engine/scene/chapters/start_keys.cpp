@@ -8,6 +8,7 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/container_keys.hpp"
+#include "engine/scene/chapters/mesh_files.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 
@@ -20,8 +21,6 @@ using Method = Start::Method;
 
 const ChoiceWords<Method> method_words{
     {"layers", Method::layers}, {"rain", Method::rain}, {"file", Method::file}, {"grains", Method::grains}};
-
-constexpr std::size_t longest_path = 4096;  // as on Linux
 
 const char* without_file(const Start& start) {
     return start.method != Method::file ? "the start is not from a file" : nullptr;
@@ -94,7 +93,7 @@ BoundKey<Start> file_key() {
                of_length(entry("file", KeyKind::text, note("required; file"),
                                "Checkpoint or final.csv of an earlier run, relative to the scene's folder; "
                                "stiffness and histories follow from it (docs/guide/again.md)."),
-                         longest_path),
+                         kLongestPath),
                read, [](const Start& start, const Scene&) { return quoted(start.file); })
         .excludes({"settle_limit", "settle_damping"})
         .useless_for(without_file);

@@ -210,22 +210,13 @@ std::string key_table_markdown(const std::vector<Key>& keys) {
     return text;
 }
 
-namespace {
-
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t");
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-}  // namespace
-
 std::string Assignment::key() const {
-    return trimmed(text.substr(0, text.find('=')));
+    return std::string(trimmed(text.substr(0, text.find('=')), " \t"));
 }
 
 std::string Assignment::value() const {
     const auto equals = text.find('=');
-    return equals == std::string::npos ? "" : trimmed(text.substr(equals + 1));
+    return equals == std::string::npos ? "" : std::string(trimmed(text.substr(equals + 1), " \t"));
 }
 
 std::string Assignment::place() const {

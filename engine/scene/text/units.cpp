@@ -93,12 +93,6 @@ constexpr std::array<DimensionText, 18> dimension_texts{{
     {"1", "a plain number", "0.5", 0, 1e30},
 }};
 
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-    return text;
-}
-
 // Whether a text can be a unit: it begins with a letter or with "1/", and no number follows a space.
 // udunits would take "1 000 mm" for 1 times 000 mm, and "mm 3" for three of them.
 bool looks_like_unit(std::string_view text) {

@@ -141,11 +141,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string trimmed(const std::string& text) {
-    const std::size_t from = text.find_first_not_of(" \t\r"), to = text.find_last_not_of(" \t\r");
-    return from == std::string::npos ? "" : text.substr(from, to - from + 1);
-}
-
 std::string triple(const Vec3& v) {
     return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z());
 }
@@ -184,7 +179,7 @@ void use_camera_file(const CameraFiles& files, Assignments& sets) {
         line = trimmed(line.substr(0, line.find('#')));
         if (line.empty() || line == "[film.camera]") continue;
         const std::size_t equals = line.find('=');
-        const std::string key = trimmed(line.substr(0, equals));
+        const std::string key(trimmed(line.substr(0, equals)));
         const bool plain = equals != std::string::npos && !key.empty() &&
                            key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos;
         if (!plain)

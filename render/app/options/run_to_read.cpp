@@ -6,6 +6,7 @@
 
 #include "build_info.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_series.hpp"
@@ -60,11 +61,6 @@ namespace {
 
 using Pair = std::pair<std::string, std::string>;
 
-std::string trimmed(const std::string& text) {
-    const std::size_t from = text.find_first_not_of(" \t"), to = text.find_last_not_of(" \t");
-    return from == std::string::npos ? "" : text.substr(from, to - from + 1);
-}
-
 // Parses pairs such as "a=b,c=d". Throws UserError for another form.
 std::vector<Pair> pairs_of(const std::string& option, const std::string& text, const char* example) {
     std::vector<Pair> pairs;
@@ -73,8 +69,9 @@ std::vector<Pair> pairs_of(const std::string& option, const std::string& text, c
         const std::size_t to = std::min(text.find(',', from), text.size());
         const std::string one = text.substr(from, to - from);
         const std::size_t equals = one.find('=');
-        const std::string name = trimmed(one.substr(0, equals));
-        const std::string value = equals == std::string::npos ? "" : trimmed(one.substr(equals + 1));
+        const std::string name(trimmed(one.substr(0, equals), " \t"));
+        const std::string value =
+            equals == std::string::npos ? "" : std::string(trimmed(one.substr(equals + 1), " \t"));
         if (name.empty() || value.empty())
             throw UserError(fmt::format("{} {}: '{}' is no pair NAME=VALUE; write it as in {} {}", option,
                                         text, one, option, example));

@@ -152,11 +152,6 @@ bool is_or_is_in(const std::string& key, const std::string& table) {
            (key.size() == table.size() || key[table.size()] == '.' || key[table.size()] == '[');
 }
 
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t");
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 // Splits a text at commas outside of brackets and quotes. A quote within a word is no quote: 5' does not
 // begin one.
 std::vector<std::string> split(const std::string& text) {
@@ -171,7 +166,7 @@ std::vector<std::string> split(const std::string& text) {
             continue;
         }
         const bool begins =
-            quote == 0 && (c == '"' || c == '\'') && (depth > 0 || trimmed(parts.back()).empty());
+            quote == 0 && (c == '"' || c == '\'') && (depth > 0 || trimmed(parts.back(), " \t").empty());
         if (begins)
             quote = c;
         else if (c == quote)
@@ -185,7 +180,7 @@ std::vector<std::string> split(const std::string& text) {
         else
             parts.back() += c;
     }
-    for (std::string& part : parts) part = trimmed(part);
+    for (std::string& part : parts) part = std::string(trimmed(part, " \t"));
     return parts;
 }
 

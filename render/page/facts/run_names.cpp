@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/page/embed.hpp"
@@ -130,11 +131,6 @@ Names names_of_runs(const std::vector<RunToName>& runs) {
 }
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-    return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
-}
 
 // The line of a resolved scene without the comment behind its value. No value has a # outside of quotes.
 std::string_view without_comment(std::string_view line) {

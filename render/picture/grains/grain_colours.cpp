@@ -39,9 +39,8 @@ void Quantities::start_from(const Frame& frame) {
 }
 
 double Quantities::start_height_of(std::int32_t id) const {
-    const auto at = std::lower_bound(start_id_.begin(), start_id_.end(), id);
-    if (at == start_id_.end() || *at != id) return none;
-    return start_height_[static_cast<std::size_t>(at - start_id_.begin())];
+    const auto row = row_of_id(start_id_, id);
+    return row ? start_height_[*row] : none;
 }
 
 // Contacts may name grains that the frame lacks.
@@ -49,7 +48,7 @@ void Quantities::count_touches(const Frame& frame, bool forces) {
     values_.assign(frame.size(), 0);
     const auto add = [&](std::int32_t id, double force) {
         if (id < 0) return;  // a wall
-        if (const auto grain = find_grain(frame, id)) values_[*grain] += forces ? force : 1;
+        if (const auto grain = frame.row_of(id)) values_[*grain] += forces ? force : 1;
     };
     for (const Touch& touch : frame.touches) {
         add(touch.first, touch.force);

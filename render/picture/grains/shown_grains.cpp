@@ -17,10 +17,6 @@ void keep(std::vector<T>& values, const std::vector<std::size_t>& kept) {
 
 }  // namespace
 
-std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id) {
-    return frame.row_of(id);
-}
-
 std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame) {
     if (!cut.present) return {};
     const Vec3& normal = cut.normal;

@@ -10,9 +10,6 @@
 
 namespace grainreel {
 
-// The place of a grain in the frame, whose ids rise; none when the grain is not there.
-std::optional<std::size_t> find_grain(const Frame& frame, std::int32_t id);
-
 // The points p that are kept: normal . p >= distance.
 struct HalfSpace {
     Vec3 normal;

@@ -52,9 +52,9 @@ std::vector<std::vector<Trails::Point>> Trails::paths() const {
     for (const std::int32_t id : now.id) {
         std::vector<Point> path;
         for (const PastFrame& moment : past_) {
-            const auto found = std::lower_bound(moment.id.begin(), moment.id.end(), id);
-            if (found == moment.id.end() || *found != id) break;
-            const Vec3& at = moment.at[static_cast<std::size_t>(found - moment.id.begin())];
+            const auto row = row_of_id(moment.id, id);
+            if (!row) break;
+            const Vec3& at = moment.at[*row];
             if (!path.empty() && std::abs(at.x() - path.back().at.x()) > longest_jump_) break;
             path.push_back({(now.time - moment.time) / duration_, at});
         }
@@ -125,7 +125,7 @@ void Marks::draw_chains(const View& view, const Frame& frame, Shapes& on) const 
     const double too_far = scene_.container.periodic_depth ? 0.5 * scene_.container.depth
                                                            : std::numeric_limits<double>::infinity();
     for (const Touch& touch : frame.touches) {
-        const auto first = find_grain(frame, touch.first), second = find_grain(frame, touch.second);
+        const auto first = frame.row_of(touch.first), second = frame.row_of(touch.second);
         if (!first || !second || touch.force < weakest_force * force) continue;
         const Vec3 &a = frame.position[*first], &b = frame.position[*second];
         if (std::abs(a.x() - b.x()) > too_far) continue;
@@ -154,7 +154,7 @@ void Marks::draw_rings(const View& view, const Frame& frame, const SeenShare& se
     constexpr double kHidden = 0.02, kPlain = 0.2;  // seen shares between which a ring fades in
     const FilmShows& look = scene_.film.shows;
     for (const std::int32_t id : look.highlighted)
-        if (const auto grain = find_grain(frame, id))
+        if (const auto grain = frame.row_of(id))
             draw_ring(view, frame.position[*grain], frame.radius[*grain], 1, on);
     if (!look.highlight_if.wanted()) return;
     const std::vector<double>& values = condition_.of(frame);

@@ -190,7 +190,7 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
 
 std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const View& view,
                              const TextStyle& style, double gap) {
-    const std::optional<std::size_t> row = find_grain(frame, label.id);
+    const std::optional<std::size_t> row = frame.row_of(label.id);
     if (!row) return std::nullopt;
     const Vec3& at = frame.position[*row];
     if (!view.orthographic && view.to_view(at).z() <= 0) return std::nullopt;
@@ -222,7 +222,7 @@ void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View&
     found.resize(scene.film.labels.size());
     for (std::size_t k = 0; k < scene.film.labels.size(); ++k) {
         const FilmLabel& label = scene.film.labels[k];
-        if (find_grain(frame, label.id)) found[k] = 1;
+        if (frame.row_of(label.id)) found[k] = 1;
         std::optional<Placed> one = placed(label, frame, view, style, 0.6 * type.main);
         if (!one) continue;
         for (const Placed& other : all)

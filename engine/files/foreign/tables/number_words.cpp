@@ -9,8 +9,6 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
-
 // The value of a number that is out of range for a double: 0 if it is too small, infinity if it is too large.
 double beyond_range(std::string_view word) {
     const bool negative = word.front() == '-';
@@ -58,12 +56,6 @@ std::optional<std::int64_t> whole_number_of(std::string_view word) {
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     if (error != std::errc{} || stop != end) return std::nullopt;
     return value;
-}
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 std::string_view take_word(std::string_view& text) {

@@ -20,8 +20,6 @@ std::optional<double> number_of(std::string_view word);
 // The number in "324" or "+324"; none for anything else and for numbers of more than 64 bits.
 std::optional<std::int64_t> whole_number_of(std::string_view word);
 
-// The text without blanks at both ends.
-std::string_view trimmed(std::string_view text);
 // Removes the first word from the text and returns it; empty at the end.
 std::string_view take_word(std::string_view& text);
 // All words of a line, which blanks and tabs separate.

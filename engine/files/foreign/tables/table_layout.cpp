@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 

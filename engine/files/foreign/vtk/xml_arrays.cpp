@@ -15,13 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r\n";
-    const std::size_t begin = text.find_first_not_of(blanks);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 VtkCompressor compressor_of(std::string_view name) {
     if (name.empty()) return VtkCompressor::none;
     if (name == "vtkZLibDataCompressor") return VtkCompressor::zlib;
