@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/bed.hpp"
 

@@ -14,7 +14,7 @@
 
 #include "engine/files/checksum.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 
 namespace grainreel {
 

@@ -13,7 +13,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frame_faults.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/files/trajectory_layout.hpp"
 
 namespace grainreel {

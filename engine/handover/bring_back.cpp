@@ -9,7 +9,7 @@
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"

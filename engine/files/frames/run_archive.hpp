@@ -13,7 +13,7 @@
 #include "engine/base/clock.hpp"
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
 

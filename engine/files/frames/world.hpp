@@ -13,7 +13,7 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/files/file_facts.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/frame.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 #include "engine/scene/scene.hpp"

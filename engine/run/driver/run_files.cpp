@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/run/resume/kept_files.hpp"
 

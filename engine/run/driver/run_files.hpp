@@ -13,7 +13,7 @@
 #include "engine/files/fields_file.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/outflow_csv.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation/simulation.hpp"

@@ -13,7 +13,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/files/measures_csv.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/run/import/import_ranges.hpp"

@@ -11,7 +11,7 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/measure/walls/wear_observer.hpp"
 #include "engine/plan/times.hpp"

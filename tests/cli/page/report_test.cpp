@@ -10,7 +10,7 @@
 #include <csignal>
 
 #include "engine/files/contacts_file.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -11,7 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/contacts_file.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/program.hpp"

@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"

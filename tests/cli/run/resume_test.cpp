@@ -14,7 +14,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/grain_table.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"

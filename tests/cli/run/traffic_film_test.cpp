@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/simulation/simulation.hpp"

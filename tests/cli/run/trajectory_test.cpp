@@ -1,5 +1,5 @@
 // Tests of trajectory.nc and contacts.nc: they are written and read, continued, cut off and damaged.
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

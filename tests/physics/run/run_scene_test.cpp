@@ -7,7 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
 #include "engine/scene/scene_file.hpp"

@@ -4,7 +4,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/world.hpp"
-#include "engine/files/trajectory.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
 
 namespace grainreel {
 
