@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
-#include "engine/files/trajectory_layout.hpp"
+#include "engine/files/trajectory/trajectory_layout.hpp"
 
 namespace grainreel {
 

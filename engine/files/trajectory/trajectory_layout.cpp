@@ -1,4 +1,4 @@
-#include "engine/files/trajectory_layout.hpp"
+#include "engine/files/trajectory/trajectory_layout.hpp"
 
 #include <fmt/format.h>
 #include <netcdf.h>
