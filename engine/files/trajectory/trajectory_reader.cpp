@@ -1,14 +1,13 @@
 // Reads trajectory.nc, our own or one of the same convention.
-#include <netcdf.h>
 
+#include <fmt/format.h>
+#include <netcdf.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <sstream>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/frame_faults.hpp"
