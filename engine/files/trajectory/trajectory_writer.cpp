@@ -1,11 +1,10 @@
 // Writes trajectory.nc frame by frame. What is written stays whole when a write fails.
-#include <netcdf.h>
 
+#include <fmt/format.h>
+#include <netcdf.h>
 #include <algorithm>
 #include <functional>
 #include <map>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
