@@ -1,6 +1,7 @@
 // A scene that a test hands over, and the engine that runs it.
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <ostream>
@@ -34,9 +35,13 @@ std::string run_engine(EngineJob job, const std::filesystem::path& folder);
 // All frames of the dump in the folder, by the engine's step.
 std::map<std::int64_t, DumpRows> frames_of(PeerEngine engine, const std::filesystem::path& folder);
 
-// A skip for tests and their SetUp().
-#define NEEDS_ENGINE(engine)                    \
-    if (!::grainreel::test::has_engine(engine)) \
-    GTEST_SKIP() << name_of(engine) << " or mpirun is not installed"
+// For tests and their SetUp(): skips where the engine is missing. Under `./test --peers`, which is for these
+// tests and installs the engines, that is a failure.
+#define NEEDS_ENGINE(engine)                                                  \
+    if (!::grainreel::test::has_engine(engine)) {                             \
+        if (std::getenv("GRAINREEL_ENGINES_WANTED") != nullptr)               \
+            GTEST_FAIL() << name_of(engine) << " or mpirun is not installed"; \
+        GTEST_SKIP() << name_of(engine) << " or mpirun is not installed";     \
+    }
 
 }  // namespace grainreel::test
