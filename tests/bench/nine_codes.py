@@ -253,11 +253,14 @@ class Silo:
 
     def curve(self, job):
         left = sorted(row["time_s"] for row in table(job.run / "outflow.csv"))
+        times = [0.01 * i for i in range(int(job.until / 0.01 + 1e-6) + 1)]
+        if job.until > times[-1] + 1e-6:
+            times.append(job.until)  # of a run that was broken off
         rows, gone = [], 0
-        for i in range(round(job.until / 0.01) + 1):
-            while gone < len(left) and left[gone] <= 0.01 * i:
+        for when in times:
+            while gone < len(left) and left[gone] <= when:
                 gone += 1
-            rows.append((0.01 * i, self.grains - gone))
+            rows.append((when, self.grains - gone))
         return ["t_s", self.column], rows
 
     def compare(self, job, rows):
@@ -417,16 +420,16 @@ def main():
         cost = run_case(job, case)
     except subprocess.CalledProcessError as error:
         sys.exit(f"`{' '.join(map(str, error.cmd))}` ended with {error.returncode}")
-    head, rows = case.curve(job)
-    with open(job.folder / f"{options.case}.csv", "w", newline="") as file:
-        csv.writer(file).writerows([head, *rows])
-    chart(job, options.case, case.panels(job, rows))
     engine = job.state()["engine"]
     come = engine["simulated_s"]
     whole = come >= job.until - 1e-9
     if not whole:
         print(f"broken off at {come:g} s; the same command goes on with it")
-        job.until = come
+        job.until = come  # curves and charts end where the run has ended
+    head, rows = case.curve(job)
+    with open(job.folder / f"{options.case}.csv", "w", newline="") as file:
+        csv.writer(file).writerows([head, *rows])
+    chart(job, options.case, case.panels(job, rows))
     if cost["user_s"]:
         print(f"{options.case}: {engine['grains']} grains, {cost['steps']} steps, {cost['user_s']:.0f} s of processor time: "
               f"{engine['grains'] * cost['steps'] / cost['user_s'] / 1e6:.2f} million grain-steps a second and core")
