@@ -14,7 +14,8 @@ namespace grainreel {
 
 class Checksum {
   public:
-    // Adds the bytes of the numbers, the lowest byte of each first.
+    // Adds the bytes of the numbers as they lie in memory: the lowest byte of each first on the processors
+    // that this program runs on. Reader and writer must add the same pieces.
     template <class Value>
     void add(const Value* values, std::size_t count) {
         static_assert(std::is_arithmetic_v<Value>);

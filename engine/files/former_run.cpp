@@ -209,7 +209,7 @@ void FormerRun::keep_growing(const Cut& cut) {
     if (records) NetcdfFile::count_records(beginning, *records);
 }
 
-// Returns the names of all files and folders, one a line.
+// Gives second names to the files that do not grow. Returns the names of all files, one a line.
 std::string FormerRun::keep_whole() const {
     std::string names;
     std::error_code error;

@@ -1,9 +1,11 @@
-// Keeps a run as it was while it is continued in its folder. All that will be cut or replaced is kept in a
-// hidden folder of the run until the run has passed its former end. If it fails before, it is put back as it
-// was; if it is killed, the next process that uses it puts it back.
+// Keeps a run as it was while it is continued in its folder. A run that is continued loses what lies after
+// the moment from which it goes on. The lost part stays in a hidden folder of the run until the continuation
+// has passed the run's former end. If the continuation fails before, the run is put back as it was. If its
+// process is killed, the next process that uses the run puts it back.
 //
-// A file that will be replaced only gets a second name. Of a file that grows, the end is copied, or the
-// beginning where that is shorter.
+// A file that will be replaced gets a second name there. The end of a file that grows is copied before it is
+// cut. Where the beginning is shorter than the end, the beginning is copied to a new file, which replaces the
+// old one.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +26,7 @@ class FormerRun {
     FormerRun(const FormerRun&) = delete;
     FormerRun& operator=(const FormerRun&) = delete;
 
-    // Names a growing file and how many bytes of it stay.
+    // Names a growing file that the caller will cut after begin(), and how many bytes of it stay.
     void cut(const std::string& name, std::uintmax_t bytes) { cuts_.push_back({name, bytes, {}}); }
     // The same for a NetCDF file, whose header says how many records it has.
     void cut(const std::string& name, const KeptRecords& kept) {
@@ -37,7 +39,7 @@ class FormerRun {
     // replaced. If this throws RunError, the run is unchanged.
     void begin();
 
-    // Forgets what was kept, once the run has passed its former end.
+    // Removes what was kept. To be called when the run has passed its former end.
     static void let_go(const std::filesystem::path& run);
     // Whether something is kept that can be put back.
     static bool is_kept(const std::filesystem::path& run);

@@ -98,8 +98,8 @@ void choose_dumps(const CarryRequest& request, CarriedScene& carried) {
     std::erase_if(dumps, [&](std::int64_t step) { return step < 0 || step > carried.plan.steps; });
 }
 
-// The time of packing in s: the fall through the lattice at the drag's terminal speed, and the time to come
-// to rest.
+// Decides whether the other engine packs the grains, with which drag and for how long: the time of the fall
+// from the lattice, and the time to come to rest.
 void choose_packing(const CarryRequest& request, CarriedScene& carried) {
     const Scene& scene = carried.scene;
     carried.packs = scene.start.packs() && scene.grains_at_start() > request.packs_above;

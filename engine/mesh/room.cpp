@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-// Rays that are tried for the winding number. The first two that agree decide.
+// Directions of the rays that are tried for the winding number. Two rays with one answer decide.
 constexpr std::array<int, 5> tried{1, 7, 11, 5, 14};
 
 bool EnclosedRoom::holds(const Vec3& place) const {
@@ -88,7 +88,7 @@ double EnclosedRoom::half_depth_at(double z) const {
 
 namespace {
 
-// Places that are asked for in a region of cells. The level sections of a closed surface are closed lines, so
+// How many places of a region of cells are tested. The level sections of a closed surface are closed lines, so
 // a region is inside or outside as a whole and few places are enough.
 constexpr std::size_t asked_of_closed = 2, asked_of_open = 32;
 
@@ -120,7 +120,7 @@ Vec3 RoomGrid::middle(const std::array<int, 3>& first, int size) const {
     return box_.min() + width_.cwiseProduct(Vec3(first[0], first[1], first[2]) + Vec3::Constant(0.5 * size));
 }
 
-// Marks a block of cells as free if it has no surface. Otherwise the block is halved.
+// Marks a block of cells as free if it has no surface. Otherwise it tries the block's eight parts.
 void RoomGrid::mark_free(const Surface& surface, const std::array<int, 3>& first, int size) {
     const double radius = 0.5 * size * width_.norm() * (1 + 1e-9);
     if (surface.any_within(middle(first, size), radius)) {

@@ -1,15 +1,16 @@
 // The room for grains that a surface encloses. The surface may be a closed vessel, an open one, a hopper
 // without a bottom, or a vessel whose walls have a thickness.
 //
-// A place is enclosed when rays to all sides (sixteen, level) meet the surface. Enclosed regions differ in
+// A place is enclosed when sixteen level rays, to all sides, meet the surface. Enclosed regions differ in
 // the number of closed parts of the surface around them (the winding number). The room of a cup with thick
 // walls is inside none, and the wall is inside one. The room of a closed drum is inside one, and a solid
 // lifter in it is inside two. The room is the region with the lowest winding number if it has at least a
 // fifth of the enclosed volume; otherwise it is the region with the largest volume. Parts that are not closed
 // (sheets, open hoppers, baffles) enclose, but have no inside.
 //
-// Sizes come from sections at 256 or more heights, each exact for its polygon. There are two sections in each
-// slice, and slices end at all heights at which the surface has level faces. Volumes of boxes and prisms are
+// Sizes come from level sections at 256 or more heights. A section is the polygon in which a plane cuts the
+// surface, and its area is exact. There are two sections in each slice of the room, and slices end at all
+// heights at which the surface has level faces. Volumes of boxes and prisms are
 // exact, and volumes of cones are exact to 1e-4.
 #pragma once
 
@@ -25,15 +26,16 @@
 
 namespace grainreel {
 
-// A grid of 32 x 32 x 32 cells that answers at once for most places of a room. All places of a cell without
-// surface have one answer, and so have the cells beyond its sides at the same height.
+// A grid of 32 x 32 x 32 cells that says for most places whether they are in the room, without a ray. Cells
+// of one height that touch each other and have no surface in them form a region, which has one answer.
 class RoomGrid {
   public:
     enum class Answer : std::uint8_t { unknown, inside, outside };
 
     RoomGrid() = default;
-    // `holds` says whether a place is in the room. It is called for up to 64 places of each region of cells
-    // without surface. If its answers differ (near a hole in a wall), that region stays unknown.
+    // `holds` says whether a place is in the room. It is called for two places of each region of cells
+    // without surface, or for 32 where the surface has holes. If its answers differ (near a hole in a wall),
+    // that region stays unknown.
     RoomGrid(const Surface& surface, const Eigen::AlignedBox3d& box,
              const std::function<bool(const Vec3&)>& holds);
 

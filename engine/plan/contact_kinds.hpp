@@ -1,5 +1,5 @@
-// The kinds of contact that a run can have: whose grains can meet, and how many of all contacts each kind
-// has. A message about the bed is about most of its contacts; the extreme kind is given by its name.
+// The kinds of contact that a run can have: which species can meet each other or a wall, and which share of
+// the contacts each kind has. Messages speak of the commonest kinds, and name the kind that is extreme.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ struct ContactKind {
     Species first;
     std::optional<Species> second;  // empty for a wall or a mesh; a glued grain has infinite density
     bool at_wall = false;           // a wall, a mesh, or what is glued to a wall
-    // Share of all contacts between grains, or of all at walls. It is estimated: a grain has contacts in
-    // proportion to its surface.
+    // Share of all contacts between grains, or, at a wall, of the contacts at that wall. It is estimated: a
+    // grain has contacts in proportion to its surface.
     double share = 0;
 
     const Species* other() const { return second ? &*second : nullptr; }
@@ -26,8 +26,8 @@ struct ContactKind {
     double smaller_diameter() const;   // m, the mean diameter of the smaller species
 };
 
-// There is no kind for a species of a single grain with itself, and none at walls without container or
-// plane.
+// There is no kind for a species of a single grain with itself, and no kind "a wall" where the scene has
+// neither a container nor a plane.
 std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan);
 
 // Share of all contacts between grains that each species has; 0 for a species that is only glued to walls.

@@ -1,20 +1,21 @@
-// How strong a dashpot must be for a wanted restitution, and which restitution a dashpot gives.
-// Dimensionless.
+// How strong a dashpot must be for a wanted restitution, and which restitution a dashpot gives. Damping and
+// restitution have no dimension.
 #pragma once
 
 namespace grainreel {
 
 // Linear spring and dashpot; beta = c / (2 sqrt(m k)) is the damping ratio. Where the dashpot may pull
-// (attraction), the contact ends with the overlap: e = exp(-pi beta / sqrt(1 - beta^2)), beta < 1. Without
-// attraction it ends with the force, a little earlier and faster (Schwager & Poeschel 2007, Granul. Matter
-// 9, 465, eq. 21).
+// (attraction), the contact ends when the overlap is zero: e = exp(-pi beta / sqrt(1 - beta^2)), beta < 1.
+// Without attraction it ends when the force is zero, a little earlier, so that the grains part faster
+// (Schwager & Poeschel 2007, Granul. Matter 9, 465, eq. 21).
 double linear_restitution(double beta, bool attraction);
 double linear_damping(double restitution, bool attraction);
 
-// Hertz' spring with the dashpot d sqrt(m k) a^(1/4) v (Tsuji, Tanaka & Ishida 1992, Powder Technol. 71,
-// 239). Its restitution does not depend on speed. Where the dashpot may pull, d = -sqrt(5) ln e / sqrt(pi^2
-// + ln^2 e) (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, to about
-// 1e-5.
+// Hertz' spring with the dashpot d sqrt(m k) a^(1/4) v, of overlap a, its rate v and effective mass m (Tsuji,
+// Tanaka & Ishida 1992, Powder Technol. 71, 239). Its restitution does not depend on speed. Where the dashpot
+// may pull, d = -sqrt(5) ln e / sqrt(pi^2
+// + ln^2 e) (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, and e
+// is right to about 1e-5.
 double hertz_restitution(double damping, bool attraction);
 double hertz_damping(double restitution, bool attraction);
 

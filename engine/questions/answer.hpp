@@ -22,7 +22,7 @@ struct AnswerColumn {
     // without a value do not count. The name of another column: that column weighs this one. Empty: it is a
     // sum, and a moment without the row counts as 0.
     std::string weight{};
-    std::string unit{};  // of a pure number that has one: "m3"
+    std::string unit{};  // the unit to show where Dimension has none for it: "m3"
     static constexpr const char *kKey = "key", *kThere = "there";
 };
 
@@ -37,8 +37,8 @@ struct AnswerTable {
     bool has_mean = false;                      // whether rows of several moments can be joined
     // Dimension of the numbers in each row, where each row is a quantity of its own.
     std::vector<Dimension> row_dimensions{};
-    std::string mean_title{};  // replaces the title in a mean, where the title speaks of one moment
-    // Column by which the table lists the largest values; a mean over moments lists the largest of all
+    std::string mean_title{};  // the title of a mean, if the title names one moment
+    // The column whose largest values the rows list, or empty. A mean over moments lists the largest of all
     // moments.
     std::string most_of{};
 };
@@ -65,8 +65,8 @@ std::vector<std::int32_t> grains_in(const Answer& answer);
 
 // Rows with the same keys (AnswerColumn::kKey) become one row of the mean. Counts and sums are divided by
 // the number of moments; a row that a moment lacks counts as 0 there. A column with a weight becomes the
-// mean over all that weighs, as in sum(grains * mean_speed) / sum(grains). A list of largest values
-// (AnswerTable::most_of) has those of all moments, with the time of each. Other tables without a mean
+// weighted mean over all rows of its key, as in sum(grains * mean_speed) / sum(grains). A list of largest
+// values (AnswerTable::most_of) has those of all moments, with the time of each. Other tables without a mean
 // (AnswerTable::has_mean) are left out.
 class MeanAnswer {
   public:
@@ -88,7 +88,7 @@ class MeanAnswer {
         std::vector<double> sum, weight, values;  // one for each column; `values` counts the values
     };
     struct Table {
-        AnswerTable form;                // the table's form, for a mean without rows
+        AnswerTable form;                // name, title and columns; for a list of largest values its rows too
         std::vector<std::string> words;  // all words of keys so far
         std::map<Key, Sums, NearlyLess> rows;
     };

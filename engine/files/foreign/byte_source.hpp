@@ -16,7 +16,8 @@ namespace grainreel {
 enum class Packing { none, gzip, zstd };
 
 // The first kHeadBytes of a file's content, unpacked. Throws UserError where the file is no ordinary file,
-// cannot be opened, or is packed in a way that is not read (xz, lzma and bzip2 are refused by name).
+// cannot be opened, or is packed in a way that is not read (such as xz, bzip2 and zip, which are refused by
+// name).
 FileHead unpacked_head(const std::filesystem::path& file);
 
 // A stream of a file's content from its beginning.

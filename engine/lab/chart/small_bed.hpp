@@ -18,25 +18,27 @@ struct BedSetting {
 
 struct BedResult {
     double height = 0;       // m, mean height over the moving floor, averaged over the second half
-    double temperature = 0;  // m2/s2, mean square of the velocities about the bed's, over the second half
+    double temperature = 0;  // m2/s2, a third of the mean square of velocities against the bed's mean
+                             // velocity, in the second half
     double contacts = 0;     // force-carrying contacts a grain, over the second half
     double mixing = 0;       // Lacey's index of the lower half and the upper half, at the end
     double cost = 0;         // ns of one thread for a grain and a simulated microsecond
 };
 
-// Runs `duration` seconds of the bed on one thread. Returns nothing when goes_on(), asked a few times a
-// second, returned false.
+// Runs `duration` seconds of the bed on one thread. Returns nothing when goes_on(), asked every
+// eighth of a period, returned false.
 std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, double duration,
                                  const std::function<bool()>& goes_on);
 
 // How a setting changes the bed: the difference of its mean over the seeds from the reference's, in per
-// cent of the latter. `error` is the standard error of the difference, also in per cent.
+// cent of the latter. `error` is the standard error of the difference, also in per cent; in
+// the reference's own row it is that of its mean.
 struct BedDifference {
     std::string setting;
     int seeds = 0;
     double height = 0, height_error = 0, temperature = 0, temperature_error = 0;
     double contacts = 0, contacts_error = 0, mixing = 0, mixing_error = 0;
-    double cost = 0;  // over the reference's
+    double cost = 0;  // divided by the reference's
 };
 struct BedRow {
     std::string setting;

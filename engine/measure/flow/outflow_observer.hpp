@@ -22,19 +22,22 @@ using MassCounts = std::vector<WideInt>;
 
 WideInt total(const MassCounts& counts);
 
-// Mass (kg) of a count if no grain is heavier than `largest`: at least 2^-60 of `largest`.
+// The mass (kg) of one count, a power of two. It is 1 to 2 times 2^-60 of `largest`, the mass of the heaviest
+// grain.
 double mass_quantum(double largest);
 WideInt mass_count(double mass, double quantum);
 
 // The largest mass (kg) that a grain of the scene may have.
 double largest_mass(const Scene& scene);
 
+// Sums the mass that the feeds have given, and goes on from the last call.
 class FedMass {
   public:
     // The scene must outlive this object.
     explicit FedMass(const Scene& scene) : scene_(scene) {}
 
-    // Masses in counts, by species, that the feeds have given when each has given so many grains.
+    // Masses in counts, by species, of the first `given` grains of each feed. No number of `given` may be
+    // smaller than at the last call.
     const MassCounts& of(std::span<const std::int64_t> given, double quantum);
 
   private:

@@ -1,4 +1,4 @@
-// Estimates what a study will cost, from the scenes of its settings.
+// Estimates what a study will cost. A study runs members: each of its settings with several seeds.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,11 @@ struct MemberEstimate {
     double seconds = 0, bytes = 0;
 };
 
-// The estimate takes the settings as they are planned.
+// Give it each setting in its order by add_setting(), then ask for members.
 class StudyEstimate {
   public:
-    // measured: false assumes a usual machine, which is enough for comparing members.
+    // measured: whether the speed of this machine is measured. Else that of a usual one is assumed, which is
+    // enough for comparing members.
     StudyEstimate(int jobs, bool films, bool measured) : jobs_(jobs), films_(films), measured_(measured) {}
 
     void add_setting(const FilmedScene& scene, const Plan& plan);

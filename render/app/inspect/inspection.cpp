@@ -156,7 +156,8 @@ class Inspection {
         return std::find(all.begin(), all.end(), what) != all.end();
     }
 
-    // Whether a kept moment lacks what is asked for.
+    // Whether the moment must be simulated again: the run did not keep it, or kept it without what is asked
+    // for.
     bool is_to_be_brought_back(const MomentFinder& finder, const AskedMoment& asked,
                                const AskedRun& asked_run) const {
         if (!asked.kept || asks_for_forces()) return true;

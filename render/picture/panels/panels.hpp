@@ -11,12 +11,12 @@
 namespace grainreel {
 
 struct Panel {
-    FilmedScene scene;  // only the camera and `shows` of its film count
+    FilmedScene scene;  // its film counts as far as panels share it: camera, `shows`, captions, look
     std::string caption;
-    std::vector<std::string> playback = {};  // caption of time in each segment of the film
+    std::vector<std::string> playback = {};  // how fast the film plays, in words, for each of its segments
 };
 
-// The kinds of marks over the grains, which have to be explained.
+// The kinds of marks over the grains that the legend explains.
 struct MarkKinds {
     bool arrows = true, streamlines = true, wall_forces = true;
     bool trails = true, chains = true, rings = true;
@@ -31,7 +31,7 @@ struct Common {
     bool species = true;
     bool exaggerated = true;  // all motion is exaggerated by one factor
     bool colours = true;      // one colour bar, or none
-    MarkKinds marks;          // kinds that mean the same everywhere; arrows also need one scale
+    MarkKinds marks;          // kinds that mean the same everywhere; all forces also need one scale
     bool playback = true;
     bool captions = true;  // all have the same captions (film.caption), at least one
 };
@@ -40,8 +40,9 @@ Common common_of(const std::vector<Panel>& panels);
 // The panels without their common captions (film.caption), which are not written in each panel.
 std::vector<Panel> without_common(std::vector<Panel> panels, const Common& common);
 
-// Words that tell the scenes apart. They are the shortest of the following that differ: frequency, g level or
-// amplitude of the drives; the titles, with the drives where these differ too; the names.
+// Words that tell the scenes apart. Where all titles are alike and the drives differ, they are the drives'
+// frequency, g level or amplitude. Else they are the titles, with the drives where these differ too; else the
+// names; else the names with numbers.
 std::vector<std::string> captions_of(const std::vector<FilmedScene>& scenes);
 
 // Gives panels that show the same quantity one range of colours that holds all of theirs, so that a colour

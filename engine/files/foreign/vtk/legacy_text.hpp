@@ -31,21 +31,22 @@ class LegacyText {
     std::string_view word_in_line();
     bool at_end();
 
-    // The next word as a count. what: for the message.
+    // The next word as a count. `what` names it in the message.
     std::uint64_t count(const char* what);
     VtkType type(const char* what);
 
-    // So many numbers; bytes begin after the end of this line. finite: NaN is refused. Throws UserError where
-    // there are fewer, before memory is asked for.
+    // Reads `count` numbers. Those of a binary file begin after the end of this line. `finite` refuses NaN
+    // and infinity. Throws UserError where the file has fewer. A count that the file cannot hold is refused
+    // before memory is asked for.
     template <class T>
     std::vector<T> numbers(VtkType type, std::uint64_t count, bool finite);
     void skip(VtkType type, std::uint64_t count);
-    // Skips words: one on each line, or with their lengths before them.
+    // Skips words. A text file has one on each line; a binary one has each behind its length.
     void skip_words(std::uint64_t count);
-    // Skips the lines after METADATA up to the next empty one.
+    // Skips the lines after METADATA up to the next empty one or the next keyword.
     void skip_metadata();
 
-    // Throws UserError with the line of the last word, or with its byte.
+    // Throws UserError with the line of the last word, or in a binary file with its byte.
     [[noreturn]] void refuse(const std::string& what) const;
 
   private:
@@ -66,7 +67,7 @@ extern template std::vector<std::int64_t> LegacyText::numbers<std::int64_t>(VtkT
 // Whether a section begins with this word.
 bool is_legacy_keyword(std::string_view word);
 
-// The name that a word stands for; blanks and other characters are written as "%20".
+// The name that a word stands for. A blank is written as "%20" there, and other characters by their codes.
 std::string legacy_name(std::string_view word);
 
 }  // namespace grainreel

@@ -36,8 +36,8 @@ struct ObliqueErrors {
 ObliqueErrors oblique_errors(const Method& method, double restitution, double steps);
 
 // Error of a sphere that rests on an elastic plane and is pushed down and sideways, so that it swings both
-// ways without sliding. It is the largest error of the tangential velocity within three contact times, over
-// the push. The reference is the same with 20,000 steps a contact.
+// ways without sliding. It is the largest error of the tangential velocity within three contact times,
+// divided by the speed of the push. `steps` a contact is a multiple of 8. The reference has 20,000.
 double shear_error(const Method& method, double steps);
 
 // Energy error of a ball that bounces `bounces` times on an elastic floor, under a gravity that makes each
@@ -49,7 +49,7 @@ double bounce_drift(const Method& method, double steps, int bounces);
 // lattice, each touching six.
 double cost_of_a_contact(const Method& method);
 
-// The error of the restitution that a run will have, found by making a free impact.
+// How far the restitution of a run will be off, tried by one impact without gravity.
 
 // The largest |e_measured - e| over the phases of the first touch, where e is what the law gives exactly at
 // this mass and speed. The impact is head-on, at the plan's step and impact speed, as the step loop
@@ -59,11 +59,11 @@ double cost_of_a_contact(const Method& method);
 // 1000, which would take long to try.
 double promised_restitution_error(const Plan& plan, const PairPlan& pair, const Species& a, const Species* b);
 
-// The phases of the first touch that are tried, as shares of a step. Phases next to 0 and 1 matter: where a
-// contact lasts a whole number of steps, only there do the errors of its two ends not add up.
+// The phases of the first touch that are tried, as shares of a step. Phases next to 0 and 1 belong to them,
+// because a contact that lasts a whole number of steps has other errors there than at all other phases.
 std::vector<double> promised_onsets();
 
-// The error in words: two digits, rounded up, so that the worst phase keeps the promise; "-" for NaN.
+// The error in words: two digits, rounded up, so that no phase is worse than the text says; "-" for NaN.
 std::string promised_error_text(double error);
 
 }  // namespace grainreel
