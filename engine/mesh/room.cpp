@@ -88,8 +88,8 @@ double EnclosedRoom::half_depth_at(double z) const {
 
 namespace {
 
-// How many places of a region of cells are tested. The level sections of a closed surface are closed lines, so
-// a region is inside or outside as a whole and few places are enough.
+// How many places of a region of cells are tested. The level sections of a closed surface are closed lines,
+// so a region is inside or outside as a whole and few places are enough.
 constexpr std::size_t asked_of_closed = 2, asked_of_open = 32;
 
 std::size_t cells(int across) {
