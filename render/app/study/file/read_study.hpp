@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "engine/scene/keys/keys.hpp"
 #include "render/app/study/study.hpp"
 
 namespace grainreel {
@@ -12,5 +14,10 @@ namespace grainreel {
 // a column that no run would have, a range without values. The values of the scene's keys are checked when
 // members are made of them (members.hpp).
 Study read_study(const std::filesystem::path& file);
+
+// The keys that a study file may have.
+
+// Gives the keys with their meanings, which docs/reference/studies.md lists.
+const std::vector<Key>& study_keys();
 
 }  // namespace grainreel
