@@ -1,5 +1,5 @@
 // Tests of the values of a study's axes: numbers, ranges and units.
-#include "render/app/study/file/values.hpp"
+#include "render/app/study/file/variations.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

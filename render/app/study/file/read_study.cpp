@@ -8,7 +8,7 @@
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/app/study/file/read_parts.hpp"
-#include "render/app/study/file/values.hpp"
+#include "render/app/study/file/variations.hpp"
 #include "render/scene/read_scene.hpp"
 
 namespace grainreel {
