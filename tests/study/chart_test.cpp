@@ -12,7 +12,7 @@
 #include "render/app/print/run_charts.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/drawing.hpp"
-#include "render/app/study/results/table.hpp"
+#include "render/app/study/results/results.hpp"
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"

@@ -8,7 +8,7 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/points.hpp"
-#include "render/app/study/results/table.hpp"
+#include "render/app/study/results/results.hpp"
 #include "render/scene/read_scene.hpp"
 #include "tests/study/study_text.hpp"
 

@@ -24,7 +24,7 @@
 #include "render/app/study/packing_sharing.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/drawing.hpp"
-#include "render/app/study/results/table.hpp"
+#include "render/app/study/results/results.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/filmed_scene.hpp"
 

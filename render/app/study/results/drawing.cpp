@@ -10,7 +10,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
-#include "render/app/study/results/table.hpp"
+#include "render/app/study/results/results.hpp"
 
 namespace grainreel {
 namespace {

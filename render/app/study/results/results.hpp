@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/app/study/file/members.hpp"
 #include "render/app/study/study.hpp"
 
 namespace grainreel {
@@ -29,5 +30,17 @@ std::string to_string(MemberResult::State state);
 
 // Reads run.json and measures.csv in the member's folder. A member with damaged files counts as incomplete.
 MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures);
+
+// Writes study.csv, which has a row for each member.
+
+// A cell as RFC 4180 asks: in quotes when it has a comma, a quote or a line break.
+std::string csv_cell(const std::string& text);
+// The shortest decimal number that reads back to the same bits; empty for NaN.
+std::string csv_number(double value);
+
+// The table of members in their order, with the columns keys (with their units), seed, state, measures,
+// error, folder.
+std::string study_table(const Study& study, const std::vector<Member>& members,
+                        const std::vector<MemberResult>& results);
 
 }  // namespace grainreel
