@@ -7,7 +7,6 @@
 
 #include "render/app/print/paper.hpp"
 #include "render/app/study/results/points.hpp"
-#include "render/app/study/results/reference.hpp"
 
 namespace grainreel {
 

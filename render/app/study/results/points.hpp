@@ -1,6 +1,7 @@
 // The points of a study's charts: means over seeds with their intervals.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,17 @@ MeanInterval setting_interval(const std::vector<Member>& members, const std::vec
 // The interval as text: "0.412 ± 0.031", the mean and half of its 95 % interval. For one value it is the
 // value alone, for none a dash.
 std::string interval_text(const MeanInterval& interval);
+
+// Points from elsewhere that are drawn on a study's chart.
+
+struct ReferencePoint {
+    double x = 0, y = 0;  // in the units of the chart's axes
+    double error = 0;     // error of y, half of the bar; 0 for none
+};
+
+// Reads a CSV file. Each row has x, y and, where it is known, the error of y; lines that begin with # and a
+// first line of words are left out. Throws UserError, "file:line:column: ...", for anything else, and for a
+// file without points or larger than 16 MiB.
+std::vector<ReferencePoint> read_reference(const std::filesystem::path& file);
 
 }  // namespace grainreel
