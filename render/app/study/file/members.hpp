@@ -1,13 +1,16 @@
 // Makes the members of a study, which are its runs.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
 #include "render/app/study/study.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -49,5 +52,26 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
 std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without = {});
 // The setting with the seed.
 std::string member_text(const Study& study, const Member& member);
+
+// Finds out which settings of a study begin with the same packing. The cache lets one of them pack for all.
+
+class PackingSharing {
+  public:
+    // To be called for each setting when it is planned.
+    void add_setting(const Scene& scene, const Plan& plan);
+
+    // "4 settings share one packing", or why settings that differ in the drive alone do not share theirs.
+    // Empty where there is nothing to say: a single setting, or none that packs.
+    std::string text() const;
+
+  private:
+    static constexpr std::size_t kMost =
+        200;  // limit for the settings that are looked at, since each costs some milliseconds
+
+    std::size_t settings_ = 0, packing_ = 0;  // settings that were looked at, and those of them that pack
+    std::set<std::string> packings_;
+    std::set<std::string> without_drive_;  // packings of the scenes without their drives
+    bool grows_ = false;                   // whether the radii of some setting grow
+};
 
 }  // namespace grainreel
