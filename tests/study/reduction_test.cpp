@@ -1,5 +1,5 @@
 // Tests of reductions against results of their definitions, computed by hand.
-#include "render/app/study/results/reduction.hpp"
+#include "render/app/study/study.hpp"
 
 #include <gtest/gtest.h>
 

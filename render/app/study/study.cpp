@@ -1,6 +1,8 @@
 #include "render/app/study/study.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace grainreel {
 namespace {
@@ -39,6 +41,111 @@ bool Study::has_seeds() const {
 
 bool Study::has_intervals() const {
     return any_seeds(*this, [](const Seeds& some) { return some.size() > 1; });
+}
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// The time at which the straight line from row i - 1 to row i reaches the threshold.
+double time_between(double threshold, const std::vector<double>& times, const std::vector<double>& values,
+                    std::size_t i) {
+    const double share = (threshold - values[i - 1]) / (values[i] - values[i - 1]);
+    return times[i - 1] + share * (times[i] - times[i - 1]);
+}
+
+struct Rows {
+    std::vector<double> times, values;
+};
+
+// The rows within the window. A row at the window's end counts although its time is rounded.
+Rows rows_within(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
+    constexpr double rounding = 1e-9;  // relative rounding of a time
+    Rows rows;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const double slack = rounding * std::abs(times[i]);
+        if (times[i] + slack < how.from || times[i] - slack > how.to) continue;
+        rows.times.push_back(times[i]);
+        rows.values.push_back(values[i]);
+    }
+    return rows;
+}
+
+Rows finite_rows(const Rows& all) {
+    Rows rows;
+    for (std::size_t i = 0; i < all.times.size(); ++i) {
+        if (!std::isfinite(all.values[i])) continue;
+        rows.times.push_back(all.times[i]);
+        rows.values.push_back(all.values[i]);
+    }
+    return rows;
+}
+
+}  // namespace
+
+double mean_of_values(const std::vector<double>& values) {
+    if (values.empty()) return nan;
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double deviation_of_values(const std::vector<double>& values) {
+    if (values.size() < 2) return nan;
+    const double mean = mean_of_values(values);
+    double squares = 0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+double slope_of(const std::vector<double>& times, const std::vector<double>& values) {
+    const double mean_time = mean_of_values(times), mean_value = mean_of_values(values);
+    double products = 0, squares = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        products += (times[i] - mean_time) * (values[i] - mean_value);
+        squares += (times[i] - mean_time) * (times[i] - mean_time);
+    }
+    return squares > 0 ? products / squares : nan;
+}
+
+double first_passage(double threshold, const std::vector<double>& times, const std::vector<double>& values) {
+    if (values.empty()) return nan;
+    const bool begins_above = values[0] > threshold;
+    if (values[0] == threshold) return times[0];
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        const bool reached = begins_above ? values[i] <= threshold : values[i] >= threshold;
+        if (reached) return time_between(threshold, times, values, i);
+    }
+    return nan;
+}
+
+double last_crossing(double threshold, const std::vector<double>& times, const std::vector<double>& values) {
+    for (std::size_t i = values.size(); i-- > 1;)
+        if ((values[i] >= threshold) != (values[i - 1] >= threshold))
+            return time_between(threshold, times, values, i);
+    return nan;
+}
+
+double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
+    const Rows all = rows_within(how, times, values);
+    const Rows rows = finite_rows(all);
+    switch (how.kind) {
+        case Reduction::Kind::mean:
+            return mean_of_values(rows.values);
+        case Reduction::Kind::slope:
+            return slope_of(rows.times, rows.values);
+        case Reduction::Kind::crossing:
+            return last_crossing(how.threshold, rows.times, rows.values);
+        case Reduction::Kind::first_passage:
+            return first_passage(how.threshold, rows.times, rows.values);
+        case Reduction::Kind::max:
+            return rows.values.empty() ? nan : *std::max_element(rows.values.begin(), rows.values.end());
+        case Reduction::Kind::min:
+            return rows.values.empty() ? nan : *std::min_element(rows.values.begin(), rows.values.end());
+        case Reduction::Kind::deviation:
+            return deviation_of_values(rows.values);
+        case Reduction::Kind::end:
+            break;
+    }
+    return all.values.empty() ? nan : all.values.back();
 }
 
 }  // namespace grainreel

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "engine/files/measures_csv.hpp"
-#include "render/app/study/results/reduction.hpp"
+#include "render/app/study/study.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
