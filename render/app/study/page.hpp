@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/app/study/members/member_commands.hpp"
+#include "render/app/study/members/runner.hpp"
 
 namespace grainreel {
 
