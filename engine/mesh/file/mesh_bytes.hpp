@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace grainreel {
 
@@ -18,5 +21,23 @@ std::string mesh_bytes(const std::filesystem::path& file);
 [[noreturn]] void refuse_mesh(const std::filesystem::path& file, const std::string& what);
 [[noreturn]] void refuse_line(const std::filesystem::path& file, std::int64_t line, const std::string& what);
 [[noreturn]] void refuse_byte(const std::filesystem::path& file, std::size_t byte, const std::string& what);
+
+// The meshes of scenes/meshes, which the build puts into the program, so that the program's own scenes find
+// them wherever the program is. In a scene such a file is called "shipped:drum.stl".
+
+struct ShippedMesh {
+    std::string name;        // name of the file, "drum.stl"
+    std::string_view bytes;  // bytes of the file
+};
+
+// All shipped meshes in alphabetical order.
+const std::vector<ShippedMesh>& shipped_meshes();
+
+// Whether the file's name begins with "shipped:".
+bool is_shipped_mesh(const std::filesystem::path& file);
+
+// The bytes of the mesh that such a name stands for, whatever folder stands before it. Empty for any other
+// name. Throws UserError if the program has no such mesh.
+std::optional<std::string_view> shipped_mesh(const std::filesystem::path& file);
 
 }  // namespace grainreel
