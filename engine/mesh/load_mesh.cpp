@@ -8,10 +8,10 @@
 #include <numeric>
 #include <string_view>
 
-#include "engine/mesh/edge_table.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 #include "engine/mesh/file/words.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 #include "engine/mesh/winding.hpp"
 
 namespace grainreel {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "engine/mesh/edge_table.hpp"
 #include "engine/mesh/level_section.hpp"
 #include "engine/mesh/room.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 namespace {

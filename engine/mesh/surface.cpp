@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/mesh/edge_table.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 

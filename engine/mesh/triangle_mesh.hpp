@@ -1,8 +1,11 @@
 // A surface of triangles, as read from a file and as drawn.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,5 +41,82 @@ struct MeshFacts {
 
     bool closed() const { return open_edges == 0 && crowded_edges == 0; }
 };
+
+// The edges of a mesh, and which of its parts are closed. Each edge has all sides of triangles that lie on
+// it.
+
+// Side e of triangle t runs from its corner e to its corner e + 1 and has the number 3 t + e.
+struct EdgeSide {
+    std::int32_t high;  // the vertex with the larger number
+    std::int32_t side;
+};
+
+class EdgeTable {
+  public:
+    explicit EdgeTable(const TriangleMesh& mesh);
+
+    // Calls f(low vertex, sides) for each edge, by rising numbers of its vertices. The sides of an edge come
+    // by rising number.
+    template <class F>
+    void each(F&& f) const {
+        const std::span<const EdgeSide> all(sides_);
+        for (std::size_t low = 0; low + 1 < begins_.size(); ++low) {
+            std::size_t first = begins_[low];
+            const std::size_t end = begins_[low + 1];
+            while (first < end) {
+                std::size_t last = first + 1;
+                while (last < end && all[last].high == all[first].high) ++last;
+                f(static_cast<std::int32_t>(low), all.subspan(first, last - first));
+                first = last;
+            }
+        }
+    }
+
+  private:
+    std::vector<std::size_t>
+        begins_;  // for each vertex, where the edges begin on which it is the lower vertex
+    std::vector<EdgeSide> sides_;
+};
+
+// The vertex at which a side begins.
+inline std::int32_t begin_of(const TriangleMesh& mesh, std::int32_t side) {
+    return mesh.triangles[static_cast<std::size_t>(side / 3)][static_cast<std::size_t>(side % 3)];
+}
+inline std::int32_t end_of(const TriangleMesh& mesh, std::int32_t side) {
+    return mesh.triangles[static_cast<std::size_t>(side / 3)][static_cast<std::size_t>((side + 1) % 3)];
+}
+
+// Sets of numbers that are joined step by step.
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+
+    // The lowest number of the set.
+    std::int32_t root(std::int32_t i) {
+        while (parent(i) != i) {
+            parent(i) = parent(parent(i));
+            i = parent(i);
+        }
+        return i;
+    }
+    // Joins the sets of a and b. Returns whether they were different sets.
+    bool join(std::int32_t a, std::int32_t b) {
+        a = root(a);
+        b = root(b);
+        parent(std::max(a, b)) = std::min(a, b);
+        return a != b;
+    }
+
+  private:
+    std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
+    std::vector<std::int32_t> parent_;
+};
+
+// Whether the part of each triangle bounds a solid. A part hangs together by edges. It bounds a solid if it
+// is closed and consistently wound: each edge is run through as often one way as the other. For such a part,
+// rays find out whether a place is inside.
+std::vector<char> in_closed_part(const TriangleMesh& mesh);
 
 }  // namespace grainreel

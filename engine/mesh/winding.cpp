@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/mesh/edge_table.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "engine/mesh/edge_table.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {

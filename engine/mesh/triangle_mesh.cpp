@@ -1,4 +1,4 @@
-#include "engine/mesh/edge_table.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 
 #include <algorithm>
 
