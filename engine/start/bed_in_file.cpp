@@ -10,9 +10,9 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/restart.hpp"
-#include "engine/start/scene_surroundings.hpp"
 #include "engine/start/start_file.hpp"
 #include "engine/step/step_loop.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/start/mesh_checks.hpp"
-#include "engine/start/scene_surroundings.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 

@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "engine/mesh/surface.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/traffic.hpp"
 #include "engine/state/wall_motion.hpp"
+#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
@@ -41,5 +44,13 @@ inline std::string wall_name(const Surroundings& around, std::int32_t wall) {
     return number < faces ? "the " + around.faces[number].name
                           : "\"" + around.meshes[number - faces].name + "\"";
 }
+
+// Makes the surroundings that a scene gives its grains: walls and their motion, gravity, the reach of the
+// neighbour lists. engine/step/surroundings.hpp says what surroundings are.
+
+Surroundings make_surroundings(const Scene& scene, const Plan& plan);
+
+// Opens the outlet of a scene that has one. From then on, grains that have fallen deep enough leave.
+void open_outlet(const Scene& scene, Surroundings& around);
 
 }  // namespace grainreel

@@ -6,8 +6,8 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/start/layers.hpp"
-#include "engine/start/scene_surroundings.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/step/surroundings.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
 
 namespace grainreel {

@@ -10,9 +10,9 @@
 #include "engine/measure/energy.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/start/scene_surroundings.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
+#include "engine/step/surroundings.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

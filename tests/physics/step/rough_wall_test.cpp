@@ -11,8 +11,8 @@
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/start/scene_surroundings.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/step/surroundings.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
 

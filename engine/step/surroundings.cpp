@@ -1,4 +1,4 @@
-#include "engine/start/scene_surroundings.hpp"
+#include "engine/step/surroundings.hpp"
 
 #include <algorithm>
 
