@@ -11,7 +11,6 @@
 #include "engine/base/text.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/measure/interval.hpp"
 #include "engine/questions/statistics.hpp"
 
 namespace grainreel {

@@ -1,5 +1,5 @@
 // Tests of Student's t against closed forms and a printed table.
-#include "engine/measure/interval.hpp"
+#include "engine/questions/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,12 @@
-// The points of a study's charts: means over seeds with their intervals.
+// The points of a study's charts: means over seeds with their intervals, and points from elsewhere that are
+// drawn beside them.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "engine/measure/interval.hpp"
+#include "engine/questions/statistics.hpp"
 #include "render/app/study/file/members.hpp"
 #include "render/app/study/results/results.hpp"
 
@@ -33,8 +34,7 @@ MeanInterval setting_interval(const std::vector<Member>& members, const std::vec
 // value alone, for none a dash.
 std::string interval_text(const MeanInterval& interval);
 
-// Points from elsewhere that are drawn on a study's chart.
-
+// A point from elsewhere, which a chart shows for comparison.
 struct ReferencePoint {
     double x = 0, y = 0;  // in the units of the chart's axes
     double error = 0;     // error of y, half of the bar; 0 for none
