@@ -17,8 +17,8 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/traffic.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

@@ -11,8 +11,8 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/replay/replay.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/checkpoint_file.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

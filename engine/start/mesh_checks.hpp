@@ -7,7 +7,6 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

@@ -9,10 +9,10 @@
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/traffic.hpp"
-#include "engine/state/wall_motion.hpp"
 #include "engine/step/step_loop.hpp"
 
 namespace grainreel {

@@ -8,8 +8,8 @@
 
 #include "engine/scene/bed.hpp"
 #include "engine/scene/output.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

@@ -14,8 +14,8 @@
 #include "engine/measure/segregation/segregation_observers.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

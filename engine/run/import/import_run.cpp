@@ -20,7 +20,6 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/body.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

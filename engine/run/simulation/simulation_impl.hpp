@@ -18,9 +18,9 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/start/settle.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/checkpoint_file.hpp"
 #include "engine/state/grains.hpp"
-#include "engine/state/wall_motion.hpp"
 #include "engine/step/step_loop.hpp"
 #include "engine/step/surroundings.hpp"
 

@@ -9,7 +9,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/run/driver/run_files.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/body.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/bed_periods.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -11,8 +11,8 @@
 #include "engine/files/run_names.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/run/resume/kept_files.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/wall_motion.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

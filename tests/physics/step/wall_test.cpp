@@ -1,7 +1,7 @@
 // Tests of walls: distances on all faces and in corners, and their motion.
 #include <gtest/gtest.h>
 
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/body.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -11,8 +11,8 @@
 #include "engine/files/frame_faults.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/state/body.hpp"
 #include "engine/state/checkpoint_file.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
