@@ -17,34 +17,6 @@ bool any_seeds(const Study& study, const Asked& asked) {
                        [&](const Variation::Value& variant) { return asked(variant.seeds); });
 }
 
-}  // namespace
-
-Assignments Variation::assignments(std::size_t number) const {
-    const Value& value = values[number];
-    if (key == variant_axis) return value.sets;
-    return {{key + "=" + value.toml, value.place}};
-}
-
-const Seeds& Study::seeds_of(const std::vector<std::size_t>& at) const {
-    if (!has_variants()) return seeds;
-    const Variation::Value& variant = variations.front().values[at.front()];
-    return variant.seeds.empty() ? seeds : variant.seeds;
-}
-
-std::size_t Study::seed_count(const std::vector<std::size_t>& at) const {
-    return std::max<std::size_t>(1, seeds_of(at).size());
-}
-
-bool Study::has_seeds() const {
-    return any_seeds(*this, [](const Seeds& some) { return !some.empty(); });
-}
-
-bool Study::has_intervals() const {
-    return any_seeds(*this, [](const Seeds& some) { return some.size() > 1; });
-}
-
-namespace {
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // The time at which the straight line from row i - 1 to row i reaches the threshold.
@@ -82,6 +54,30 @@ Rows finite_rows(const Rows& all) {
 }
 
 }  // namespace
+
+Assignments Variation::assignments(std::size_t number) const {
+    const Value& value = values[number];
+    if (key == variant_axis) return value.sets;
+    return {{key + "=" + value.toml, value.place}};
+}
+
+const Seeds& Study::seeds_of(const std::vector<std::size_t>& at) const {
+    if (!has_variants()) return seeds;
+    const Variation::Value& variant = variations.front().values[at.front()];
+    return variant.seeds.empty() ? seeds : variant.seeds;
+}
+
+std::size_t Study::seed_count(const std::vector<std::size_t>& at) const {
+    return std::max<std::size_t>(1, seeds_of(at).size());
+}
+
+bool Study::has_seeds() const {
+    return any_seeds(*this, [](const Seeds& some) { return !some.empty(); });
+}
+
+bool Study::has_intervals() const {
+    return any_seeds(*this, [](const Seeds& some) { return some.size() > 1; });
+}
 
 double mean_of_values(const std::vector<double>& values) {
     if (values.empty()) return nan;

@@ -1,5 +1,5 @@
-// The data of a study: one scene is run again and again with other values of some of its keys, numbers are
-// measured in each run, and charts are made of them. docs/guide/studies.md tells how one is written.
+// The data of a study: one scene is run again and again with other values of some of its keys, each run is
+// reduced to some numbers, and charts are made of them. docs/guide/studies.md tells how a study is written.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +38,15 @@ struct Variation {
     // The assignments to the scene for the value with that number.
     Assignments assignments(std::size_t number) const;
     std::string title() const { return unit.empty() ? label : label + " (" + unit + ")"; }
+};
+
+// How a column of measures.csv becomes one number.
+struct Reduction {
+    enum class Kind { end, mean, slope, crossing, first_passage, max, min, deviation };
+    Kind kind = Kind::end;
+    // s; the rows within this window count, ends included.
+    double from = 0, to = std::numeric_limits<double>::infinity();
+    double threshold = 0;  // SI
 };
 
 // A number that each run is reduced to.
@@ -80,16 +89,8 @@ struct Study {
     bool has_intervals() const;
 };
 
-// Reduces a column of measures.csv to one number. All are pure functions of times and values.
-
-struct Reduction {
-    enum class Kind { end, mean, slope, crossing, first_passage, max, min, deviation };
-    Kind kind = Kind::end;
-    double from = 0,
-           to = std::numeric_limits<double>::infinity();  // s; rows within this window count, ends included
-    double threshold = 0;                                 // SI
-};
-
+// Reduces a column to one number. This function and those below depend on times and values alone.
+//
 // times: s, rising. values: SI units, as many. The result is NaN when there is none: no row lies in the
 // window, or the threshold is not reached. Values that are NaN are left out; only for the value at the end
 // the last one counts even if it is NaN.

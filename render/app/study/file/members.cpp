@@ -72,6 +72,16 @@ std::vector<MemberFile> files_of(const Scene& scene) {
                                 member_text(study, one), member_text(study, other)));
 }
 
+// The scene as text, without its drive and all else that has no part in the packing.
+std::string text_without_drive(Scene scene) {
+    scene.drive = {};
+    scene.title.clear();
+    scene.film_text.clear();
+    scene.output = {};
+    scene.run.duration = 1;
+    return written_scene(scene);
+}
+
 }  // namespace
 
 std::size_t count_members(const Study& study, bool many_are_meant) {
@@ -151,19 +161,6 @@ std::string member_text(const Study& study, const Member& member) {
     if (member.seed) text += fmt::format("{}seed {}", text.empty() ? "" : ", ", *member.seed);
     return text;
 }
-
-namespace {
-
-std::string text_without_drive(Scene scene) {
-    scene.drive = {};
-    scene.title.clear();
-    scene.film_text.clear();
-    scene.output = {};
-    scene.run.duration = 1;
-    return written_scene(scene);
-}
-
-}  // namespace
 
 void PackingSharing::add_setting(const Scene& scene, const Plan& plan) {
     if (settings_ == kMost) return;

@@ -1,4 +1,5 @@
-// Makes the members of a study, which are its runs.
+// Makes the members of a study, which are its runs, and finds out which of its settings begin with the same
+// packing.
 #pragma once
 
 #include <cstddef>
@@ -54,7 +55,6 @@ std::string setting_text(const Study& study, const Member& member, std::optional
 std::string member_text(const Study& study, const Member& member);
 
 // Finds out which settings of a study begin with the same packing. The cache lets one of them pack for all.
-
 class PackingSharing {
   public:
     // To be called for each setting when it is planned.
@@ -65,8 +65,8 @@ class PackingSharing {
     std::string text() const;
 
   private:
-    static constexpr std::size_t kMost =
-        200;  // limit for the settings that are looked at, since each costs some milliseconds
+    // The limit for the settings that are looked at, since each costs some milliseconds.
+    static constexpr std::size_t kMost = 200;
 
     std::size_t settings_ = 0, packing_ = 0;  // settings that were looked at, and those of them that pack
     std::set<std::string> packings_;

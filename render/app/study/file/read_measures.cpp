@@ -1,4 +1,4 @@
-// Reads what a study measures: [[measure]].
+// Reads what a study measures, [[measure]], and which charts it draws of that, [[chart]].
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,7 +86,7 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
     study.measures.push_back(std::move(measure));
 }
 
-// Reads what a study draws: [[chart]].
+// From here on [[chart]] is read.
 
 namespace {
 

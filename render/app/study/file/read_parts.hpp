@@ -1,5 +1,6 @@
 // Functions that read the parts of a study file, in the order in which they are called. They are internal to
-// read_study. Each throws UserError with the place of the mistake.
+// read_study; variations.cpp has those of seeds, variants and variations, and read_measures.cpp the others.
+// Each throws UserError with the place of the mistake.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Reads a study file.
+// Reads a study file. Here are also the keys that such a file may have.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,7 @@ namespace grainreel {
 // members are made of them (members.hpp).
 Study read_study(const std::filesystem::path& file);
 
-// The keys that a study file may have.
-
-// Gives the keys with their meanings, which docs/reference/studies.md lists.
+// Gives the keys of a study file with their meanings, which docs/reference/studies.md lists.
 const std::vector<Key>& study_keys();
 
 }  // namespace grainreel

@@ -128,7 +128,7 @@ void make_numeric(Variation& variation, const Key& key) {
     }
 }
 
-// Reads what a study varies: [[vary]].
+// From here on [[vary]] is read.
 
 namespace {
 
@@ -230,7 +230,7 @@ void read_variation(Document& document, const std::string& table, Study& study) 
     study.variations.push_back(std::move(variation));
 }
 
-// Reads what a study has besides its grid: seeds, and [[variant]].
+// From here on seeds and [[variant]] are read.
 
 namespace {
 

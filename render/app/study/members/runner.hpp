@@ -1,4 +1,5 @@
-// Runs the members of a study side by side, each as a process of its own on one thread.
+// Runs the members of a study side by side, each as a process of its own on one thread, and has the commands
+// and the folder with which they run.
 //
 // Why processes and not threads of this one: a member that runs out of memory or meets a bug ends alone; the
 // NetCDF library, which writes the trajectories, is not made for several threads; and --print-commands then
@@ -17,30 +18,7 @@
 
 namespace grainreel {
 
-struct StudyRunRequest {
-    int jobs = 1;  // members at a time
-    bool films = false;
-    bool cache = true;          // members take packings from the user's cache folder, and keep theirs
-    bool retry = false;         // run failed members again
-    bool posters = true;        // make posters of the first seed of each setting
-    bool collect_only = false;  // run no members; make posters only
-    std::vector<bool> wanted;   // for each member, whether it may be run; empty: all may
-    std::vector<double> cost;  // for each member, its cost in any unit, from which the time left is estimated
-};
-
-// Whether the member with that number is still to be run.
-bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request);
-
-// Runs what is pending of `members`, the first seed of all settings first, and fills in `results`, which hold
-// what is on disk already. `gained` is called after each member. Returns when all are done, or once the
-// listener has a stop signal and the running members have ended in good order.
-void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
-                 const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
-                 const std::function<void()>& gained);
-
-// Makes the commands that run the members of a study. A command is the list of words after the program's
-// name.
-
+// The folder of a study, with the paths in it.
 struct StudyFolder {
     std::filesystem::path path;  // the folder's absolute path
 
@@ -64,12 +42,34 @@ struct StudyFolder {
 // Makes the folder with all that the commands need. Throws UserError when that cannot be done.
 void make_study_folder(const Study& study, const std::vector<Member>& members, const StudyFolder& folder);
 
-// The command that runs a member on one thread. Earlier files of the member are replaced.
+// These commands are lists of the words after the program's name. The first one runs a member on one thread.
+// Earlier files of the member are replaced.
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
                                      bool film, bool cache);
 
 // The command that draws the last frame of a complete member as its poster.
 std::vector<std::string> poster_command(const Member& member, const MemberResult& result,
                                         const StudyFolder& folder);
+
+struct StudyRunRequest {
+    int jobs = 1;  // members at a time
+    bool films = false;
+    bool cache = true;          // members take packings from the user's cache folder, and keep theirs
+    bool retry = false;         // run failed members again
+    bool posters = true;        // make posters of the first seed of each setting
+    bool collect_only = false;  // run no members; make posters only
+    std::vector<bool> wanted;   // for each member, whether it may be run; empty: all may
+    std::vector<double> cost;  // for each member, its cost in any unit, from which the time left is estimated
+};
+
+// Whether the member with that number is still to be run.
+bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request);
+
+// Runs what is pending of `members`, the first seed of all settings first, and fills in `results`, which hold
+// what is on disk already. `gained` is called after each member. Returns when all are done, or once the
+// listener has a stop signal and the running members have ended in good order.
+void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
+                 const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
+                 const std::function<void()>& gained);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// Reads from a member's folder what became of it.
+// The results of members: what became of each one, read from its folder, and the table of all, study.csv.
 #pragma once
 
 #include <filesystem>
@@ -31,15 +31,13 @@ std::string to_string(MemberResult::State state);
 // Reads run.json and measures.csv in the member's folder. A member with damaged files counts as incomplete.
 MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures);
 
-// Writes study.csv, which has a row for each member.
-
 // A cell as RFC 4180 asks: in quotes when it has a comma, a quote or a line break.
 std::string csv_cell(const std::string& text);
 // The shortest decimal number that reads back to the same bits; empty for NaN.
 std::string csv_number(double value);
 
-// The table of members in their order, with the columns keys (with their units), seed, state, measures,
-// error, folder.
+// The text of study.csv: a row for each member, in their order. The columns are the keys with their units,
+// the seed, the state, the measures, the number of warnings, the error and the folder.
 std::string study_table(const Study& study, const std::vector<Member>& members,
                         const std::vector<MemberResult>& results);
 
