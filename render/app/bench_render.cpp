@@ -15,7 +15,6 @@
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/peers_bed.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/messages/result.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/png.hpp"
 #include "render/picture/camera/camera_path.hpp"

@@ -13,7 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/verbs/verbs.hpp"
 

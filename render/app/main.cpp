@@ -9,7 +9,6 @@
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/messages/result.hpp"
 #include "render/app/messages/stop_signal.hpp"
 
 namespace grainreel {

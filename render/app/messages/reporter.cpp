@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/messages/stop_signal.hpp"
 
@@ -206,6 +208,42 @@ std::string progress_json(const Progress& p) {
     object["elapsed_s"] = p.elapsed;
     if (p.remaining >= 0) object["remaining_s"] = p.remaining;
     return object.dump();
+}
+
+namespace {
+
+int first_error = 0;  // errno of the first failure
+
+void note_error() {
+    if (first_error == 0) first_error = errno != 0 ? errno : EIO;
+}
+
+void put(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
+}
+
+}  // namespace
+
+void print_result(std::string_view text) {
+    put(visible(text, "\n\t"));
+}
+
+void print_exact(std::string_view text) {
+    ::isatty(STDOUT_FILENO) != 0 ? print_result(text) : put(text);
+}
+
+void close_results() {
+    if (std::fflush(stdout) != 0) note_error();
+    // `inspect ... | head` has read what it wanted.
+    if (first_error != 0 && first_error != EPIPE)
+        throw RunError(fmt::format("stdout: cannot be written: {}", std::strerror(first_error)));
+}
+
+int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request) {
+    if (ended.folder && request.to_stdout)
+        std::fprintf(stderr, "%s\n", visible(ended.folder->string()).c_str());
+    if (ended.folder && !request.to_stdout) print_exact(ended.folder->string() + "\n");
+    return ended.exit_status;
 }
 
 }  // namespace grainreel

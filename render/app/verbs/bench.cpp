@@ -12,7 +12,6 @@
 #include "engine/vector/instructions.hpp"
 #include "render/app/bench_render.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/film.hpp"

@@ -10,7 +10,6 @@
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 

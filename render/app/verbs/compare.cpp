@@ -3,7 +3,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"

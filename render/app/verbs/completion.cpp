@@ -8,7 +8,7 @@
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/command_line.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/verbs/command_table.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/read_scene.hpp"

@@ -18,7 +18,7 @@
 #include "engine/run/driver/packing_cache.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "engine/vector/instructions.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"

@@ -12,7 +12,6 @@
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/verbs/verbs.hpp"

@@ -17,7 +17,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/messages/stop_signal.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"

@@ -8,7 +8,7 @@
 #include "engine/questions/grain_columns.hpp"
 #include "render/app/inspect/inspection.hpp"
 #include "render/app/inspect/print_answer.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/verbs/verbs.hpp"

@@ -1,7 +1,7 @@
 // The verb `join` joins the parts of a film that render --part has drawn into one film.
 #include <fmt/format.h>
 
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/film_in_parts.hpp"

@@ -13,7 +13,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/command_table.hpp"
 #include "render/app/verbs/verbs.hpp"

@@ -20,7 +20,6 @@
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/messages/result.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/page_of_run.hpp"

@@ -13,7 +13,7 @@
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"

@@ -10,7 +10,6 @@
 #include "engine/base/error.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/messages/result.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/print/run_charts.hpp"

@@ -23,7 +23,7 @@
 #include "engine/run/resume/resume_point.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/restart.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/page_of_run.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/shipped/shipped_scenes.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {

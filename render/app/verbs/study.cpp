@@ -16,7 +16,7 @@
 #include "engine/run/driver/pace.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/check_cost.hpp"
-#include "render/app/messages/result.hpp"
+#include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/study/file/members.hpp"
 #include "render/app/study/file/read_study.hpp"
