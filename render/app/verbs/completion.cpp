@@ -9,7 +9,6 @@
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
-#include "render/app/verbs/command_table.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/read_scene.hpp"
 

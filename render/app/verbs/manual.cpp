@@ -15,7 +15,6 @@
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/command_table.hpp"
 #include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {
