@@ -22,7 +22,7 @@
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/page_of_run.hpp"
+#include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/app/options/option_groups.hpp"
-#include "render/app/verbs/page_of_run.hpp"
+#include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/page/live/watch.hpp"
 
