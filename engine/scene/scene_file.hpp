@@ -55,7 +55,7 @@ struct NamedText {
 // The text of a file, or of the shipped scene of that name. Throws UserError where there is neither.
 NamedText text_of_scene(const std::filesystem::path& file);
 
-// Reads a scene, and lets `further` read what the engine does not know (render/scene/read_scene.hpp).
+// Reads a scene, and lets `further` read what the engine does not know (render/scene/filmed_scene.hpp).
 void read_scene_into(Scene& scene, const NamedText& from, const Assignments& sets,
                      const MeasurableIn& measurable, TableReader* further = nullptr);
 

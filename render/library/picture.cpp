@@ -20,7 +20,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/film.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {

@@ -2,10 +2,13 @@
 // it and knows nothing of the rest.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/scene/film.hpp"
 
@@ -32,5 +35,18 @@ Plan with_film_warnings(const FilmedScene& scene, Plan plan);
 
 // The engine's resolved_scene(), with the film as it is now.
 std::string resolved_scene(const FilmedScene& scene, const Plan& plan);
+
+// Reads a scene file into a scene with its film. The engine's reader does most of it; the keys of [film] are
+// in keys/.
+
+// All keys of a scene file: the engine's keys and the keys of [film].
+const std::vector<Key>& filmed_scene_keys();
+
+// These read as read_scene() of engine/scene/scene_file.hpp does, and also [film] and the species' colours.
+// measurable: columns that plots and live words may name.
+FilmedScene read_filmed_scene(const std::filesystem::path& file, const Assignments& sets = {},
+                              const MeasurableIn& measurable = nullptr);
+FilmedScene read_filmed_scene_text(std::string_view text, const std::filesystem::path& file,
+                                   const Assignments& sets = {}, const MeasurableIn& measurable = nullptr);
 
 }  // namespace grainreel

@@ -6,7 +6,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/plan/reach.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 
 namespace grainreel::test {

@@ -3,7 +3,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/fuzz/scratch.hpp"
 #include "tests/fuzz/targets.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/keys/keys.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/hard/group.hpp"

@@ -5,7 +5,7 @@
 #include "engine/measure/columns.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/page/page_film.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel {

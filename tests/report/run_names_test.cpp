@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/plan/resolved_scene.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -13,7 +13,6 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "render/scene/read_scene.hpp"
 #include "tests/scene/meshes_by_hand.hpp"
 #include "tests/scene/scene_text.hpp"
 

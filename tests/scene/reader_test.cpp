@@ -1,5 +1,5 @@
 // Tests of the reader of scenes: values, defaults and places in the text.
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/measure/columns.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

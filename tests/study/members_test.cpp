@@ -11,7 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {

@@ -9,7 +9,7 @@
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/points.hpp"
 #include "render/app/study/results/results.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
 
 namespace grainreel {

@@ -10,7 +10,7 @@
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/verbs/verbs.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -24,7 +24,7 @@
 #include "render/film/run/engine_run.hpp"
 #include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {

@@ -27,7 +27,7 @@
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"
 #include "render/page/live/server.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

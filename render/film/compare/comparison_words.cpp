@@ -20,7 +20,6 @@
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 

@@ -16,7 +16,6 @@
 #include "render/film/compare/comparison.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 

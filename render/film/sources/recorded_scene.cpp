@@ -9,8 +9,8 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/import_ranges.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "render/scene/purposes.hpp"
-#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 

@@ -21,7 +21,6 @@
 #include "render/page/page_measures.hpp"
 #include "render/page/page_parts.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "render/scene/read_scene.hpp"
 
 namespace grainreel {
 

@@ -13,7 +13,7 @@
 #include "engine/questions/snapshot.hpp"
 #include "render/film/answers/pictured_answer.hpp"
 #include "render/picture/grains/grain_colours.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "render/scene/shown_values.hpp"
 
 namespace grainreel {

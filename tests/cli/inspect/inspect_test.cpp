@@ -17,7 +17,7 @@
 #include "engine/questions/answer.hpp"
 #include "engine/questions/expression.hpp"
 #include "engine/questions/grain_columns.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"

@@ -9,7 +9,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "render/app/estimate/engine_cost.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

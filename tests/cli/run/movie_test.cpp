@@ -11,7 +11,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"

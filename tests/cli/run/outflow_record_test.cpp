@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -11,7 +11,7 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "render/film/codec/png.hpp"
 #include "render/picture/whole/renderer.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
 

@@ -9,7 +9,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "render/app/study/file/read_parts.hpp"
 #include "render/app/study/file/variations.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {

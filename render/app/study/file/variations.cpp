@@ -9,7 +9,7 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/app/study/file/read_parts.hpp"
-#include "render/scene/read_scene.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
