@@ -1,7 +1,9 @@
-// UserError and RunError are the two ways in which a run can fail. Everything else is a bug, for which
-// GRAINREEL_CHECK ends the process. Keep this header light: nearly all files include it.
+// UserError and RunError are the two ways in which a run can fail, and FirstFailure remembers such a failure.
+// Everything else is a bug, for which GRAINREEL_CHECK ends the process. Keep this header light: nearly all
+// files include it.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +21,28 @@ class UserError : public std::runtime_error {
 class RunError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+};
+
+// Remembers the first failure while the remaining work is still tried, so that a failed run keeps as much as
+// it can.
+class FirstFailure {
+  public:
+    void note(const std::string& what) {
+        if (what_.empty()) what_ = what;
+    }
+    template <class Action>
+    void attempt(const Action& action) {
+        try {
+            action();
+        } catch (const std::exception& problem) {
+            note(problem.what());
+        }
+    }
+    bool any() const { return !what_.empty(); }
+    const std::string& what() const { return what_; }
+
+  private:
+    std::string what_;
 };
 
 // Prints that a condition of the program itself does not hold, and ends the process.

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/driver/agenda.hpp"
-#include "engine/run/driver/first_failure.hpp"
 #include "engine/run/driver/kept_moments.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/driver/run_files.hpp"

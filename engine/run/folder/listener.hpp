@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "engine/base/error.hpp"
 #include "engine/files/log.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_json.hpp"
-#include "engine/run/driver/first_failure.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/replay/replay.hpp"
 

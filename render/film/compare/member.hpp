@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
-#include "engine/run/driver/first_failure.hpp"
 #include "engine/run/folder/folder_run.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/revisited_run.hpp"
