@@ -1,4 +1,5 @@
-// A surface of triangles, as read from a file and as drawn.
+// A surface of triangles, as it is read from a file and as it is drawn, with its edges, and with the parts of
+// it that are closed.
 #pragma once
 
 #include <algorithm>
@@ -42,15 +43,13 @@ struct MeshFacts {
     bool closed() const { return open_edges == 0 && crowded_edges == 0; }
 };
 
-// The edges of a mesh, and which of its parts are closed. Each edge has all sides of triangles that lie on
-// it.
-
 // Side e of triangle t runs from its corner e to its corner e + 1 and has the number 3 t + e.
 struct EdgeSide {
     std::int32_t high;  // the vertex with the larger number
     std::int32_t side;
 };
 
+// The edges of a mesh. Each edge has all sides of triangles that lie on it.
 class EdgeTable {
   public:
     explicit EdgeTable(const TriangleMesh& mesh);

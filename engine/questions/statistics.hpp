@@ -1,4 +1,5 @@
-// Plain statistics of numbers, and histograms. Values that are NaN are left out.
+// Plain statistics of numbers: their mean and spread, the confidence interval of a mean, and histograms.
+// Values that are NaN are left out.
 #pragma once
 
 #include <algorithm>
@@ -42,8 +43,24 @@ inline Statistics statistics_of(const std::vector<double>& values) {
     return all;
 }
 
-// How many grains have which value of a quantity, at one moment or as a mean over several.
+// The t with P(|T| <= t) = probability for `freedom` degrees of freedom, to a relative 1e-12. 0 < probability
+// < 1, freedom >= 1.
+double student_t(double probability, int freedom);
 
+// P(|T| <= t) for t >= 0, by the finite sums of Abramowitz and Stegun (1964), 26.7.3 and 26.7.4.
+double student_probability(double t, int freedom);
+
+// The mean of a sample and its confidence interval after Student (1908, Biometrika 6, 1).
+struct MeanInterval {
+    std::size_t count = 0;  // number of finite values
+    double mean = 0;        // NaN without any
+    double half = 0;        // half the width of the interval, t s / sqrt(n); NaN for fewer than two values
+};
+
+// Gives the mean and the interval of the values that are finite.
+MeanInterval mean_interval(const std::vector<double>& values, double probability = 0.95);
+
+// A histogram counts how many grains have which value of a quantity, at one moment or as a mean over several.
 class Histogram {
   public:
     // column is the name of a column of grain_columns.hpp.
@@ -64,23 +81,5 @@ class Histogram {
     std::vector<std::vector<double>> values_;  // SI, one list for each species
     std::size_t moments_ = 0, count_ = 0;
 };
-
-// The mean of a sample and its 95 % confidence interval after Student (1908, Biometrika 6, 1).
-
-// The t with P(|T| <= t) = probability for `freedom` degrees of freedom, to a relative 1e-12. 0 < probability
-// < 1, freedom >= 1.
-double student_t(double probability, int freedom);
-
-// P(|T| <= t) for t >= 0, by the finite sums of Abramowitz and Stegun (1964), 26.7.3 and 26.7.4.
-double student_probability(double t, int freedom);
-
-struct MeanInterval {
-    std::size_t count = 0;  // number of finite values
-    double mean = 0;        // NaN without any
-    double half = 0;        // half the width of the interval, t s / sqrt(n); NaN for fewer than two values
-};
-
-// Mean and interval of the values that are finite.
-MeanInterval mean_interval(const std::vector<double>& values, double probability = 0.95);
 
 }  // namespace grainreel

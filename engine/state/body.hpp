@@ -1,5 +1,5 @@
-// Rigid bodies, to which faces and meshes belong. The bodies are the container, its floor, each plane of the
-// scene and each mesh.
+// Rigid bodies, to which faces and meshes belong, and the drive that moves them (WallMotion). The bodies are
+// the container, its floor, each plane of the scene and each mesh.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,10 @@
 #include "engine/base/vector.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 
-// The position of everything that the drive moves.
-
-// Displacement from rest and velocity of the drive, both at the same time level.
+// Displacement from rest and velocity of everything that the drive moves, both at the same time level.
 struct Pose {
     Vec3 offset{0, 0, 0};    // m
     Vec3 velocity{0, 0, 0};  // m/s
@@ -83,8 +80,7 @@ std::vector<BodyPose> poses_of(const std::vector<Body>& bodies, const Pose& driv
 // an earlier version hold only the poses of container and floor.
 void add_planes(const std::vector<FreeWall>& planes, double time, std::vector<BodyPose>& poses);
 
-// The drive: displacement from rest and velocity of the moving faces at a given step.
-
+// The motion of the drive: its pose at each step.
 class WallMotion {
   public:
     WallMotion() = default;  // at rest for ever

@@ -1,7 +1,8 @@
-// The surroundings of the grains: faces, glued grains, meshes, gravity and exits. The step loop reads them
-// and never changes them.
+// The surroundings that a scene gives its grains: faces, glued grains, meshes, gravity and exits. They are
+// made of a scene and its plan. The step loop reads them and never changes them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,7 +14,6 @@
 #include "engine/state/container_faces.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/traffic.hpp"
-#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
@@ -32,7 +32,7 @@ struct Surroundings {
     WallMotion motion;
     Vec3 gravity{0, 0, 0};    // m/s2
     double period = 0;        // m, of x; 0 for none
-    double skin = 0;          // m, of the first neighbour lists; later ones follow the motion
+    double skin = 0;          // m, reach of the first neighbour lists; later ones follow the motion
     std::vector<Exit> exits;  // regions in which grains leave; may change between two runs
 };
 
@@ -44,9 +44,6 @@ inline std::string wall_name(const Surroundings& around, std::int32_t wall) {
     return number < faces ? "the " + around.faces[number].name
                           : "\"" + around.meshes[number - faces].name + "\"";
 }
-
-// Makes the surroundings that a scene gives its grains: walls and their motion, gravity, the reach of the
-// neighbour lists. engine/step/surroundings.hpp says what surroundings are.
 
 Surroundings make_surroundings(const Scene& scene, const Plan& plan);
 

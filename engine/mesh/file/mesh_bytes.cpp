@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
+constexpr std::string_view shipped_prefix = "shipped:";
 constexpr const char* what_to_give = "give the path of an STL, OBJ or PLY file";
 
 std::string shown(const fs::path& file) {
@@ -84,26 +85,20 @@ void refuse_byte(const fs::path& file, std::size_t byte, const std::string& what
     throw UserError(fmt::format("{}: byte {}: {}", shown(file), byte, what));
 }
 
-namespace {
-
-constexpr std::string_view prefix = "shipped:";
-
-}  // namespace
-
 bool is_shipped_mesh(const std::filesystem::path& file) {
-    return file.filename().string().starts_with(prefix);
+    return file.filename().string().starts_with(shipped_prefix);
 }
 
 std::optional<std::string_view> shipped_mesh(const std::filesystem::path& file) {
     if (!is_shipped_mesh(file)) return std::nullopt;
-    const std::string name = file.filename().string().substr(prefix.size());
+    const std::string name = file.filename().string().substr(shipped_prefix.size());
     std::vector<std::string> names;
     for (const ShippedMesh& mesh : shipped_meshes()) {
         if (mesh.name == name) return mesh.bytes;
         names.push_back(mesh.name);
     }
-    throw UserError(fmt::format("{}{}: the program has no such mesh; it has {}", prefix, excerpt(name),
-                                fmt::join(names, ", ")));
+    throw UserError(fmt::format("{}{}: the program has no such mesh; it has {}", shipped_prefix,
+                                excerpt(name), fmt::join(names, ", ")));
 }
 
 }  // namespace grainreel

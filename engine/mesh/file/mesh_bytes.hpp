@@ -1,4 +1,5 @@
-// The bytes of a mesh file, and error messages about them.
+// Gives the bytes of a mesh file, which lies on disk or is part of the program, and the error messages about
+// them.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace grainreel {
 // Largest size of a mesh file, in bytes, because indices of vertices and triangles are 32 bits wide.
 inline constexpr std::uint64_t largest_mesh_file = (std::uint64_t{1} << 31) - 1;
 
-// Reads all bytes of an ordinary file. Throws UserError if the file does not exist, cannot be read, is empty
-// or larger than 2 GiB, or is a folder, a pipe or a device.
+// Reads all bytes of a shipped mesh or of an ordinary file. Throws UserError if the file does not exist,
+// cannot be read, is empty or larger than 2 GiB, or is a folder, a pipe or a device.
 std::string mesh_bytes(const std::filesystem::path& file);
 
 // These throw UserError with the text "file: what", "file:line: what" or "file: byte 84: what".
@@ -22,9 +23,8 @@ std::string mesh_bytes(const std::filesystem::path& file);
 [[noreturn]] void refuse_line(const std::filesystem::path& file, std::int64_t line, const std::string& what);
 [[noreturn]] void refuse_byte(const std::filesystem::path& file, std::size_t byte, const std::string& what);
 
-// The meshes of scenes/meshes, which the build puts into the program, so that the program's own scenes find
+// A mesh of scenes/meshes. The build puts these files into the program, so that the program's own scenes find
 // them wherever the program is. In a scene such a file is called "shipped:drum.stl".
-
 struct ShippedMesh {
     std::string name;        // name of the file, "drum.stl"
     std::string_view bytes;  // bytes of the file

@@ -1,11 +1,11 @@
-// Finds the format of a mesh file by its content, not by its name: STL as text or as bytes, OBJ or PLY.
+#include "engine/mesh/file/mesh_readers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "engine/mesh/file/mesh_bytes.hpp"
-#include "engine/mesh/file/mesh_readers.hpp"
 #include "engine/mesh/file/words.hpp"
 
 namespace grainreel {

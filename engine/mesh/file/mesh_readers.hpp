@@ -1,4 +1,5 @@
-// The readers of mesh files. Each takes the bytes and gives vertices and triangles in the file's unit.
+// The readers of mesh files, and the choice among them by what is in a file. Each reader takes the bytes and
+// gives vertices and triangles in the file's unit.
 // Polygons are cut into triangles from their first corner. Normals, colours, texture and materials are
 // ignored, because the order of the corners gives the side. All throw UserError with file and line (text) or
 // byte (binary).
