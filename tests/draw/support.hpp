@@ -12,7 +12,7 @@
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/whole/renderer.hpp"
-#include "render/picture/words/gutters.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel::test {

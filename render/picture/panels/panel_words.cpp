@@ -7,7 +7,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/gutters.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -13,7 +13,7 @@
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/marks/force_marks.hpp"
-#include "render/picture/words/gutters.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
-#include "render/picture/base/picture.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -57,16 +55,5 @@ struct NumbersPlan {
 // out, then arrows, then the dial.
 NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, double width, double height,
                          bool stacked);
-
-// Plans the gutters for words from the room that the words of the scene need. Many files include this header,
-// so it includes nothing of Cairo.
-
-// A frame whose words are as long as words get.
-Frame widest_frame();
-
-// The layout that film.words asks for. Gutters are as wide as their words need, and at most about a third of
-// the picture each. They lie left and right, or above and below, whichever leaves the container larger. Words
-// shrink to four fifths of their size before any of them is left out.
-PictureLayout plan_layout(const FilmedScene& scene);
 
 }  // namespace grainreel

@@ -1,5 +1,5 @@
 // Chooses between gutters at the sides and gutters above and below, and the size of letters.
-#include "render/picture/words/gutters.hpp"
+#include "render/picture/words/layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
