@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/measure/fields/coarse_graining.hpp"
-#include "engine/measure/fields/profile.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/scene/filmed_scene.hpp"

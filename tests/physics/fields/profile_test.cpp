@@ -1,5 +1,5 @@
 // Tests of profiles of states with a known answer.
-#include "engine/measure/fields/profile.hpp"
+#include "engine/measure/fields/coarse_graining.hpp"
 
 #include <gtest/gtest.h>
 
