@@ -1,5 +1,6 @@
-// Coarse-graining: from grains and contacts at many moments to fields (Goldhirsch 2010, Granul. Matter 12,
-// 239). W is the kernel, sums go over grains i, and <> is the mean over moments:
+// Coarse-graining makes fields of the grains and contacts at many moments (Goldhirsch 2010, Granul. Matter
+// 12, 239), and profiles of such fields. W is the kernel, sums go over grains i, and <> is the mean over
+// moments:
 //
 //   density            rho = < sum m_i W(r - r_i) >, of a solid fraction with the grains' volumes
 //   velocity           V = < sum m_i v_i W > / < sum m_i W >
@@ -33,10 +34,34 @@
 
 #include "engine/base/binary.hpp"
 #include "engine/measure/fields/field_grid.hpp"
-#include "engine/measure/fields/field_state.hpp"
 #include "engine/measure/fields/footprint.hpp"
 
 namespace grainreel {
+
+// A grain as coarse-graining sees it. Places and velocities are relative to the container if the drive moves
+// it.
+struct FieldGrain {
+    Vec3 position;  // m
+    Vec3 velocity;  // m/s
+    double mass;    // kg
+    double volume;  // m3
+    std::int32_t species;
+    double radius = 0;  // m, least width of its kernel; 0 for a point
+};
+
+// A contact of a grain with another grain or a wall.
+struct FieldContact {
+    Vec3 begin;   // m, the grain's centre
+    Vec3 branch;  // m, from there to the other grain's centre, or to the point of the wall that it touches
+    Vec3 force;   // N, on the other body
+    double radius = 0, other_radius = 0;  // m, of both grains; at a wall both are the grain's
+};
+
+// The grains and contacts of one moment.
+struct FieldState {
+    std::vector<FieldGrain> grains;
+    std::vector<FieldContact> contacts;
+};
 
 // One value per cell, in the grid's order.
 using CellValues = std::vector<double>;
@@ -88,10 +113,8 @@ class CoarseGraining {
     CellValues contact_;              // per cell the nine products
 };
 
-// Profiles of fields in the (y, z) plane: means along one direction as functions of the place along the
-// other.
-
-// Axes of a grid that is not resolved along x.
+// Profiles are means of a field in the (y, z) plane along one direction, as functions of the place along the
+// other. These are the axes of a grid that is not resolved along x.
 enum class ProfileAxis : std::size_t { across = 1, height = 2 };
 
 // The mean of `values` over all cells at each place, weighted by `weights`. Cells without a value (NaN) are
@@ -105,7 +128,8 @@ std::vector<std::vector<double>> solid_profiles(const CoarseFields& fields, cons
 // The share of each species in the solid volume; NaN where there is none.
 std::vector<std::vector<double>> share_profiles(const CoarseFields& fields, const CoarseGraining& by,
                                                 ProfileAxis axis);
-// Velocity (m/s), momentum over mass of all grains at a place. `component` is 0, 1 or 2 for x, y or z.
+// Velocity (m/s): the momentum divided by the mass of all grains at a place. `component` is 0, 1 or 2 for x,
+// y or z.
 std::vector<double> velocity_profile(const CoarseFields& fields, const CoarseGraining& by, ProfileAxis axis,
                                      std::size_t component);
 

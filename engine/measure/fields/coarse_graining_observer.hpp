@@ -1,18 +1,54 @@
-// The observer of coarse-grained fields (density, velocity, temperature, stress): their names and units, and
-// their means over the records (stretches of time) of fields.nc. The formulas are in coarse_graining.hpp.
+// The observer of coarse-grained fields (density, velocity, temperature, stress): what they see of a moment,
+// their names and units, and their means over the records (stretches of time) of fields.nc. The formulas are
+// in coarse_graining.hpp.
 #pragma once
 
 #include <iosfwd>
 #include <optional>
 
 #include "engine/base/binary.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/measure/fields/coarse_graining.hpp"
-#include "engine/measure/fields/field_state.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/plan/times.hpp"
 
 namespace grainreel {
+
+// The functions from here to field_contact() make the input of coarse-graining from a moment of a run.
+//
+// seen_from() is the pose relative to which places and velocities are given. It is the container's if the
+// drive moves the container, and that of the lab if the drive moves only the floor.
+inline Pose seen_from(const ObservedState& moment) {
+    return moment.scene.drive.moves == Drive::Moves::container ? moment.pose : Pose();
+}
+
+inline Vec3 field_place(const ObservedState& moment, std::size_t grain) {
+    Vec3 place = moment.grains.place[grain].position;
+    place.x() = nearest_image(place.x(), moment.period);
+    return place - seen_from(moment).offset;
+}
+
+inline FieldGrain field_grain(const ObservedState& moment, std::size_t grain) {
+    const std::int32_t species = moment.grains.species[grain];
+    const double mass = moment.grains.mass(grain);
+    return {field_place(moment, grain),
+            moment.grains.motion[grain].velocity - seen_from(moment).velocity,
+            mass,
+            mass / moment.scene.species[static_cast<std::size_t>(species)].density,
+            species,
+            moment.grains.place[grain].radius};
+}
+
+// At a wall the branch ends on the wall's face.
+inline FieldContact field_contact(const ObservedState& moment, const ContactView& contact) {
+    const auto first = static_cast<std::size_t>(contact.first);
+    const bool pair = contact.second >= 0;
+    const double radius = moment.grains.place[first].radius;
+    const double other = pair ? moment.grains.place[static_cast<std::size_t>(contact.second)].radius : 0;
+    return {field_place(moment, first), (radius - contact.overlap + other) * contact.normal,
+            contact.normal_force * contact.normal + contact.tangential, radius, pair ? other : radius};
+}
 
 // Names and units of the fields of coarse-graining, as files have them.
 FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/fields/coarse_graining_observer.hpp"
-#include "engine/measure/fields/field_state.hpp"
 #include "tests/physics/fields/field_scene.hpp"
 
 namespace grainreel {
