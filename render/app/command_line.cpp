@@ -77,49 +77,6 @@ void add_verb(CLI::App& app, Verb& verb) {
     parser.footer(verb.footer());
 }
 
-}  // namespace
-
-std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
-    auto app = std::make_unique<CLI::App>(about_program, "grainreel");
-    app->require_subcommand(1);
-    app->set_version_flag("--version", version_text());
-    app->formatter(std::make_shared<ShortFormatter>());
-    app->get_formatter()->column_width(28);
-    app->footer(
-        "Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
-        "More about a verb:  grainreel movie --help");
-    for (const auto& verb : verbs) add_verb(*app, *verb);
-    return app;
-}
-
-std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
-    Verbs verbs = all_verbs();
-    const std::unique_ptr<CLI::App> parser = make_parser(verbs);
-    CLI::App& app = *parser;
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-        std::ostringstream text;
-        app.exit(help, text, text);
-        print_result(text.str());
-        return nullptr;
-    } catch (const CLI::ParseError& mistake) {
-        check_verb(verbs, argc > 1 ? argv[1] : "");
-        for (const auto& verb : verbs)
-            if (app.got_subcommand(verb->name()))
-                check_options(*verb, *app.get_subcommand(verb->name()), argc, argv);
-        throw UserError(fmt::format("{}; see grainreel --help", excerpt(mistake.what(), most_of_a_mistake)));
-    }
-    const auto chosen = std::find_if(verbs.begin(), verbs.end(),
-                                     [&](const auto& verb) { return app.got_subcommand(verb->name()); });
-    GRAINREEL_CHECK(chosen != verbs.end());
-    (*chosen)->typed_words = {argv, argv + argc};
-    (*chosen)->command = shell_words((*chosen)->typed_words);
-    return std::move(*chosen);
-}
-
-namespace {
-
 // The type of an option without the checks that CLI11 adds to it, as in "N:INT in [1 - 10]" or
 // "CASE:{wedge,sea}".
 std::string plain_type(const CLI::Option& option) {
@@ -177,6 +134,45 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 }
 
 }  // namespace
+
+std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
+    auto app = std::make_unique<CLI::App>(about_program, "grainreel");
+    app->require_subcommand(1);
+    app->set_version_flag("--version", version_text());
+    app->formatter(std::make_shared<ShortFormatter>());
+    app->get_formatter()->column_width(28);
+    app->footer(
+        "Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
+        "More about a verb:  grainreel movie --help");
+    for (const auto& verb : verbs) add_verb(*app, *verb);
+    return app;
+}
+
+std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
+    Verbs verbs = all_verbs();
+    const std::unique_ptr<CLI::App> parser = make_parser(verbs);
+    CLI::App& app = *parser;
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        std::ostringstream text;
+        app.exit(help, text, text);
+        print_result(text.str());
+        return nullptr;
+    } catch (const CLI::ParseError& mistake) {
+        check_verb(verbs, argc > 1 ? argv[1] : "");
+        for (const auto& verb : verbs)
+            if (app.got_subcommand(verb->name()))
+                check_options(*verb, *app.get_subcommand(verb->name()), argc, argv);
+        throw UserError(fmt::format("{}; see grainreel --help", excerpt(mistake.what(), most_of_a_mistake)));
+    }
+    const auto chosen = std::find_if(verbs.begin(), verbs.end(),
+                                     [&](const auto& verb) { return app.got_subcommand(verb->name()); });
+    GRAINREEL_CHECK(chosen != verbs.end());
+    (*chosen)->typed_words = {argv, argv + argc};
+    (*chosen)->command = shell_words((*chosen)->typed_words);
+    return std::move(*chosen);
+}
 
 bool CommandOption::takes_file() const {
     return is_one_of(value, {"FILE", "DIR", "PATH", "FILE|DIR"});

@@ -1,4 +1,5 @@
-// Parses the command line: turns its words into a verb with its options.
+// Parses the command line: turns its words into a verb with its options. Here is also the table of verbs and
+// options from which man pages and completion for shells are written.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -20,15 +21,14 @@ std::unique_ptr<CLI::App> make_parser(const std::vector<std::unique_ptr<Verb>>& 
 // UserError for words that make no sense.
 std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv);
 
-// The verbs and options of the command line as a table. It is made from the parser that prints --help; man
-// pages and completion for shells are written from it, so the three cannot differ.
-
+// An option in the table of the command line. The table is made from the parser that prints --help, so help,
+// man pages and completion cannot differ.
 struct CommandOption {
     std::vector<std::string> names;   // "-h", "--help"; a positional argument has one name, "SCENE"
     std::string value;                // "DIR"; empty for a flag
     std::string about;                // one sentence or a few
     std::string group;                // heading in --help, "Options" unless the verb says otherwise
-    bool required = false;            //
+    bool required = false;            // the verb does nothing without it
     bool repeated = false;            // may be given several times
     std::vector<std::string> values;  // the words that it takes; empty where any may come
 

@@ -1,5 +1,5 @@
-// What the engine is told of a film: its text, colours and wishes.
-
+// What the engine is told of a film, which is its text, colours and wishes; and the reader of [film] and of
+// the colours of species, which works beside the engine's reader and checks the film against the scene.
 #include "render/scene/filmed_scene.hpp"
 
 #include <fmt/format.h>
@@ -56,7 +56,7 @@ std::string resolved_scene(const FilmedScene& scene, const Plan& plan) {
     return resolved_scene(static_cast<const Scene&>(told), plan);
 }
 
-// Reads [film] and the colours of species beside the engine's reader, and checks the film against the scene.
+// From here on scene and film are read.
 
 namespace {
 

@@ -1,5 +1,5 @@
-// A scene together with its film. Everything that draws or films works with it; the engine runs the Scene in
-// it and knows nothing of the rest.
+// A scene together with its film, and how both are read from a scene file. Everything that draws or films
+// works with it; the engine runs the Scene in it and knows nothing of the rest.
 #pragma once
 
 #include <filesystem>
@@ -36,14 +36,12 @@ Plan with_film_warnings(const FilmedScene& scene, Plan plan);
 // The engine's resolved_scene(), with the film as it is now.
 std::string resolved_scene(const FilmedScene& scene, const Plan& plan);
 
-// Reads a scene file into a scene with its film. The engine's reader does most of it; the keys of [film] are
-// in keys/.
-
 // All keys of a scene file: the engine's keys and the keys of [film].
 const std::vector<Key>& filmed_scene_keys();
 
-// These read as read_scene() of engine/scene/scene_file.hpp does, and also [film] and the species' colours.
-// measurable: columns that plots and live words may name.
+// These two read a scene file into a scene with its film. The engine's reader does most of it; the keys of
+// [film] are in keys/. They read as read_scene() of engine/scene/scene_file.hpp does, and also [film] and the
+// species' colours. measurable: columns that plots and live words may name.
 FilmedScene read_filmed_scene(const std::filesystem::path& file, const Assignments& sets = {},
                               const MeasurableIn& measurable = nullptr);
 FilmedScene read_filmed_scene_text(std::string_view text, const std::filesystem::path& file,

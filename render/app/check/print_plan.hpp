@@ -1,5 +1,6 @@
 // What `grainreel check` prints: the plan of a scene, chapter by chapter. Each chapter is a function declared
-// below and defined in check_setup.cpp, check_model.cpp or check_cost.cpp.
+// below. print_plan.cpp has the first one, about the experiment; check_model.cpp and check_cost.cpp have the
+// others.
 #pragma once
 
 #include <fmt/ostream.h>

@@ -22,9 +22,9 @@ namespace {
 constexpr auto terminal_interval = std::chrono::milliseconds(100);
 constexpr auto json_interval = std::chrono::milliseconds(500);
 constexpr auto pipe_interval = std::chrono::seconds(5);
-constexpr double pipe_share =
-    0.1;  // share of a stage after which progress is shown, when that is sooner ......
-constexpr auto pipe_shortest = std::chrono::seconds(1);  // ... but not much sooner
+// A pipe gets the progress after this share of a stage when that is sooner, but not much sooner.
+constexpr double pipe_share = 0.1;
+constexpr auto pipe_shortest = std::chrono::seconds(1);
 
 bool is_terminal() {
     const char* term = std::getenv("TERM");
@@ -212,7 +212,7 @@ std::string progress_json(const Progress& p) {
 
 namespace {
 
-int first_error = 0;  // errno of the first failure
+int first_error = 0;  // errno of the first result that could not be printed
 
 void note_error() {
     if (first_error == 0) first_error = errno != 0 ? errno : EIO;

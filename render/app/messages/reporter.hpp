@@ -1,5 +1,6 @@
-// The reporter writes all that goes to stderr: messages, and the progress line, which is redrawn on a
-// terminal and comes now and then in a pipe. It also passes on that a signal has asked the run to stop.
+// All that the program says: results on stdout, and on stderr the messages and the progress. The progress
+// line is redrawn on a terminal and comes now and then in a pipe. The reporter also passes on that a signal
+// has asked the run to stop.
 #pragma once
 
 #include <chrono>
@@ -21,6 +22,7 @@ struct ReporterOptions {
     bool verbose = false;  // details too
 };
 
+// Writes all that goes to stderr.
 class Reporter final : public RunListener {
   public:
     explicit Reporter(const ReporterOptions& options);
@@ -90,8 +92,7 @@ class ShareWatcher {
     std::chrono::steady_clock::time_point begin_;
 };
 
-// Prints the results of the program: the folder that it made, a plan, figures, help. Results go to stdout;
-// all else goes to stderr (reporter.hpp).
+// From here on are the results of the program: the folder that it made, a plan, figures, help.
 
 // Prints a text of many lines. Control characters that came with a title or a name are made visible. A
 // failure to write is remembered for close_results().

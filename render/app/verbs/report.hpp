@@ -1,4 +1,5 @@
-// Makes a run's page, for the verbs that leave one.
+// Makes a run's page, for the verbs that leave one. report.cpp also has the verb `report`, which makes pages
+// of finished runs.
 #pragma once
 
 #include <filesystem>
