@@ -14,7 +14,6 @@
 #include "render/app/estimate/cost_estimate.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/sampling/film_frames.hpp"
-#include "render/film/sampling/film_limits.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

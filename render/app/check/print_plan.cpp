@@ -10,7 +10,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/state/glued_grains.hpp"
-#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -21,7 +21,7 @@
 #include "render/app/estimate/engine_cost.hpp"
 #include "render/app/messages/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"
-#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

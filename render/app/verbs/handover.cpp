@@ -22,7 +22,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"
-#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 

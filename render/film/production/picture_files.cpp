@@ -8,7 +8,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "render/film/sampling/film_frames.hpp"
-#include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -16,7 +16,6 @@
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "render/film/sampling/film_frames.hpp"
-#include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/film/sources/revisited_run.hpp"

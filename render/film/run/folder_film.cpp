@@ -11,7 +11,6 @@
 #include "engine/run/resume/kept_files.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/sampling/film_frames.hpp"
-#include "render/film/sampling/film_limits.hpp"
 #include "render/film/sampling/timeline.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/team.hpp"
-#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/film_frames.hpp"
 
 namespace grainreel {
 

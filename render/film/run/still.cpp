@@ -11,7 +11,6 @@
 #include "engine/run/folder/listener.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/sampling/film_frames.hpp"
-#include "render/film/sampling/film_limits.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/whole/renderer.hpp"

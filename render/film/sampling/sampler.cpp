@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/drive_schedule.hpp"
-#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
