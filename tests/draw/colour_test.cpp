@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/picture/base/colour_scale.hpp"
-#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/scene/shown_values.hpp"
 #include "tests/draw/support.hpp"

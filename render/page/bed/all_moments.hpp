@@ -14,7 +14,7 @@
 #include "engine/files/frames/run_archive.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/picture/base/colour_scale.hpp"
-#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -1,8 +1,14 @@
 #include "render/picture/grains/shown_grains.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
+#include "engine/base/error.hpp"
+#include "render/picture/base/colour_scale.hpp"
+#include "render/picture/base/palette.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -69,6 +75,148 @@ const Frame& ShownGrains::of(const Frame& frame) {
     keep(shown_.orientation, kept_);
     keep(shown_.displacement, kept_);
     return shown_;
+}
+
+// The quantities that colour grains, grain by grain, and the albedo that follows from them.
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// J: the energy of translation and of rotation, with the moment of inertia 2/5 m r2 of a solid sphere.
+double kinetic_energy(const Frame& frame, std::size_t i, double density) {
+    const double r = frame.radius[i];
+    const double mass = density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
+}
+
+}  // namespace
+
+Quantities::Quantities(const FilmedScene& scene, GrainValue by) : by_(by) {
+    for (const Species& species : scene.species) density_.push_back(species.density);
+}
+
+void Quantities::start_from(const Frame& frame) {
+    if (by_ != GrainValue::start_height) return;
+    start_id_ = frame.id;
+    start_height_.clear();
+    for (const Vec3& position : frame.position) start_height_.push_back((position - frame.floor().place).z());
+}
+
+double Quantities::start_height_of(std::int32_t id) const {
+    const auto row = row_of_id(start_id_, id);
+    return row ? start_height_[*row] : none;
+}
+
+// Contacts may name grains that the frame lacks.
+void Quantities::count_touches(const Frame& frame, bool forces) {
+    values_.assign(frame.size(), 0);
+    const auto add = [&](std::int32_t id, double force) {
+        if (id < 0) return;  // a wall
+        if (const auto grain = frame.row_of(id)) values_[*grain] += forces ? force : 1;
+    };
+    for (const Touch& touch : frame.touches) {
+        add(touch.first, touch.force);
+        add(touch.second, touch.force);
+    }
+}
+
+const std::vector<double>& Quantities::of(const Frame& frame) {
+    if (start_height_.empty()) start_from(frame);
+    if (by_ == GrainValue::coordination || by_ == GrainValue::contact_force) {
+        count_touches(frame, by_ == GrainValue::contact_force);
+        return values_;
+    }
+    values_.assign(frame.size(), none);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        switch (by_) {
+            case GrainValue::speed:
+                values_[i] = frame.velocity[i].norm();
+                break;
+            case GrainValue::vertical_velocity:
+                values_[i] = frame.velocity[i].z();
+                break;
+            case GrainValue::start_height:
+                values_[i] = start_height_of(frame.id[i]);
+                break;
+            case GrainValue::displacement:
+                if (!frame.displacement.empty()) values_[i] = frame.displacement[i].norm();
+                break;
+            case GrainValue::rise:
+                if (!frame.displacement.empty()) values_[i] = frame.displacement[i].z();
+                break;
+            case GrainValue::spin:
+                values_[i] = frame.spin[i].norm();
+                break;
+            case GrainValue::kinetic_energy:
+                values_[i] = kinetic_energy(frame, i, density_[static_cast<std::size_t>(frame.species[i])]);
+                break;
+            default:
+                break;
+        }
+    }
+    return values_;
+}
+
+namespace {
+
+constexpr Colour pale_grain{0.93, 0.93, 0.93};  // sRGB
+constexpr int smooth_steps = 1024;              // steps of a colour map: finer than 8 bits
+
+}  // namespace
+
+Albedo to_albedo(const Colour& colour) {
+    return {static_cast<float>(to_linear(colour.red)), static_cast<float>(to_linear(colour.green)),
+            static_cast<float>(to_linear(colour.blue))};
+}
+
+GrainColours::GrainColours(const FilmedScene& scene)
+    : quantities_(scene, scene.film.shows.colour.by), by_species_(!scene.film.shows.colour.of_grains()) {
+    if (by_species_) {
+        const bool pale = scene.film.shows.colour.of_field();
+        for (const Colour& colour : scene.colours)
+            steps_.push_back(to_albedo(pale ? mix(colour, pale_grain, 0.8) : colour));
+        return;
+    }
+    const ColourScale scale(scene.film.shows.colour);
+    low_ = scale.low();
+    high_ = scale.high();
+    banded_ = scale.bands() > 0;
+    logarithmic_ = scale.logarithmic();
+    const int count = banded_ ? scale.bands() : smooth_steps;
+    for (int i = 0; i < count; ++i) steps_.push_back(to_albedo(scale.at_share(i / (count - 1.0))));
+}
+
+// Where a value lies in the range: the same share as on the colour bar.
+double GrainColours::share_of(double value) const {
+    if (!logarithmic_) return (value - low_) / (high_ - low_);
+    return value <= low_ ? 0 : std::log(value / low_) / std::log(high_ / low_);
+}
+
+Albedo GrainColours::of_value(double value) const {
+    if (std::isnan(value)) return to_albedo(neutral_grain);
+    const auto count = static_cast<double>(steps_.size());
+    const double share = share_of(value);
+    const double step = banded_ ? std::floor(share * count) : std::round(share * (count - 1));
+    return steps_[static_cast<std::size_t>(std::clamp(step, 0.0, count - 1))];
+}
+
+const std::vector<Albedo>& GrainColours::of(const Frame& frame) {
+    colours_.resize(frame.size());
+    if (by_species_) {
+        for (std::size_t i = 0; i < frame.size(); ++i) {
+            const auto species = static_cast<std::size_t>(frame.species[i]);
+            GRAINREEL_CHECK(species < steps_.size());
+            colours_[i] = steps_[species];
+        }
+        return colours_;
+    }
+    const std::vector<double>& values = quantities_.of(frame);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        colours_[i] = of_value(values[i]);
+        clipped_.take(values[i], {low_, high_});
+    }
+    return colours_;
 }
 
 }  // namespace grainreel

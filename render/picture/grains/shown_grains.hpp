@@ -1,11 +1,13 @@
 // Which grains of a frame are shown, and where a grain stands in a frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "engine/frame.hpp"
+#include "render/picture/base/colour_scale.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -42,6 +44,66 @@ class ShownGrains {
     FilmCut cut_;                     // the cut that leaves grains out
     std::vector<std::size_t> kept_;
     Frame shown_;
+};
+
+// The colours of grains: the quantity of each grain, and the albedo that the colour map or the species gives
+// it. A new quantity is a GrainValue (render/scene/film.hpp) with a case in Quantities::of().
+
+class Quantities {
+  public:
+    Quantities(const FilmedScene& scene, GrainValue by);
+
+    // Takes the heights at the start from this frame. Without a call they come from the first frame that of()
+    // sees.
+    void start_from(const Frame& frame);
+
+    // SI: the value of each grain, in the frame's order. It is NaN for a grain that was not there at the
+    // start, where the frame lacks what the quantity needs (displacements before a period has passed), and
+    // where grains are coloured by species.
+    const std::vector<double>& of(const Frame& frame);
+
+  private:
+    double start_height_of(std::int32_t id) const;  // m; NaN when the grain was not there
+    void count_touches(const Frame& frame, bool forces);
+
+    const GrainValue by_;
+    std::vector<double> density_;         // kg/m3, by species
+    std::vector<std::int32_t> start_id_;  // rising; ids may be far apart
+    std::vector<double> start_height_;    // m: heights of the grains of start_id_
+    std::vector<double> values_;
+};
+
+using Albedo = std::array<float, 3>;  // linear light
+Albedo to_albedo(const Colour& colour);
+
+// The colour of grains whose quantity is unknown, and of the legend's grains where colours do not stand for
+// species.
+inline constexpr Colour neutral_grain{0.62, 0.62, 0.62};  // sRGB
+
+// The albedo of every grain: by species, or by a quantity through a colour map.
+class GrainColours {
+  public:
+    explicit GrainColours(const FilmedScene& scene);
+
+    // See Quantities.
+    void start_from(const Frame& frame) { quantities_.start_from(frame); }
+
+    // The albedo of each grain, in the frame's order.
+    const std::vector<Albedo>& of(const Frame& frame);
+    // How many of the grains that it has coloured by a quantity lay beyond the range.
+    const ClippedCount& clipped() const { return clipped_; }
+
+  private:
+    Albedo of_value(double value) const;
+    double share_of(double value) const;
+
+    Quantities quantities_;
+    bool by_species_;
+    double low_ = 0, high_ = 1;  // SI
+    bool banded_ = false, logarithmic_ = false;
+    ClippedCount clipped_;
+    std::vector<Albedo> steps_;  // one for each species, or for each step of the colour map or band
+    std::vector<Albedo> colours_;
 };
 
 }  // namespace grainreel

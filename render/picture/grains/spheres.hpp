@@ -9,7 +9,7 @@
 #include "engine/frame.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/container/container_drawing.hpp"
-#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"
 #include "render/scene/film.hpp"

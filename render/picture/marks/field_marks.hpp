@@ -13,7 +13,7 @@
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/grains/velocity_field.hpp"
 #include "render/scene/filmed_scene.hpp"
 

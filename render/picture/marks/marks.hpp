@@ -13,7 +13,7 @@
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/palette.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/marks/field_marks.hpp"
 #include "render/picture/marks/force_marks.hpp"
 #include "render/scene/filmed_scene.hpp"

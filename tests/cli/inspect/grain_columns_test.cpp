@@ -12,7 +12,7 @@
 #include "engine/questions/questions.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "render/film/answers/pictured_answer.hpp"
-#include "render/picture/grains/grain_colours.hpp"
+#include "render/picture/grains/shown_grains.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/shown_values.hpp"
 
