@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/whole/layers.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"

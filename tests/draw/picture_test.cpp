@@ -16,7 +16,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/gl/opengl.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/film.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/measure/measures.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/gutters.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/grains/spheres.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"

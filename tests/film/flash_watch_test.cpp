@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 

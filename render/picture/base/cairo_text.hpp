@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "engine/scene/text/units.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/scene/shown_values.hpp"
 
 namespace grainreel {

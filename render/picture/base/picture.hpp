@@ -2,11 +2,14 @@
 // container. Films include this header: keep it light.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "render/scene/film.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -56,5 +59,78 @@ struct PictureLayout {
 };
 // The layout in which the container has the whole picture and there are no words.
 PictureLayout bare_layout(const Film& film);
+
+// The colours of everything that is not a grain. They follow from the background alone, so that they can be
+// read on light and dark ones.
+
+inline Colour mix(const Colour& a, const Colour& b, double share_of_b) {
+    const auto blend = [&](double x, double y) { return x + (y - x) * share_of_b; };
+    return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue)};
+}
+
+// From sRGB (IEC 61966-2-1) to linear light and back, 0 to 1.
+inline double to_linear(double srgb) {
+    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+inline double to_srgb(double linear) {
+    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+// Rounds to 8-bit steps, so that Cairo and OpenGL, which round differently, write the same bytes.
+inline Colour in_bytes(const Colour& colour) {
+    const auto step = [](double value) { return std::round(255 * value) / 255; };
+    return {step(colour.red), step(colour.green), step(colour.blue)};
+}
+
+// Relative luminance, 0 to 1, and contrast, 1 to 21, as WCAG 2.2 defines them.
+inline double luminance(const Colour& c) {
+    return 0.2126 * to_linear(c.red) + 0.7152 * to_linear(c.green) + 0.0722 * to_linear(c.blue);
+}
+inline double contrast(const Colour& a, const Colour& b) {
+    const double x = luminance(a) + 0.05, y = luminance(b) + 0.05;
+    return x > y ? x / y : y / x;
+}
+
+struct Palette {
+    Colour background, ink, faint_ink, solid, accent;
+    Colour force;       // lines between grains, and arrows at one grain
+    Colour wall_force;  // arrows at walls
+};
+
+inline Palette make_palette(const Colour& background) {
+    const bool light = luminance(background) > 0.18;  // then dark ink has more contrast than light ink
+    Palette palette;
+    palette.background = in_bytes(background);
+    palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};
+    // Ink as faint as can still be read. On middle tones it is hardly fainter.
+    double faint = light ? 0.28 : 0.22;
+    while (faint > 0 && contrast(mix(palette.ink, background, faint), background) < 4.5) faint -= 0.02;
+    palette.faint_ink = mix(palette.ink, background, std::max(0.0, faint));
+    palette.solid = mix(background, light ? Colour{0.36, 0.42, 0.50} : Colour{0.70, 0.76, 0.84}, 0.62);
+    palette.force = light ? Colour{0.40, 0.18, 0.55} : Colour{0.78, 0.62, 1.0};
+    palette.wall_force = light ? Colour{0.0, 0.38, 0.36} : Colour{0.36, 0.86, 0.76};
+    palette.accent = light ? Colour{0.72, 0.16, 0.10} : Colour{1.0, 0.55, 0.42};
+    return palette;
+}
+
+// Without a background no words are faint, because grey words on a halo may be lost on whatever lies below.
+inline Palette palette_of(const Film& film) {
+    Palette palette = make_palette(film.background);
+    if (film.transparent) palette.faint_ink = palette.ink;
+    return palette;
+}
+
+// The least strength of a plate of the background's colour at which all words on it have a contrast of 4.5,
+// whatever is under it; 1 when no strength is enough.
+inline double plate_strength(const Palette& palette) {
+    for (double strength = 0.7; strength < 1; strength += 0.01) {
+        bool reads = true;
+        for (const Colour& under : {Colour{0, 0, 0}, Colour{1, 1, 1}})
+            for (const Colour& ink : {palette.ink, palette.faint_ink, palette.accent})
+                reads = reads && contrast(ink, mix(under, palette.background, strength)) >= 4.6;
+        if (reads) return strength;
+    }
+    return 1;
+}
 
 }  // namespace grainreel

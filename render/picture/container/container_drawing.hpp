@@ -12,7 +12,7 @@
 
 #include "engine/frame.hpp"
 #include "render/picture/base/canvas.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/scene/filmed_scene.hpp"
 

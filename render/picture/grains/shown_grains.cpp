@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/picture/base/colour_scale.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/state/glued_grains.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/scene/filmed_scene.hpp"
 

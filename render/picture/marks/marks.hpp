@@ -11,7 +11,7 @@
 
 #include "engine/frame.hpp"
 #include "render/picture/base/canvas.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/marks/field_marks.hpp"

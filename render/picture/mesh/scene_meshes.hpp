@@ -10,7 +10,7 @@
 
 #include "engine/frame.hpp"
 #include "render/picture/base/colour_scale.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/mesh/mesh_painter.hpp"
 #include "render/picture/mesh/mesh_projection.hpp"
 #include "render/scene/filmed_scene.hpp"

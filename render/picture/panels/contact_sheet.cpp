@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "render/picture/base/cairo_text.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 namespace {

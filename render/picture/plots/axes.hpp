@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "render/picture/base/cairo_text.hpp"
-#include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
 
 namespace grainreel {

@@ -14,7 +14,6 @@
 #include "engine/frame.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/cairo_text.hpp"
-#include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "engine/base/error.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 

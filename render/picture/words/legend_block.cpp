@@ -14,7 +14,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/colour_scale.hpp"
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/picture/spheres/light/lamp.hpp"

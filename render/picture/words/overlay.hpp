@@ -11,7 +11,6 @@
 
 #include "engine/frame.hpp"
 #include "render/picture/base/cairo_text.hpp"
-#include "render/picture/base/palette.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/plots/plot.hpp"

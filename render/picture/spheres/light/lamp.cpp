@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/picture/base/palette.hpp"
+#include "render/picture/base/picture.hpp"
 
 namespace grainreel {
 
