@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "render/picture/words/gutters.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

@@ -5,7 +5,6 @@
 #include "render/picture/base/picture.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/blocks.hpp"
-#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
 

@@ -1,11 +1,10 @@
 // Puts the blocks of the first gutter (gutters.hpp) below each other at the side, or in rows above the
 // container.
-#include "render/picture/words/gutters.hpp"
+#include "render/picture/words/blocks.hpp"
 
 #include <algorithm>
 
 #include "render/picture/camera/framing.hpp"
-#include "render/picture/words/blocks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

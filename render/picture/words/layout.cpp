@@ -9,7 +9,6 @@
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

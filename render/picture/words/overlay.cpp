@@ -12,8 +12,8 @@
 #include "engine/measure/measures.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/grains/shown_grains.hpp"
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

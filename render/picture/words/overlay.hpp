@@ -15,7 +15,6 @@
 #include "render/picture/base/view.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
-#include "render/picture/words/gutters.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

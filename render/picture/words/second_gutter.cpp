@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/gutters.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
