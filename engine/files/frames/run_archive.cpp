@@ -15,7 +15,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/files/measures_csv.hpp"
-#include "engine/measure/bed/bed_motion.hpp"
+#include "engine/measure/bed/bed_formulas.hpp"
 
 namespace grainreel {
 

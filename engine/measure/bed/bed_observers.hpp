@@ -6,8 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/measure/bed/bed_motion.hpp"
-#include "engine/measure/bed/bed_shape.hpp"
+#include "engine/measure/bed/bed_formulas.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/segregation/segregation.hpp"

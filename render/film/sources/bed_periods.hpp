@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/frame.hpp"
-#include "engine/measure/bed/bed_motion.hpp"
+#include "engine/measure/bed/bed_formulas.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -1,6 +1,6 @@
 // Tests of the number of periods after which a bed repeats itself, on made series and on a ball on a shaken
 // plate.
-#include "engine/measure/bed/bed_motion.hpp"
+#include "engine/measure/bed/bed_formulas.hpp"
 
 #include <gtest/gtest.h>
 

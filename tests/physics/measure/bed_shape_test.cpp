@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/base/numbers.hpp"
-#include "engine/measure/bed/bed_shape.hpp"
+#include "engine/measure/bed/bed_formulas.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 
 namespace grainreel {

@@ -1,5 +1,5 @@
 // Tests of the fabric tensor of contacts with known directions.
-#include "engine/measure/bed/bed_shape.hpp"
+#include "engine/measure/bed/bed_formulas.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of take-off and landing of bodies whose flight is known.
-#include "engine/measure/bed/bed_motion.hpp"
+#include "engine/measure/bed/bed_formulas.hpp"
 
 #include <gtest/gtest.h>
 
