@@ -9,7 +9,7 @@
 #include <set>
 
 #include "engine/base/error.hpp"
-#include "engine/files/checksum.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 
 namespace grainreel {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/files/frame_faults.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "grainreel/contact_law.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frame_faults.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/questions/expression.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"

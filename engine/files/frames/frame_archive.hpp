@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frame_faults.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
 

@@ -23,8 +23,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/damage.hpp"
 #include "engine/files/file_facts.hpp"
-#include "engine/files/frame_faults.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/mesh/triangle_mesh.hpp"

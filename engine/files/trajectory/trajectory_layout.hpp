@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/checksum.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 

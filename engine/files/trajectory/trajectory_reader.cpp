@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frame_faults.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/files/trajectory/trajectory_layout.hpp"

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/frame_faults.hpp"
 #include "engine/questions/contact_questions.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"

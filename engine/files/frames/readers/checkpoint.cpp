@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
-#include "engine/files/frame_faults.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/state/body.hpp"

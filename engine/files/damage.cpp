@@ -1,4 +1,4 @@
-#include "engine/files/frame_faults.hpp"
+#include "engine/files/damage.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
