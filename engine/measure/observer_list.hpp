@@ -12,8 +12,7 @@
 #include "engine/measure/flow/drift.hpp"
 #include "engine/measure/flow/outflow_observer.hpp"
 #include "engine/measure/segregation/segregation_observers.hpp"
-#include "engine/measure/surface/drum_surface.hpp"
-#include "engine/measure/surface/surface_observer.hpp"
+#include "engine/measure/surface/surface_observers.hpp"
 #include "engine/measure/walls/wall_forces_observer.hpp"
 #include "engine/measure/walls/wear_observer.hpp"
 

@@ -42,7 +42,7 @@ BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
 //
 // It is the frame of the container at rest, with its free width at the height that the grains fill. The size
 // of bins follows the mean diameter of all grains. It has no width in empty space, nor in a drum
-// (drum_surface.hpp).
+// (surface_observers.hpp).
 SurfaceFrame surface_frame(const Scene& scene);
 
 // How far a surface is heaped up.

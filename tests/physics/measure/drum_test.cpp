@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/measure/surface/drum_surface.hpp"
+#include "engine/measure/surface/surface_observers.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
 

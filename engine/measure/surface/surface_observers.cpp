@@ -1,4 +1,4 @@
-#include "engine/measure/surface/drum_surface.hpp"
+#include "engine/measure/surface/surface_observers.hpp"
 
 #include <algorithm>
 #include <cmath>
