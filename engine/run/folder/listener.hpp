@@ -1,18 +1,23 @@
-// Listeners are told what a run does, and may ask it to stop. Nothing here prints or ends the process: the
-// caller of a run decides where messages go.
+// Listeners are told what a run does, and may ask it to stop; one of them writes the run's log. Nothing here
+// prints or ends the process: the caller of a run decides where messages go.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "engine/base/error.hpp"
-#include "engine/files/log.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/replay/replay.hpp"
+
+namespace spdlog {
+class logger;
+}
 
 namespace grainreel {
 
@@ -76,6 +81,22 @@ class SilentListener : public RunListener {
     int stop_signal() const override { return 0; }
     void keep_before_exit() override {}
     bool in_a_hurry() const override { return false; }
+};
+
+// log.txt: it has every message of a run with its time. Each line is on disk when the call returns. A full
+// disk costs lines of the log but never ends the run.
+class RunLog {
+  public:
+    // goes_on: new lines follow those of an existing file. Throws RunError when the file cannot be made.
+    explicit RunLog(const std::filesystem::path& path, bool goes_on = false);
+    ~RunLog();
+
+    void info(const std::string& message);
+    void warning(const std::string& message);
+    void error(const std::string& message);
+
+  private:
+    std::unique_ptr<spdlog::logger> logger_;
 };
 
 // Passes everything on, and also writes the messages to a log once there is one.

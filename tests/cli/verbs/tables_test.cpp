@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
-#include "engine/files/log.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/grain_table.hpp"
+#include "engine/run/folder/listener.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
