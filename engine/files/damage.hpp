@@ -1,4 +1,5 @@
-// Checks whether the numbers of a frame that was read from a file can be those of a run.
+// Finds damage in what was read from a file: the numbers of a frame that no run can have, and a checksum that
+// does not fit its numbers.
 #pragma once
 
 #include <xxhash.h>
@@ -14,23 +15,9 @@
 
 namespace grainreel {
 
-// The first fault of a frame as text: "its time is nan s", "grain 12 has a radius of -1 m"; none when all
-// numbers are possible. moment_fault() looks at time, phase and poses, grains_fault() at the grains. species:
-// how many there are.
-std::optional<std::string> moment_fault(const Frame& frame);
-std::optional<std::string> grains_fault(const Frame& frame, std::size_t species);
-
-// One frame of a file is damaged: its checksum does not fit its numbers, or it has numbers that no run can
-// have (NaN, a radius of 0, an unknown species). The other frames may be whole.
-class DamagedFrame : public UserError {
-  public:
-    using UserError::UserError;
-};
-
 // The checksum of a sequence of numbers, by which a reader notices damage. It is XXH64, chained: each piece
 // is hashed with the sum so far as its seed. It is kept as two words of 32 bits, the high one first, since
 // classic NetCDF has no integer of 64 bits. Source: Y. Collet, xxHash fast digest algorithm, version 0.1.1.
-
 class Checksum {
   public:
     // Adds the bytes of the numbers as they lie in memory: the lowest byte of each first on the processors
@@ -48,6 +35,19 @@ class Checksum {
 
   private:
     std::uint64_t sum_ = 0;
+};
+
+// The first fault of a frame as text: "its time is nan s", "grain 12 has a radius of -1 m"; none when all
+// numbers are possible. moment_fault() looks at time, phase and poses, grains_fault() at the grains.
+// `species` is the number of species that there are.
+std::optional<std::string> moment_fault(const Frame& frame);
+std::optional<std::string> grains_fault(const Frame& frame, std::size_t species);
+
+// One frame of a file is damaged: its checksum does not fit its numbers, or it has numbers that no run can
+// have (NaN, a radius of 0, an unknown species). The other frames may be whole.
+class DamagedFrame : public UserError {
+  public:
+    using UserError::UserError;
 };
 
 }  // namespace grainreel

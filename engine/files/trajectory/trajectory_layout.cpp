@@ -15,7 +15,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double farthest = 1e6;  // m, the same as in frame_faults.cpp
+constexpr double farthest = 1e6;  // m, the same as in damage.cpp
 constexpr const char *mesh_dimension = "mesh", *vertex_dimension = "vertex", *triangle_dimension = "triangle";
 
 // The meshes as they lie in the file, one after the other.

@@ -1,5 +1,7 @@
-// Formulas for the structure of the bed: its solid fraction, the directions of its contacts (Fabric), and the
-// height of a single large grain in it. They do not need the step loop.
+// Formulas for the bed as a whole. They tell its structure: the solid fraction, the directions of contacts
+// (Fabric) and the height of a single large grain; and its motion in a shaken container: when it leaves the
+// floor and lands (Flight), and after how many periods of the drive it repeats itself (PeriodMultiple). None
+// needs the step loop.
 #pragma once
 
 #include <cstddef>
@@ -57,9 +59,6 @@ std::optional<std::size_t> find_intruder(const Scene& scene, const Grains& grain
 // there.
 double intruder_height(const Scene& scene, const Grains& grains, std::size_t intruder, double floor);
 
-// The motion of a shaken bed: when it leaves the floor and lands (Flight), and after how many periods of the
-// drive it repeats itself (PeriodMultiple). Observers of bed_observers.hpp feed both.
-
 // Finds flights of the bed. Its input is the mean force on the floor, divided by the bed's weight, for one
 // stretch of steps after the other. The bed flies from the beginning of the first stretch in which the floor
 // carries less than a tenth of the weight to the beginning of the first one in which it carries more than
@@ -67,7 +66,7 @@ double intruder_height(const Scene& scene, const Grains& grains, std::size_t int
 // sixteenth of a period are the bed's own vibrations and do not count.
 //
 // An inelastic block on a plate leaves it where the plate's acceleration is that of gravity, at the phase
-// asin(1 / Gamma) / 2 pi of a sine.
+// asin(1 / Gamma) / (2 pi) of a sine.
 class Flight {
   public:
     static constexpr double kLeaves = 0.1, kLands = 0.5;  // of the weight

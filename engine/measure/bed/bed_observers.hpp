@@ -1,5 +1,5 @@
 // Observers of the bed as a whole: its shape and motion, its centre of mass, its contacts and a single
-// intruder. Each class gives columns of measures.csv; the formulas are in bed_shape.hpp and bed_motion.hpp.
+// intruder. Each class gives columns of measures.csv; the formulas are in bed_formulas.hpp.
 #pragma once
 
 #include <algorithm>
