@@ -40,10 +40,8 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
 // "deflate".
 std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes);
 
-// The files of render/page/html, which the build puts into the program.
-
-// Page, parts and style are contained unchanged. The scripts are joined by the build (embed_page.cmake), with
-// uPlot first.
+// The files of render/page/html, which the build puts into the program. Page, parts and style are contained
+// unchanged. The scripts are joined by the build (embed_page.cmake), with uPlot first.
 struct PageFiles {
     std::string_view page, body, variant, bed, charts, fields, live, style;
     std::string_view script_before, mesh_script, script_after;

@@ -1,6 +1,6 @@
-// Turns the pictures of a film into its frames: some pictures are held for several frames so that a caption
-// can be read, and a film can be drawn in parts. Also writes film_times.csv, which says what moment each
-// frame shows.
+// Turns the pictures of a film into its frames, and says what can be said of the film's file before it is
+// made. Some pictures are held for several frames so that a caption can be read, and a film can be drawn in
+// parts; film_times.csv says what moment each frame shows. The file has a size, limits and warnings.
 #pragma once
 
 #include <cmath>
@@ -88,8 +88,6 @@ class FilmTimesTable {
     };
     std::vector<Row> rows_;  // one row for each frame of the film
 };
-
-// What can be said of a film's file before it is made: its size, its limits, and warnings.
 
 // Bytes of a film of so many frames, estimated from pixels, format and quality, and no more than its cap. It
 // is good to a factor of two or three.

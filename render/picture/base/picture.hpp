@@ -1,5 +1,5 @@
-// A picture, 8-bit sRGB pixels in rows from the top, and how its space is shared between words and the
-// container. Films include this header: keep it light.
+// A picture, 8-bit sRGB pixels in rows from the top; how its space is shared between words and the container;
+// and the colours of everything in it that is not a grain. Films include this header: keep it light.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "render/scene/film.hpp"
-#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
@@ -60,9 +59,6 @@ struct PictureLayout {
 // The layout in which the container has the whole picture and there are no words.
 PictureLayout bare_layout(const Film& film);
 
-// The colours of everything that is not a grain. They follow from the background alone, so that they can be
-// read on light and dark ones.
-
 inline Colour mix(const Colour& a, const Colour& b, double share_of_b) {
     const auto blend = [&](double x, double y) { return x + (y - x) * share_of_b; };
     return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue)};
@@ -91,6 +87,8 @@ inline double contrast(const Colour& a, const Colour& b) {
     return x > y ? x / y : y / x;
 }
 
+// The colours of everything that is not a grain. They follow from the background alone, so that they can be
+// read on light and dark ones.
 struct Palette {
     Colour background, ink, faint_ink, solid, accent;
     Colour force;       // lines between grains, and arrows at one grain

@@ -77,7 +77,7 @@ const Frame& ShownGrains::of(const Frame& frame) {
     return shown_;
 }
 
-// The quantities that colour grains, grain by grain, and the albedo that follows from them.
+// From here on are the quantities that colour grains, grain by grain, and the albedo that follows from them.
 
 namespace {
 

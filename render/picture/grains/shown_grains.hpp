@@ -1,4 +1,6 @@
-// Which grains of a frame are shown, and where a grain stands in a frame.
+// The grains as a picture shows them: which grains of a frame are shown, where they stand in the frame, and
+// in which colours. A new quantity for colours is a GrainValue (render/scene/film.hpp) with a case in
+// Quantities::of().
 #pragma once
 
 #include <array>
@@ -21,6 +23,7 @@ struct HalfSpace {
 // goes with the floor, so it depends on the frame.
 std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame);
 
+// Leaves out the grains that a picture does not show.
 class ShownGrains {
   public:
     // left_out: indices into scene.species. The grains of these species are treated as absent: they are not
@@ -46,9 +49,7 @@ class ShownGrains {
     Frame shown_;
 };
 
-// The colours of grains: the quantity of each grain, and the albedo that the colour map or the species gives
-// it. A new quantity is a GrainValue (render/scene/film.hpp) with a case in Quantities::of().
-
+// The quantity of each grain that its colour stands for.
 class Quantities {
   public:
     Quantities(const FilmedScene& scene, GrainValue by);

@@ -1,6 +1,7 @@
-// The blocks of words around a picture, and the Writer that they write with. A writer without a surface only
-// measures, so that layout and drawing share their code. legend_block.cpp has legend and colour bars,
-// marks.cpp has the legend of the marks, and blocks.cpp has all others.
+// The blocks of words around a picture, the Writer that they write with, and the two gutters that they stand
+// in. A writer without a surface only measures, so that layout and drawing share their code. legend_block.cpp
+// has legend and colour bars, marks.cpp has the legend of the marks, and blocks.cpp has all other blocks.
+// first_gutter.cpp and second_gutter.cpp place the blocks in the gutters.
 #pragma once
 
 #include <cairo.h>
@@ -95,10 +96,8 @@ std::string clock_words(const FilmedScene& scene, const Frame& frame);
 // The time and, with a drive, the cycle; with a tray also how many grains lie in it.
 TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame& frame, double x, double y);
 
-// The words in the two gutters. The first one, at the left or above the container, says what is seen and how
-// large it is (first_gutter.cpp). The second one, at the right or below, has the words that change with time
-// (second_gutter.cpp).
-
+// The words in the first gutter, which stands at the left or above the container. They say what is seen and
+// how large it is.
 struct FirstPart {
     struct Block {
         std::string name;
@@ -120,7 +119,8 @@ struct WordPoint {
     double x = 0, y = 0;
 };
 
-// Where time, dial, drive, caption, notes and plots lie in the second gutter; pixels from its corner.
+// Where time, dial, drive, caption, notes and plots lie in the second gutter, which stands at the right or
+// below and has the words that change with time. Pixels from its corner.
 struct NumbersPlan {
     double radius = 0;  // radius of the dial
     WordPoint clock, caption, note, dial, drive, arrows;

@@ -1,4 +1,4 @@
-// Puts the blocks of the first gutter (gutters.hpp) below each other at the side, or in rows above the
+// Puts the blocks of the first gutter (blocks.hpp) below each other at the side, or in rows above the
 // container.
 #include "render/picture/words/blocks.hpp"
 

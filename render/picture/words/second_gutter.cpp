@@ -1,4 +1,4 @@
-// Plans the places of the blocks in the second gutter (gutters.hpp): a column at the side, or rows below the
+// Plans the places of the blocks in the second gutter (blocks.hpp): a column at the side, or rows below the
 // container.
 
 #include <algorithm>
