@@ -5,8 +5,8 @@
 #define HWY_TARGET_INCLUDE "render/picture/spheres/sphere_kernels.cpp"
 #include "engine/vector/targets.hpp"
 //
+#include "render/picture/spheres/draw-inl.hpp"
 #include "render/picture/spheres/light/light-inl.hpp"
-#include "render/picture/spheres/settle-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
