@@ -4,7 +4,6 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/keys/film_keys.hpp"
-#include "render/scene/keys/named_grains.hpp"
 #include "render/scene/live_text.hpp"
 #include "render/scene/shown_values.hpp"
 

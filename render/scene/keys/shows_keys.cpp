@@ -13,7 +13,6 @@
 #include "engine/scene/keys/bound_key.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/scene/keys/film_keys.hpp"
-#include "render/scene/keys/named_grains.hpp"
 #include "render/scene/live_text.hpp"
 #include "render/scene/shown_values.hpp"
 
