@@ -15,11 +15,6 @@
 
 namespace grainreel {
 
-namespace keys {
-template <class T>
-struct BoundKey;
-}
-
 void list_camera(keys::Keys& all);
 void read_camera(Document& document, FilmedScene& scene);
 void write_camera(SceneText& out, const FilmedScene& scene);
@@ -80,7 +75,8 @@ void list_film(keys::Keys& all);
 void read_film(Document& document, FilmedScene& scene);  // after all tables of the engine
 void write_film(SceneText& out, const FilmedScene& scene);
 
-// Keys of the film whose values are lists of species by name or of grains by id.
+// From here on are the means for keys whose values are lists of species by name or of grains by id
+// (shows_keys.cpp).
 
 // The indices of the species that the list at `path` names; empty without a list. Throws UserError for a name
 // that no species has.
@@ -92,6 +88,7 @@ std::vector<std::int32_t> ids_at(Document& document, const Scene& scene, const s
 std::string species_text(const std::vector<std::size_t>& chosen, const Scene& scene);
 std::string ids_text(const std::vector<std::int32_t>& ids);
 
+// Keys of such lists.
 template <class T>
 keys::BoundKey<T> species_key(const char* name, std::vector<std::size_t> T::*member, const char* about) {
     return keys::bound_by<T>(

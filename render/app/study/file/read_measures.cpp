@@ -9,7 +9,6 @@
 #include "engine/measure/columns.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "render/app/study/file/read_parts.hpp"
-#include "render/scene/keys/film_keys.hpp"
 #include "render/scene/live_text.hpp"
 
 namespace grainreel {
