@@ -17,7 +17,8 @@ struct PeriodStretch {
     double period = 0;  // at its start
     // The frequency changes as f(u) = f0 + (f1 - f0) s(u), with u from 0 to 1 and s of smooth_step.
     double period_after = 0;
-    double length = std::numeric_limits<double>::infinity();  // of the change; infinite where nothing changes
+    double length = std::numeric_limits<double>::infinity();  // how long the change lasts (s); infinite where
+                                                              // nothing changes
 
     bool changes() const { return length < std::numeric_limits<double>::infinity(); }
     // Number of periods since its start, by the time since its start: the integral of f.

@@ -57,10 +57,10 @@ struct FieldsWriter::Impl {
     NetcdfFile file;
     std::map<std::string, Axis> axes;          // by their names in the file
     std::map<std::string, std::string> named;  // names in the file of the axes of the current set
-    std::set<std::string> names;               // of fields in the file
+    std::set<std::string> names;               // names of the fields in the file
     int record = -1, time = -1, bounds = -1;
     std::array<int, 2> checksum{-1, -1};
-    std::vector<std::vector<Variable>> fields;  // of each set
+    std::vector<std::vector<Variable>> fields;  // one for each set
     std::size_t records = 0;
 };
 

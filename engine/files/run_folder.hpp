@@ -13,7 +13,7 @@
 namespace grainreel {
 
 struct RunFolderRequest {
-    std::string name;                       // of the scene
+    std::string name;                       // the scene's name
     std::filesystem::path base = "output";  // where folders without an explicit name go
     std::optional<std::filesystem::path>
         out;                // the wanted folder, new or empty; without it base/name, base/name-2, ...

@@ -21,7 +21,7 @@ struct DrawnPart {
     std::int64_t first_picture = 0, pictures = 0, all_pictures = 0;
     std::int64_t first_frame = 0, frames = 0, all_frames = 0;  // including still ones for a caption
     double rate = 0;                                           // frames per second
-    std::string file, format;                                  // of the film's file; empty without one
+    std::string file, format;  // the film's file and its format; empty without one
     // Checksums of 16 hexadecimal digits: of the run and of the settings that decide its pictures, which are
     // the same in all parts of a film; and of the film's file, which is empty until the file is complete.
     std::string run, settings, checksum;
@@ -59,7 +59,7 @@ struct ProgramInfo {
 // All that run.json says.
 struct RunJson : ProgramInfo {
     RunStatus status = RunStatus::running;
-    std::optional<int> exit_status;  // of the program; none while running
+    std::optional<int> exit_status;  // exit status of the program; none while it runs
     std::string error;               // why a run failed
 
     // Runs that were drawn and not run. If there are any, the file says nothing of the engine.
@@ -83,13 +83,13 @@ struct RunJson : ProgramInfo {
     std::int64_t steps = 0, steps_planned = 0;  // since the drive started
     double step = 0;                            // s
     double simulated = 0;                       // s since the drive started
-    std::optional<std::uint64_t> state_hash;    // of the end state
+    std::optional<std::uint64_t> state_hash;    // hash of the end state
 
     std::vector<std::pair<std::string, double>> wall_seconds;  // by the names of stages
     double particle_steps_per_second = 0;                      // since the drive started, in the engine only
     std::optional<std::int64_t> film_frames = 0;               // none until the film is closed
     std::int64_t trajectory_frames = 0, measures_rows = 0;
-    std::optional<TableMark> final_table;  // of final.csv, once it is written
+    std::optional<TableMark> final_table;  // what final.csv was, once it is written
     std::vector<AcceptedKey> accepted;     // in the order of time
     std::string page;                      // file name of the run's page; empty without one
     std::int64_t peak_memory = 0;          // bytes

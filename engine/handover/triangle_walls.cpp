@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kInside = 1e-6;          // of the box's size: distance of walls from its sides
-constexpr double kOctagon = 0.92;         // apothem divided by radius, and a bit less
-constexpr double kSagitta = 0.005;        // of a cylinder's facets, divided by the smallest radius of grains
+constexpr double kInside = 1e-6;   // as a share of the box's size: distance of walls from its sides
+constexpr double kOctagon = 0.92;  // apothem divided by radius, and a bit less
+constexpr double kSagitta =
+    0.005;  // as a share of a cylinder's facets, divided by the smallest radius of grains
 constexpr int kFewest = 36, kMost = 180;  // facets of a cylinder
 
 struct Room {

@@ -60,7 +60,7 @@ struct WaltonBraunTable : HardeningSpring<WaltonBraunTable> {
     template <class R>
     struct Parameters {
         R loading;                                        // N/m, K1
-        R restitution;                                    // of the slowest impacts
+        R restitution;                                    // restitution of the slowest impacts
         R from[kPieces], width[kPieces], slope[kPieces];  // m/s, m/s, s/m; unused pieces have no slope
 
         template <class Each>

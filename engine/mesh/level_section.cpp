@@ -11,7 +11,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 
 constexpr std::size_t most_borders = 512, most_bins = 1024;
-constexpr double same_border = 1e-9;  // of the section's width
+constexpr double same_border = 1e-9;  // as a share of the section's width
 
 // The place at which an edge crosses the level z. Both triangles that share the edge get the same bits.
 Vec2 crossing(const Vec3& from, const Vec3& to, double z) {

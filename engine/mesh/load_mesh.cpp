@@ -39,10 +39,10 @@ void place(TriangleMesh& mesh, const MeshPlacement& placement, const fs::path& f
     }
 }
 
-constexpr double same_place = 1e-9;  // of the extent
+constexpr double same_place = 1e-9;  // as a share of the extent
 constexpr double crack =
-    1e-5;  // of the extent, width of a crack between open edges; floats are exact to 6e-8
-constexpr double crack_room = 0.01;  // of the shortest open edge at a vertex
+    1e-5;  // greatest width of a crack between open edges, as a share of the extent; floats are exact to 6e-8
+constexpr double crack_room = 0.01;  // as a share of the shortest open edge at a vertex
 constexpr double slender = 1e-3;     // height over longest edge
 
 using Box = Eigen::AlignedBox3d;

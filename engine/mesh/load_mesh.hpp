@@ -22,7 +22,7 @@ struct MeshPlacement {
 struct LoadedMesh {
     TriangleMesh mesh;  // m, in the scene at rest
     MeshFacts facts;
-    std::string hash;  // of the file's bytes, XXH64 as 16 hexadecimal digits
+    std::string hash;  // XXH64 of the file's bytes, as 16 hexadecimal digits
 };
 
 // Throws UserError with file and line (text) or byte (binary), which says what is wrong and what to do.

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double slices_over_all = 64;
 constexpr std::size_t most_borders = 64;
-constexpr double same_height = 1e-9;  // of the whole height
-constexpr double fair_part = 0.2;     // of the enclosed volume
+constexpr double same_height = 1e-9;  // as a share of the whole height
+constexpr double fair_part = 0.2;     // as a share of the enclosed volume
 constexpr int bisections = 40;
-constexpr double wide_enough = 0.9;      // of the largest area
+constexpr double wide_enough = 0.9;      // as a share of the largest area
 constexpr std::size_t widest_tried = 8;  // levels, and places in each
 
 // The part of a level section that has one winding number.

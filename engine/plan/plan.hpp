@@ -99,7 +99,7 @@ struct Plan {
     std::vector<PairPlan> mesh;  // mesh x species, row-major
 
     Clock clock;
-    std::int64_t steps = 0;                                     // of the run itself, from step 0 on
+    std::int64_t steps = 0;                                     // steps of the run itself, from step 0 on
     std::int64_t settle_steps_limit = 0, rain_steps_limit = 0;  // most steps of settling and of rain
     StartPlan start;                                            // only where the run starts from a file
     std::string step_reason;                                    // names the condition that binds the step

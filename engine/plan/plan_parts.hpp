@@ -32,7 +32,7 @@ double restitution_at(const std::vector<RestitutionPoint>& table, double speed);
 
 // Two grains that may touch, or a grain and a wall (whose mass is infinite). Sizes in m, masses in kg.
 struct Touching {
-    double diameter;  // of the smaller
+    double diameter;  // diameter of the smaller one
     double distance;  // between centres, or to the wall
     double effective_mass;
     double effective_radius;

@@ -36,7 +36,7 @@ struct FieldTimes {
   private:
     std::int64_t tick_of(std::int64_t step) const;
     std::int64_t step_of(std::int64_t tick) const;
-    std::int64_t number_of(std::int64_t step) const;  // of the moment nearest to a step
+    std::int64_t number_of(std::int64_t step) const;  // number of the moment nearest to a step
     std::int64_t moment(std::int64_t number) const;
 };
 

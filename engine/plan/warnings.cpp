@@ -18,7 +18,8 @@ namespace grainreel {
 namespace {
 
 constexpr double alarming_size_ratio = 10;
-constexpr double rounding = 1e-9;  // of decimal numbers: a value exactly at a bound is not beyond it
+constexpr double rounding =
+    1e-9;  // as a share of decimal numbers: a value exactly at a bound is not beyond it
 
 double smallest_free_diameter(const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
@@ -219,9 +220,9 @@ namespace {
 constexpr double alarming_overlap =
     0.05;  // over the smaller diameter; 1 % is the usual aim for most contacts
 // docs/reference/stability.md has what each of these costs.
-constexpr double alarming_turn = 0.05;      // of a period that a contact with a moving wall lasts
-constexpr double alarming_flight = 0.2;     // of a diameter that a grain flies while a contact lasts
-constexpr double fewest_last_places = 100;  // of a position, in the overlap of a grain at rest
+constexpr double alarming_turn = 0.05;   // as a share of a period that a contact with a moving wall lasts
+constexpr double alarming_flight = 0.2;  // as a share of a diameter that a grain flies while a contact lasts
+constexpr double fewest_last_places = 100;  // as a share of a position, in the overlap of a grain at rest
 
 using Kinds = std::vector<ContactKind>;
 

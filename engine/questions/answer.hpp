@@ -30,7 +30,7 @@ struct AnswerColumn {
 using AnswerCell = std::variant<std::monostate, double, std::int64_t, std::string>;
 
 struct AnswerTable {
-    std::string name;   // of letters, digits and _
+    std::string name;   // letters, digits and _ only
     std::string title;  // a line for people
     std::vector<AnswerColumn> columns;
     std::vector<std::vector<AnswerCell>> rows;  // one cell for each column

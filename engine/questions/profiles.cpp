@@ -74,7 +74,7 @@ std::vector<AnswerCell> row_of(const Bins& all, std::size_t k) {
 
 // Adds bins up to the top of the highest grain, which may lie in a higher bin than its centre.
 void add_bins_of_tops(const Snapshot& s, const std::vector<double>& at, Bins& all) {
-    constexpr double hair = 1e-9;  // of a bin
+    constexpr double hair = 1e-9;  // as a share of a bin
     double highest = 0;            // in bins
     for (std::size_t i = 0; i < at.size(); ++i) {
         const double top = (at[i] + s.frame.radius[i] - all.low) / all.width - hair;
@@ -296,7 +296,7 @@ Answer pair_distribution_answer(const Snapshot& s) {
     const double density = static_cast<double>(s.frame.size()) / volume;
     const Neighbourhood near(s, box, most, period);
     std::vector<double> pairs(bin_count + 1, 0), centres(bin_count, 0);
-    std::vector<std::size_t> whole(near.size());  // of each centre: bins whose spheres lie in the box
+    std::vector<std::size_t> whole(near.size());  // one for each centre: bins whose spheres lie in the box
     for (std::size_t i = 0; i < near.size(); ++i) {
         const double room = room_about(near.place(i), box, period);
         whole[i] = static_cast<std::size_t>(std::clamp(room / width, 0.0, double(bin_count)));

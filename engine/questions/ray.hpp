@@ -16,7 +16,7 @@ namespace grainreel {
 
 struct Ray {
     Vec3 origin{0, 0, 0};     // m
-    Vec3 direction{1, 0, 0};  // of any length > 0
+    Vec3 direction{1, 0, 0};  // its length may be any number > 0
 
     Vec3 at(double t) const { return origin + t * direction; }
 };

@@ -40,7 +40,7 @@ std::vector<Batch> finite_rows(const std::vector<double>& times, const std::vect
 // Batches of rows: those of each whole period, or so many rows. Rows left over at the end belong to no
 // batch.
 std::vector<Batch> batches_of(const std::vector<Batch>& rows, double period) {
-    constexpr double rounding = 1e-6;  // of a period: times are rounded
+    constexpr double rounding = 1e-6;  // as a share of a period: times are rounded
     std::vector<Batch> batches;
     for (std::size_t begin = 0; begin < rows.size();) {
         std::size_t end = begin + kRowsWithoutDrive;

@@ -23,7 +23,7 @@ namespace grainreel {
 
 constexpr std::size_t kRowsWithoutDrive = 5;                  // in a batch of MSER
 constexpr std::size_t kLeastBatches = 10, kMostBatches = 20;  // batches in the test of drift
-constexpr double kSignificance = 0.05;                        // of the test of drift, two-sided
+constexpr double kSignificance = 0.05;                        // as a share of the test of drift, two-sided
 
 struct Steadiness {
     enum class Verdict { steady, drifts, too_short };

@@ -40,7 +40,7 @@ class FreeSpace {
     Vec3 low_{0, 0, 0}, high_{0, 0, 0};
     double volume_ = 0;
     bool measured_ = false;
-    std::vector<double> heights_;  // of the places with room, rising; only where the room is measured
+    std::vector<double> heights_;  // heights of the places with room, rising; only where the room is measured
 };
 
 // A place (m) where a vessel leaks: a grain of this diameter (m) gets out near it. Empty where none is

@@ -98,7 +98,8 @@ class MotionPath {
 
     std::vector<double> times_;
     std::vector<CubicPiece<Vec3>> pieces_;
-    std::vector<CubicPiece<Eigen::Vector4d>> turns_;  // of w, x, y, z; empty when the body does not turn
+    std::vector<CubicPiece<Eigen::Vector4d>>
+        turns_;  // components w, x, y, z; empty when the body does not turn
     Vec3 pivot_{0, 0, 0};
     double top_speed_ = 0, top_spin_ = 0;
     std::string hash_;

@@ -57,7 +57,7 @@ struct FieldOutput {
     Kernel kernel = Kernel::gaussian;
     double width = 0;             // m, the kernel's standard deviation along one axis
     double cell = 0;              // m, largest side of a cell
-    int periods = 10;             // of the drive, over which a record is averaged; 0 without a drive
+    int periods = 10;             // a record is a mean over so many periods of the drive; 0 without a drive
     int samples = 16;             // moments in each period; without a drive, in each record
     std::optional<double> phase;  // turns; one moment a period at this phase, in place of `samples`
     double interval = 0;          // s, length of a record without a drive; else 0

@@ -62,7 +62,7 @@ const SceneMesh* Scene::mesh_named(const std::string& mesh) const {
 // A grain comes when its interval is over, so none comes at the beginning.
 std::int64_t Feed::due(double time) const {
     constexpr double most = 4e9;        // grains; more cannot be numbered
-    constexpr double rounding = 1e-12;  // of rate times time
+    constexpr double rounding = 1e-12;  // as a share of rate times time
     const double passed = std::max(0.0, std::min(time, until.value_or(time)) - from);
     const auto grains = static_cast<std::int64_t>(std::min(most, rate * passed * (1 + rounding)));
     return std::min(grains, count.value_or(grains));

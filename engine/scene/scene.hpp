@@ -172,8 +172,8 @@ struct AxisRotation {
 struct SceneMesh {
     std::string name;
     std::string file;  // path
-    std::string hash;  // of the file, as in load_mesh.hpp; a run writes it into its scene, and it is checked
-                       // when that is read
+    std::string hash;  // hash of the file, as in load_mesh.hpp; a run writes it into its scene, and it is
+                       // checked when that is read
     double scale = 1;
     Vec3 position{0, 0, 0};  // m
     AxisRotation rotation;   // before it is moved to its position

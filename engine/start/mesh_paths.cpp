@@ -15,11 +15,13 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kDeep = 0.01;      // of the smallest extent: a less deep crossing does not count
-constexpr double kElsewhere = 0.1;  // of the smaller mesh's largest extent: so far from the crossings at rest
-constexpr std::int64_t kMostTriangles = 200'000;  // of both meshes; more would take too long
-constexpr std::int64_t kMostLooks = 400'000;      // of edges, at all moments; then some are left out
-constexpr std::size_t kMostKept = 2'000;          // places where edges cross at rest
+constexpr double kDeep = 0.01;  // as a share of the smallest extent: a less deep crossing does not count
+constexpr double kElsewhere =
+    0.1;  // as a share of the smaller mesh's largest extent: so far from the crossings at rest
+constexpr std::int64_t kMostTriangles = 200'000;  // triangles of both meshes; more would take too long
+constexpr std::int64_t kMostLooks =
+    400'000;  // edges that are looked at in all moments together; if there are more, some are left out
+constexpr std::size_t kMostKept = 2'000;  // places where edges cross at rest
 
 // The smallest extent (m) that is not just rounding of a flat mesh.
 double smallest_extent(const Surface& surface) {

@@ -59,7 +59,7 @@ class FreePlaces {
     const Pose pose_;
     const Vec3 low_, high_;
     std::vector<Place> near_;
-    std::vector<BodyPose> meshes_;  // of the surroundings' meshes
+    std::vector<BodyPose> meshes_;  // poses of the surroundings' meshes
     std::function<bool(const Vec3&)> holds_;
 };
 

@@ -63,7 +63,7 @@ bool StepLoop::in_exit(std::int32_t i) const {
 // stops. A grain moves by at most a step's way and what the forces of a step add. That is far less than a
 // hundredth of its radius, since a contact lasts many steps.
 bool StepLoop::may_leave(int member, double step) const {
-    constexpr double kPushed = 0.01;  // of a radius
+    constexpr double kPushed = 0.01;  // as a share of a radius
     if (around_.exits.empty()) return false;
     const bool moves = scheme_.moves_after_forces();
     // Successive grains lie near each other, so a grain is mostly outside of the half-space that the grain

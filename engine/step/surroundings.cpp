@@ -8,7 +8,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kSkinShare = 0.4;  // of the smallest radius
+constexpr double kSkinShare = 0.4;  // as a share of the smallest radius
 
 double smallest_radius(const Scene& scene) {
     double smallest = scene.species[0].diameter.smallest;

@@ -98,8 +98,8 @@ struct GrainColouring {
 // What a profile shows: means over the container at the picture's moment.
 enum class ProfileOf {
     nothing,
-    solid_fraction,       // of each species
-    share,                // of each species in the solid volume there
+    solid_fraction,       // solid fraction of each species
+    share,                // share of each species in the solid volume there
     horizontal_velocity,  // m/s, along y
     vertical_velocity,    // m/s, along z
 };

@@ -18,7 +18,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::string_view of_particles = "particles/", of_log = "log/";
-constexpr std::uint32_t most_columns = 64;  // of one chunk
+constexpr std::uint32_t most_columns = 64;  // columns of one chunk
 
 // The schema's default of a component; NaN where it has none.
 double default_of(const std::string& name, std::size_t component) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double same_size = 1e-4;   // relative; an early version kept radii as floats
 constexpr double same_time = 1e-6;   // relative, and in turns
-constexpr double same_place = 1e-6;  // of the drive's amplitude or speed, or of a diameter
+constexpr double same_place = 1e-6;  // as a share of the drive's amplitude or speed, or of a diameter
 constexpr double same_angle = 1e-6;  // rad
 constexpr double same_shape = 1e-9;  // relative to a mesh's extent
 

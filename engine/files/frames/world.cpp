@@ -149,7 +149,7 @@ std::vector<std::string> faults_of(const TrajectoryReader& trajectory, const std
 
 namespace {
 
-constexpr int kFacets = 96;  // of a cylinder; the rim of a hole has half as many
+constexpr int kFacets = 96;  // facets of a cylinder; the rim of a hole has half as many
 
 using Polygon = std::vector<Vec3>;
 

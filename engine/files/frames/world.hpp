@@ -48,7 +48,7 @@ struct WorldCell {
 
 struct World {
     std::string title;
-    std::string program_version;  // of the program that wrote the file
+    std::string program_version;  // version of the program that wrote the file
     std::vector<WorldSpecies> species;
     std::optional<WorldCell> cell;
     Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, corners of the box around all walls; equal where it is not known
@@ -78,7 +78,7 @@ std::vector<std::string> faults_of(const TrajectoryReader& trajectory, const std
 // One wall as triangles, for formats that know nothing else. Planes are cut where they meet each other and at
 // the world's corners; cylinders become facets.
 struct WorldSurface {
-    std::string name;      // of the face or the mesh
+    std::string name;      // name of the face or the mesh
     std::size_t body = 0;  // number of the body that moves it
     TriangleMesh shape;    // m, at rest
 };

@@ -111,6 +111,6 @@ class NetcdfFile {
     NetcdfHeader header_;      // only of a file that is read
 };
 
-std::string netcdf_version();  // of the library, "4.9.0"
+std::string netcdf_version();  // version of the library, as "4.9.0"
 
 }  // namespace grainreel

@@ -57,7 +57,7 @@ class Parser {
 
   private:
     struct Variable {
-        Bytes bytes = 0;  // of a record, or of the whole variable
+        Bytes bytes = 0;  // size of a record, or of the whole variable
         Bytes begin = 0;
         bool records = false;
     };

@@ -20,7 +20,7 @@ namespace grainreel {
 
 struct TrajectoryVariable {
     const char* name;
-    int type;               // of <netcdf.h>
+    int type;               // one of the types in <netcdf.h>
     const char* dimension;  // the last one of a vector; null for a single number
     const char* units;      // as in UDUNITS, or in the convention's spelling
     const char* about;      // long_name

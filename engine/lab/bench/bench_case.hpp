@@ -25,7 +25,7 @@ struct BenchPhase {
 struct BenchCase {
     std::string name, about;
     int particles;            // number of grains unless the caller asks for another
-    std::int64_t first_step;  // of the first phase; the drive starts at step 0
+    std::int64_t first_step;  // first step of the first phase; the drive starts at step 0
     std::int64_t lead;        // steps before it that are not timed
     double lead_drag;         // 1/s, during these steps
     std::vector<BenchPhase> phases;

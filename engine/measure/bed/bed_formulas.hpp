@@ -69,7 +69,7 @@ double intruder_height(const Scene& scene, const Grains& grains, std::size_t int
 // asin(1 / Gamma) / (2 pi) of a sine.
 class Flight {
   public:
-    static constexpr double kLeaves = 0.1, kLands = 0.5;  // of the weight
+    static constexpr double kLeaves = 0.1, kLands = 0.5;  // as a share of the weight
 
     struct Times {
         std::int64_t from = 0, to = 0;  // steps

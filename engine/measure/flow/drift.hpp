@@ -33,7 +33,9 @@ struct VelocityGrid {
     std::vector<double> weight;     // weight of a cell (grains, mass); 0 if it is empty
 
     std::size_t index(std::size_t j, std::size_t k) const { return j + k * across; }
-    double y(std::size_t j) const { return left + (static_cast<double>(j) + 0.5) * width; }  // of the middle
+    double y(std::size_t j) const {
+        return left + (static_cast<double>(j) + 0.5) * width;
+    }  // y of the column's middle
     double z(std::size_t k) const { return bottom + (static_cast<double>(k) + 0.5) * height; }  // m
 };
 

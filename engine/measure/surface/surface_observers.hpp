@@ -1,10 +1,11 @@
-// Observers of the bed's surface: its waves and heaps (BedSurface), and its dynamic angle of repose in a drum that
-// turns (Drum), with the formulas for drums. The surface is that of surface.hpp, so grains in flight do not count.
+// Observers of the bed's surface: its waves and heaps (BedSurface), and its dynamic angle of repose in a drum
+// that turns (Drum), with the formulas for drums. The surface is that of surface.hpp, so grains in flight do
+// not count.
 //
 // In a drum the bed is seen along the axis. The angle of repose is that of the least-squares line through the
-// middle third of the surface against the horizontal, because away from the walls the surface is straight as long
-// as the bed rolls or cascades (Yamane, Nakagawa, Altobelli, Tanaka and Tsuji 1998, Phys. Fluids 10, 1419; Orpe
-// and Khakhar 2001, Phys. Rev. E 64, 031302).
+// middle third of the surface against the horizontal, because away from the walls the surface is straight as
+// long as the bed rolls or cascades (Yamane, Nakagawa, Altobelli, Tanaka and Tsuji 1998, Phys. Fluids 10,
+// 1419; Orpe and Khakhar 2001, Phys. Rev. E 64, 031302).
 #pragma once
 
 #include <algorithm>
@@ -126,7 +127,8 @@ class BedSurface final : public Observer {
         std::vector<double> height;  // m
     };
 
-    static constexpr double kHair = 1e-3;  // of a period, tolerance because rows are at whole steps
+    static constexpr double kHair =
+        1e-3;  // as a share of a period, tolerance because rows are at whole steps
 
     static double periods_since(const ObservedState& m, const Earlier& earlier) {
         return m.clock.cycles(m.step) - m.clock.cycles(earlier.step);
@@ -161,7 +163,8 @@ class BedSurface final : public Observer {
     std::deque<Earlier> earlier_;  // by rising step
 };
 
-// Observer of a drum, or of another body that turns the grains: its angle of turn, and the bed's surface in it.
+// Observer of a drum, or of another body that turns the grains: its angle of turn, and the bed's surface in
+// it.
 class Drum final : public Observer {
   public:
     static constexpr const char* instrument = "drum";

@@ -81,7 +81,7 @@ class WallWork {
     // State at the last look.
     std::int64_t step_ = 0;
     std::vector<FaceSums> sums_;
-    std::vector<BodyPose> poses_;  // of all bodies
+    std::vector<BodyPose> poses_;  // poses of all bodies
     std::vector<double> turned_;   // rad, angles of the bodies that turn
     std::vector<double> work_;     // J
 };

@@ -29,7 +29,7 @@ std::string keep_packing(const std::filesystem::path& place,
 struct PackingsKept {
     std::filesystem::path folder;
     std::size_t packings = 0;
-    std::uintmax_t bytes = 0, most_bytes = 0;  // of all packings together, and the limit
+    std::uintmax_t bytes = 0, most_bytes = 0;  // size of all packings together, and its limit
 };
 PackingsKept packings_kept();
 

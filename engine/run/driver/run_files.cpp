@@ -162,8 +162,8 @@ void RunFiles::add_measures(const Measures& measures) {
 namespace {
 
 constexpr int most_periods = 10;
-constexpr double late_share = 0.1;  // of a run without a drive
-constexpr double hair = 1e-3;       // of a period, tolerance because rows are at whole steps
+constexpr double late_share = 0.1;  // as a share of a run without a drive
+constexpr double hair = 1e-3;       // as a share of a period, tolerance because rows are at whole steps
 
 }  // namespace
 

@@ -25,7 +25,7 @@ using PageMaker = std::function<std::optional<std::string>(const std::filesystem
 struct RunRequest {
     std::optional<std::filesystem::path>
         out;                                // new or empty; if not set, base and the scene's name, numbered
-    std::filesystem::path base = "output";  // of runs without `out`
+    std::filesystem::path base = "output";  // folder for runs without `out`
     bool force = false;                     // whether a run in `out` is replaced
     // Time in s. Packings that took so long or longer are kept in the user's cache folder, and found there.
     // Without a value none are.

@@ -41,7 +41,7 @@ struct Progress {
     std::string what;                             // subject while charting, timing or studying
     double time = 0, end = 0;                     // s simulated, while vibrating
     double particle_steps_per_second = 0;         // 0 if not known yet
-    std::int64_t frames = 0, frames_planned = 0;  // of the film; frames_planned is 0 without a film
+    std::int64_t frames = 0, frames_planned = 0;  // frames of the film; frames_planned is 0 without a film
     double elapsed = 0;                           // s of wall time since the run began
     double remaining = -1;                        // s of wall time; negative if not known yet
 };

@@ -46,7 +46,7 @@ ImportedRun cached_import(ImportRequest request);
 struct ImportsKept {
     std::filesystem::path folder;
     std::size_t imports = 0;
-    std::uintmax_t bytes = 0, most_bytes = 0;  // of all imports together, and the limit
+    std::uintmax_t bytes = 0, most_bytes = 0;  // size of all imports together, and its limit
 };
 ImportsKept imports_kept();
 

@@ -59,7 +59,7 @@ struct PackingResult {
     bool settled = true;           // false when the time limit ended settling
     double settle_time = 0;        // s, simulated
     double kinetic_per_grain = 0;  // J, at the end
-    double solid_fraction = 0;     // of the bed below the height under which 95 % of the centres lie
+    double solid_fraction = 0;     // share of the volume below the height under which 95 % of the centres lie
 };
 
 // Throws UserError, as a run would, where the grains of a file or a list do not fit the scene.

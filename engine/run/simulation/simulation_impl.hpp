@@ -96,7 +96,7 @@ struct Simulation::Impl {
     Takes takes = Takes::same_run;
     PackingResult packed;  // result of a packing that was taken
     bool orientations = scene.keeps_orientations();
-    std::optional<WallSums> wall_sums;  // of the last moment, if an observer needs them
+    std::optional<WallSums> wall_sums;  // sums of the last moment, if an observer needs them
 
     void make_loop() { loop = std::make_unique<StepLoop>(plan, around, grains, team); }
     void take_grains();

@@ -27,7 +27,7 @@ namespace {
 // The largest solid share of the container that spheres growing in layers reach without jamming. Random
 // packings of equal spheres end at 0.64, and one that can still be sheared ends near 0.55.
 constexpr double most_solid = 0.55;
-constexpr double closest_packing = 0.64;  // of equal spheres at random
+constexpr double closest_packing = 0.64;  // as a share of equal spheres at random
 
 // Shortest period over the largest diameter. From two on, no grain touches two images of another; the other
 // half diameter is for neighbour lists, which may reach that far beyond contact.

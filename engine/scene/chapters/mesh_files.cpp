@@ -124,7 +124,7 @@ std::shared_ptr<const EnclosedRoom> room_of(const std::shared_ptr<const Surface>
 
 namespace {
 
-constexpr int kMoments = 64;  // of a motion, at which it is looked at
+constexpr int kMoments = 64;  // a motion is looked at in so many moments
 
 // All vertices or, where they are many, the corners of the box around them.
 std::vector<Vec3> points_of(const Surface& surface) {

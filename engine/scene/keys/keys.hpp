@@ -58,7 +58,7 @@ struct Key {
     KeyKind kind = KeyKind::quantity;
     Dimension dimension = Dimension::number;
     Range range;
-    std::vector<std::string> choices;         // of a choice, or of each name in a list
+    std::vector<std::string> choices;  // the words of a choice, or those that each name of a list may be
     std::size_t most_letters = kMostLetters;  // for a text
     std::string fallback;       // default as a scene would write it; empty when no value stands for it
     std::string fallback_note;  // default in words: "required", "one period"

@@ -88,8 +88,9 @@ class PatchMatcher {
     void put_together(const WallPose& pose);
 
     Patches patches_;
-    std::vector<Vec3> normals_;      // of the patches, in the frame of the scene
-    std::vector<double> distances_;  // of the patches, m; negative for a centre that is to be pushed back
+    std::vector<Vec3> normals_;  // normals of the patches, in the frame of the scene
+    std::vector<double>
+        distances_;  // distances from the patches, m; negative for a centre that is to be pushed back
     std::vector<Before> before_;
     std::array<int, kMostPatches> owner_{};  // for each patch, the place of its contact in before_, or -1
     std::vector<MatchedPatch> matched_;

@@ -48,7 +48,7 @@ HWY_INLINE AtPlate at_plate(const double* place, const WallState& walls, const s
     at.around = across.cross(back);
     at.distance = select(two_sided, root(multiply_add(u, u, s * s)), select(round, -u, u));
     at.radius = Lanes(grain.d);
-    const LanesMask round_gap = Lanes(end.a) > zero;  // of a plane; a round wall has one too
+    const LanesMask round_gap = Lanes(end.a) > zero;  // a plane has a gap, and so has a round wall
     at.round_share = select(round, u * one_over_rho, select(round_gap, s * one_over_rho, zero));
     at.at_edge = s < zero;
     return at;

@@ -34,7 +34,7 @@ struct WallScale {
 // act.
 struct FaceSums {
     std::array<WideInt, 3> force{}, moment{};            // sums of all evaluations before the last
-    std::array<WideInt, 3> last_force{}, last_moment{};  // of the last
+    std::array<WideInt, 3> last_force{}, last_moment{};  // those of the last evaluation
     bool operator==(const FaceSums&) const = default;
 };
 

@@ -74,11 +74,12 @@ struct WallPose {
 struct WallState {
     std::vector<FaceRecord> faces;  // at the step's end
     std::vector<FaceMotion> motion;
-    std::vector<FaceEnd> ends;    // empty where no face ends
-    std::vector<WallPose> poses;  // of all faces, then of all meshes; empty where nothing needs them
-    bool any_round = false;       // whether a cylinder is among the faces
-    bool turning = false;         // whether the body of a face turns
-    WallTally* tally = nullptr;   // sums the forces on the walls; nullptr if nobody asks for them
+    std::vector<FaceEnd> ends;  // empty where no face ends
+    std::vector<WallPose>
+        poses;               // poses of all faces, then those of all meshes; empty where nothing needs them
+    bool any_round = false;  // whether a cylinder is among the faces
+    bool turning = false;    // whether the body of a face turns
+    WallTally* tally = nullptr;  // sums the forces on the walls; nullptr if nobody asks for them
 
     // Sets walls that move from `before` to `now` within `step` seconds. If `step` is 0, the velocity is that
     // of `now`.

@@ -118,7 +118,7 @@ class Grid {
     bool periodic_ = false;
     std::vector<std::int32_t> start_;  // first member of each box, and one past the last
     std::vector<std::int32_t> in_order_;
-    std::vector<std::int32_t> box_;  // of each member, while sorting
+    std::vector<std::int32_t> box_;  // one for each member, while sorting
     double width_ = 0;               // m: no box is narrower
     std::vector<bool> is_near_;      // whether a box or one next to it has members; empty: not known
 };
@@ -152,8 +152,8 @@ class Cells {
 
     std::vector<Level> levels_;                      // the levels that have members
     std::size_t leading_ = 0;                        // the level with most members
-    std::vector<std::uint8_t> octave_of_;            // of each grain before they were put in order
-    std::array<std::uint8_t, kOctaves> level_of_{};  // of each octave
+    std::vector<std::uint8_t> octave_of_;            // one for each grain before they were put in order
+    std::array<std::uint8_t, kOctaves> level_of_{};  // one for each octave
     GridFrame frame_;
 };
 

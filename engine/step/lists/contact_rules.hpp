@@ -31,8 +31,8 @@ struct ContactGroup {
     const LawKernel* law;
     const LawKernel* rolling;  // nullptr: no resistance to rolling
     bool of_pairs;
-    bool of_glued;  // of grains with glued grains
-    bool of_mesh;   // of grains with patches of meshes
+    bool of_glued;  // true for contacts of grains with glued grains
+    bool of_mesh;   // true for contacts of grains with patches of meshes
     LawParameters parameters, rolling_parameters;
     std::vector<std::int32_t> row;  // where each kind stands in the parameters
 
@@ -47,7 +47,8 @@ struct ContactGroup {
 
 struct ContactRules {
     std::vector<ContactGroup> groups;  // groups of pairs first, then of walls, of glued grains, of meshes
-    std::vector<std::int32_t> group_of_pair, group_of_wall, group_of_glued, group_of_mesh;  // of each kind
+    std::vector<std::int32_t> group_of_pair, group_of_wall, group_of_glued,
+        group_of_mesh;  // one for each kind
     std::int32_t species;
     LeverArms arms;
     double period;  // m, of x; 0 for none

@@ -78,7 +78,7 @@ void ListLife::set_reach(int thread, const Pose& now, const Vec3& drift, const V
 
 void ListLife::measure(int thread, const Grains& grains, std::int32_t begin, std::int32_t end,
                        const Vec3& drift) {
-    constexpr double kRounding = 1e-7;  // of floats
+    constexpr double kRounding = 1e-7;  // as a share of floats
     double farthest = 0;
     for (std::int32_t i = begin; i < end; ++i) {
         const Vec3 listed = listed_at_[i].cast<double>();

@@ -47,7 +47,7 @@ struct Reach {
     double fastest = 0;       // m/s, the largest speed of the last step
     std::int64_t parted = 0;  // contacts that were computed in vain, summed over the steps
     Vec3 drift{0, 0, 0};      // m, displacement of the free flight at the refresh
-    Pose pose;                // of the walls at the refresh
+    Pose pose;                // pose of the walls at the refresh
 };
 
 class ListLife {

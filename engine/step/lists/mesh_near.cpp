@@ -17,7 +17,7 @@ void MeshLists::clear() {
 // finds them anew, with some room for later. Most grains stay near a place of the mesh for many refreshes.
 const MeshLists::Around& MeshLists::around(std::int32_t grain, std::int32_t mesh, const Surface& surface,
                                            const Vec3& centre, double reach) {
-    constexpr double kRoom = 0.1;  // of the reach
+    constexpr double kRoom = 0.1;  // as a share of the reach
     const auto is_before = [&](const Around& one) {
         return one.grain != grain ? one.grain < grain : one.mesh < mesh;
     };

@@ -54,7 +54,7 @@ struct MeshFault {
 struct MeshLists {
     std::vector<MeshNear> near;  // by rising grain, then mesh
     std::vector<NearTriangle> triangles;
-    std::vector<MeshTouch> touch;  // of each contact of the table in this step, up to a whole block
+    std::vector<MeshTouch> touch;  // one for each contact of the table in this step, up to a whole block
 
     // The size of `touch` for a table of `contacts` contacts.
     static std::size_t places_for(std::int32_t contacts) {

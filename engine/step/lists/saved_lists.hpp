@@ -16,7 +16,7 @@ namespace grainreel {
 // The numbers of wall parts.
 struct WallParts {
     std::int32_t faces, glued;
-    std::vector<std::int32_t> triangles = {};  // of each mesh
+    std::vector<std::int32_t> triangles = {};  // one for each mesh
 
     std::int32_t meshes() const { return static_cast<std::int32_t>(triangles.size()); }
 };

@@ -70,7 +70,7 @@ struct Evaluation {
     double time;       // steps
     double since;      // s, time since the last forces
     double acts;       // s, time for which these forces will act
-    Pose before, now;  // of the walls, at the last forces and at these
+    Pose before, now;  // poses of the walls, at the last forces and at these
 };
 
 // Goes through the evaluations of a run, from one stage of a step to the next.

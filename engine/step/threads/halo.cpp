@@ -19,7 +19,7 @@ int numbers_of(const Grains& grains) {
     return kPosition + (grains.rounded.empty() ? kDoubles : kFloats);
 }
 constexpr int kMostNumbers = kPosition + 6;
-constexpr int kBits = 64;  // of a word
+constexpr int kBits = 64;  // bits of a word
 constexpr std::int32_t words_for(std::int32_t count) {
     return (count + kBits - 1) / kBits;
 }

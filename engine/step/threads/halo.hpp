@@ -90,7 +90,7 @@ class alignas(64) Halo {
     std::int32_t lowest_ = 0;            // the first grain that may be read
     std::vector<std::int32_t> foreign_;  // indices of the copied grains, rising
     std::vector<std::int32_t> slot_;     // where to read each grain from lowest_ on, own grains included
-    std::vector<Part> part_;             // of each thread
+    std::vector<Part> part_;             // one for each thread
     std::array<LargeArray<Line>, 2> box_;
     alignas(64) std::int32_t first_[kChunk] = {}, second_[kChunk] = {};
 };

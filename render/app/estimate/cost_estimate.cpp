@@ -241,7 +241,7 @@ FramePtr shaken(const Frame& bed, int k, Random& random) {
 
 struct FilmUse {
     int frames = 0;
-    double seconds = 0;  // of processor time
+    double seconds = 0;  // seconds of processor time
     double drawing = 0;  // share of drawing in that time
 };
 

@@ -16,7 +16,7 @@
 namespace grainreel {
 
 struct ReporterOptions {
-    enum class Form { automatic, json, none };  // of the progress
+    enum class Form { automatic, json, none };  // form of the progress
     Form form = Form::automatic;
     bool quiet = false;    // errors only
     bool verbose = false;  // details too

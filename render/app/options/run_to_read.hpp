@@ -19,7 +19,7 @@ void add_reading(CLI::App& verb, ReadingOptions& reading);
 std::string given_reading(const ReadingOptions& reading);
 
 struct RunToRead {
-    std::filesystem::path folder;  // of a run, with scene.toml
+    std::filesystem::path folder;  // folder of a run, with scene.toml
     std::filesystem::path
         beside;  // the folder in which results are put: that of the files, or that around the run
     bool imported = false;

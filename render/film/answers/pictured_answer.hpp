@@ -30,8 +30,8 @@ struct AskedRunWithFilm {
     const FilmedScene& scene() const { return run ? run->scene() : *film; }  // the scene with its film
 
     std::unique_ptr<const RecordedRun> run;  // the run, when a run's folder was opened
-    std::unique_ptr<const AskedRun> state;   // of a single state
-    std::optional<FilmedScene> film;         // of a single state
+    std::unique_ptr<const AskedRun> state;   // set where a single state was asked
+    std::optional<FilmedScene> film;         // set where a single state was asked
 };
 
 // Opens a run's folder. `sets` has the same meaning as for a RecordedRun, and the same UserErrors are thrown.

@@ -57,7 +57,7 @@ inline std::int64_t frames_of(const Film& film, const std::vector<double>& times
 
 // The pictures and frames of one part, when a film is drawn in parts.
 struct FilmPart {
-    std::int64_t first_picture = 0, pictures = 0;  // of the film's
+    std::int64_t first_picture = 0, pictures = 0;  // the film's pictures: the first one and their number
     std::int64_t first_frame = 0, frames = 0;      // in the film, with those that are held for captions
 };
 

@@ -141,7 +141,7 @@ class Watch {
     const int until_;
     RunListener& listener_;
     LiveRun run_;
-    std::mutex mutex_;  // of visitors_
+    std::mutex mutex_;  // guards visitors_
     Visitors visitors_;
     std::atomic<bool> new_key_{false};
     std::atomic<Seconds> last_question_{Seconds(-1e9)};

@@ -18,8 +18,9 @@
 namespace grainreel {
 namespace {
 
-constexpr double almost_all = 0.88;  // of the container's height: a part that is higher is not worth a cut
-constexpr double steepest = 60;      // degrees, of a camera that may leave the upper part out
+constexpr double almost_all =
+    0.88;  // as a share of the container's height: a part that is higher is not worth a cut
+constexpr double steepest = 60;  // degrees, of a camera that may leave the upper part out
 
 double upward(const FilmedScene& scene) {
     return std::abs(scene.drive.direction.z());

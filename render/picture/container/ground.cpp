@@ -198,7 +198,7 @@ void Ground::update(const Frame& frame, const View& view) {
 }
 
 void Ground::darken() {
-    constexpr float kSeen = 0.5f;  // of a level of 255: weaker shadows are not seen
+    constexpr float kSeen = 0.5f;  // as a share of a level of 255: weaker shadows are not seen
     int left = kSide, right = 0, low = kSide, high = 0;
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i) {

@@ -65,7 +65,7 @@ std::vector<std::vector<Trails::Point>> Trails::paths() const {
 
 namespace {
 
-constexpr double weakest_force = 0.02;  // of the widest line's force; weaker forces are left out
+constexpr double weakest_force = 0.02;  // as a share of the widest line's force; weaker forces are left out
 
 }  // namespace
 

@@ -46,7 +46,7 @@ struct MeshRows {
     float* near_middle;                   // nearness in the middle of the pixel
     std::uint32_t* number;                // triangle that is seen there
     std::size_t stride;
-    int first_row;  // of the picture
+    int first_row;  // number of the row in the picture
 };
 
 struct GlassRows {

@@ -73,7 +73,7 @@ class MeshProjection {
     struct Seen {
         Face face;
         bool front;
-        float cosine;  // of the angle between its normal and the line of sight; > 0
+        float cosine;  // cosine of the angle between its normal and the line of sight; > 0
     };
     // The part of a mesh that one thread projects.
     struct Share {

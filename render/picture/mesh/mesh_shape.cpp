@@ -50,7 +50,7 @@ double angle_at(const Surface& surface, std::int32_t t, int corner) {
     return std::atan2(one.cross(other).norm(), one.dot(other));
 }
 
-using EdgeFlags = std::vector<std::array<bool, 3>>;  // of each triangle's edges
+using EdgeFlags = std::vector<std::array<bool, 3>>;  // one for each triangle's edges
 bool flag_at(const EdgeFlags& flags, std::int32_t t, int e) {
     return flags[static_cast<std::size_t>(t)][static_cast<std::size_t>(e)];
 }

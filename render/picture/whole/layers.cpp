@@ -45,7 +45,8 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
 
 namespace {
 
-constexpr std::uint32_t kMost = 0xffff;  // of linear light, and of moments that the sums have room for
+constexpr std::uint32_t kMost =
+    0xffff;  // greatest linear light, and the number of moments that the sums have room for
 
 // The linear light of each sRGB byte, 16 bits.
 const std::array<std::uint32_t, 256>& linear_of_byte() {

@@ -50,7 +50,7 @@ class Renderer {
     // Draws into a picture of the caller's: an empty one, or one that this renderer has drawn into before.
     void draw_into(Picture& picture, const Frame& frame, const std::string& playback, double film_time);
 
-    const View& view() const;  // of the last picture
+    const View& view() const;  // view of the last picture
     // Gives the film's first frame, which decides the grains' heights at the start. Without a call the first
     // frame that is drawn decides them.
     void start_from(const Frame& frame);

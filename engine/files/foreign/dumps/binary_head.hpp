@@ -61,7 +61,7 @@ struct BinaryHead {
     std::string units{};
     std::optional<WorldCell> box{};
     std::int32_t columns = 0, chunks = 0;
-    std::vector<std::string> names{};  // of the columns, where the file has them
+    std::vector<std::string> names{};  // names of the columns, where the file has them
     std::uint64_t data = 0;            // place of the first chunk
 };
 
@@ -84,7 +84,7 @@ struct BinaryFrame {
 struct BinaryIndex {
     std::vector<BinaryFrame> frames;
     std::int32_t columns = 0;
-    std::vector<std::string> names;  // of the columns as in the file; none in old files
+    std::vector<std::string> names;  // names of the columns as in the file; none in old files
     std::string units;
     std::uint64_t end = 0;  // after the last whole frame
     bool cut = false;       // a frame that is not whole begins there

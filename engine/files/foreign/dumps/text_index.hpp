@@ -17,7 +17,7 @@ namespace grainreel {
 // What stands above the rows of a frame: "ITEM: TIMESTEP", "ITEM: NUMBER OF ATOMS", ... up to "ITEM: ATOMS id
 // type x y z" or, in a dump of pairs, "ITEM: ENTRIES c_1[1] c_1[2]".
 struct DumpHead {
-    std::uint64_t place = 0;  // of the first item
+    std::uint64_t place = 0;  // where the first item begins
     std::int64_t line = 0;
     std::optional<std::int64_t> step{};
     std::optional<double> time{};
@@ -25,10 +25,10 @@ struct DumpHead {
     std::optional<WorldCell> box{};
     std::int64_t rows = 0;
     bool pairs = false;                // a dump local, whose rows are not grains
-    std::vector<std::string> names{};  // of the columns; none in dumps of before 2010
+    std::vector<std::string> names{};  // names of the columns; none in dumps of before 2010
     std::int64_t names_line = 0;
     bool names_ended = true;       // whether their line ends with a line feed
-    std::uint64_t rows_place = 0;  // of the first row
+    std::uint64_t rows_place = 0;  // where the first row begins
     std::int64_t rows_line = 0;
 };
 
@@ -63,7 +63,7 @@ struct CutFrame {
 
 struct TextIndex {
     std::vector<DumpFrame> frames;
-    std::vector<std::string> names;  // of the columns as in the file; none in old dumps
+    std::vector<std::string> names;  // names of the columns as in the file; none in old dumps
     bool pairs = false;              // a dump local
     bool timed = false;              // a frame has a time
     std::string units;

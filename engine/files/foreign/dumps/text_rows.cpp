@@ -122,7 +122,7 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class Kind {
-    number,  // of computes and fixes, perhaps not finite
+    number,  // a number of a compute or fix, perhaps not finite
     finite,  // a grain must have it
     word     // name of an element or a type
 };

@@ -57,14 +57,14 @@ class LineReader {
     std::filesystem::path file_;
     std::unique_ptr<ByteSource> source_;
     std::vector<char> buffer_;
-    std::uint64_t buffer_place_ = 0;  // of its first byte in the content
+    std::uint64_t buffer_place_ = 0;  // place of the buffer's first byte in the content
     std::size_t used_ = 0, held_ = 0;
     bool at_end_ = false, unended_ = false;
     std::int64_t number_ = 1;
 };
 
 struct RowsToRead {
-    std::vector<std::string> names;  // of the columns
+    std::vector<std::string> names;  // names of the columns
     std::int64_t rows = 0;
     std::uint64_t bytes = 0;  // at most, of all rows together; it limits the memory that is asked for
     bool pairs = false;       // the rows are not grains, and the columns can be anything

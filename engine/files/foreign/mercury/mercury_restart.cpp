@@ -70,7 +70,7 @@ class MercuryRestart : public RawFile {
     TextLines lines_;
     Part part_ = Part::head;
     std::int64_t grains_left_ = 0;
-    std::size_t next_column_ = 0;  // of the present grain
+    std::size_t next_column_ = 0;  // next column of the present grain
     bool grains_seen_ = false;
     std::vector<double> densities_;        // by species
     std::map<std::string, int> left_out_;  // number of walls that were left out, by kind

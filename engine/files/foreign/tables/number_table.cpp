@@ -23,7 +23,7 @@ using Cells = std::vector<std::string_view>;
 
 // Rows that follow each other in the file.
 struct Run {
-    std::uint64_t byte = 0, lines = 0;  // of their beginning; number of lines before them
+    std::uint64_t byte = 0, lines = 0;  // where they begin; number of lines before them
     std::uint64_t rows = 0, last_line = 0;
 };
 
@@ -95,7 +95,7 @@ class NumberTable : public RawFile {
     Ranges ranges_;
     mutable std::mutex reading_;
     mutable TextLines lines_;
-    mutable Cells cells_;  // of the present row
+    mutable Cells cells_;  // cells of the present row
 };
 
 NumberTable::NumberTable(const std::filesystem::path& file) : lines_(file) {

@@ -64,7 +64,8 @@ class ColumnFiller {
 
     CellKind kind_;
     RawColumn column_;
-    std::map<std::string, double, std::less<>> numbers_;  // of each word, in the order in which words came
+    std::map<std::string, double, std::less<>>
+        numbers_;  // one for each word, in the order in which words came
 };
 
 // How a message names a word that is not of the kind: "no number".

@@ -26,7 +26,7 @@ struct Writing {
 // The first lines of a file.
 struct Sample {
     std::vector<std::string_view> remarks, filled;
-    std::vector<std::uint64_t> numbers;  // of the lines that are not blank, from 1
+    std::vector<std::uint64_t> numbers;  // numbers of the lines that are not blank, from 1
 };
 
 // The text without blanks at both ends. Tabs stay, because they may separate cells.

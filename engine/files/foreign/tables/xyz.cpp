@@ -43,7 +43,7 @@ struct XyzEntry {
 };
 
 constexpr std::string_view blanks = " \t";
-constexpr std::size_t most_columns = 4096;  // of one entry of Properties
+constexpr std::size_t most_columns = 4096;  // columns of one entry of Properties
 
 std::string_view past_blanks(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -228,7 +228,7 @@ XyzHeader xyz_header_of(std::string_view line) {
 
 using Words = std::vector<std::string_view>;
 
-constexpr std::size_t most_words = std::size_t{1} << 16;  // of a row
+constexpr std::size_t most_words = std::size_t{1} << 16;  // words of a row
 
 // The count in a line that has nothing else; none for other lines.
 std::optional<std::int64_t> count_of(std::string_view line) {

@@ -52,7 +52,7 @@ class Trajectory final : public FrameArchive {
     TrajectoryReader reader_;
     World world_;
     std::vector<Frame> moments_;
-    std::vector<std::size_t> places_;  // of each moment: the number of its frame in the file
+    std::vector<std::size_t> places_;  // one for each moment: the number of its frame in the file
     std::vector<std::string> damage_;
 };
 

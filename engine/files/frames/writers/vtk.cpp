@@ -210,7 +210,7 @@ class Vtk final : public FrameWriter {
     World world_;
     FrameSupply supply_;
     std::vector<WorldSurface> surfaces_;
-    std::optional<std::vector<SavedContact>> contacts_;  // of the next frame
+    std::optional<std::vector<SavedContact>> contacts_;  // contacts of the next frame
     bool has_forces_ = false;                            // whether this frame or one before it has forces
     std::vector<VtkEntry> entries_;
     std::int64_t frames_ = 0;

@@ -18,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
 
 constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes of an array that are packed as one block
-constexpr int kLevel = 1;  // of zlib; level 6 makes files 4 % smaller and takes five times as long
+constexpr int kLevel = 1;  // zlib's level; level 6 makes files 4 % smaller and takes five times as long
 
 template <class T>
 std::string bytes_of(const std::vector<T>& values) {

@@ -19,8 +19,8 @@ struct ImpactLaw {
 // Velocities after the impact, over the speed of approach. For the plane and for equal spheres, the slip at
 // the contact is tangential - spin.
 struct Rebound {
-    double normal;      // of the centres
-    double tangential;  // of the centres
+    double normal;      // speed of the centres
+    double tangential;  // speed of the centres
     double spin;        // radius times spin; for an equal sphere, of both together
 };
 

@@ -17,7 +17,7 @@ namespace grainreel {
 struct JammedPacking {
     int grains = 4000;
     double friction = 0;            // among grains; the walls have none
-    double solid_fraction = 0.645;  // of the whole box at the start
+    double solid_fraction = 0.645;  // share of the whole box at the start
     double margin = 3;              // diameters; a layer this thick at each wall is not measured
     double share = 0.4;             // share of the distance to jamming that each decompression takes away
     std::uint64_t seed = 1;
@@ -27,7 +27,7 @@ struct JammedPacking {
 // The packing at one pressure, away from the walls.
 struct PackingState {
     double pressure = 0;        // p d / K, with the diameter d at the start and the stiffness K
-    double solid_fraction = 0;  // of the measured volume, with rattlers and parts of cut grains
+    double solid_fraction = 0;  // share of the measured volume; rattlers and parts of cut grains count
     double contacts = 0;        // contacts a grain, counting only grains that are no rattlers
     double rattlers = 0;        // share of the grains
     double unbalanced = 0;      // rms net force on a grain, over the mean contact force
