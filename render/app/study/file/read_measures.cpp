@@ -8,7 +8,7 @@
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/chapters/words.hpp"
-#include "render/app/study/file/read_parts.hpp"
+#include "render/app/study/file/read_study.hpp"
 #include "render/scene/live_text.hpp"
 
 namespace grainreel {

@@ -7,7 +7,6 @@
 #include "engine/measure/columns.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "render/app/study/file/read_parts.hpp"
 #include "render/app/study/file/variations.hpp"
 #include "render/scene/filmed_scene.hpp"
 
