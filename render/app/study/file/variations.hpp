@@ -1,6 +1,6 @@
 // What a study varies: keys of the scene with their values, variants, and seeds. Here are the values of a
 // key, as they are written, as numbers of an axis, and in ranges. variations.cpp also has the functions of
-// read_parts.hpp that read [[vary]], [[variant]] and seeds.
+// read_study.hpp that read [[vary]], [[variant]] and seeds.
 #pragma once
 
 #include <optional>
