@@ -1,18 +1,26 @@
-// Reads MercuryDPM's .restart: one moment as text. "MercuryDPM 1.0" and "restart_version 1.0" have keys and
-// values; restart_version 3 has rows of plain numbers ("TSP BP x y z vx vy vz r angles w 1/m 1/I species").
+// Reads MercuryDPM's .restart, one moment as text, with its walls. "MercuryDPM 1.0" and "restart_version 1.0"
+// have keys and values; restart_version 3 has rows of plain numbers ("TSP BP x y z vx vy vz r angles w 1/m
+// 1/I species").
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/mercury/restart_walls.hpp"
+#include "engine/base/vector.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"
+#include "engine/files/frames/world.hpp"
+#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 
@@ -42,6 +50,112 @@ const std::vector<Field>& fields_of_keys() {
 constexpr std::array<const char*, 16> plain_columns{"x",      "y",       "z",    "vx",     "vy", "vz",
                                                     "radius", "alpha",   "beta", "gamma",  "wx", "wy",
                                                     "wz",     "invMass", "",     "species"};
+
+// A line of the file: keys with words after them, "position 0 0 1 radius 0.5".
+class RestartLine {
+  public:
+    explicit RestartLine(std::string_view line) {
+        for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
+            if (first_word_.empty()) first_word_ = word;
+            const std::optional<double> number = number_of(word);
+            if (!number) {
+                entries_.emplace_back(lower_case(word), std::vector<double>());
+            } else if (!entries_.empty()) {
+                entries_.back().second.push_back(*number);
+            }
+        }
+    }
+
+    // The words before the first number, "TSP BP".
+    const std::string& first_word() const { return first_word_; }
+    // The `count` numbers after a key, whose case does not count; null where there are not that many. If a
+    // key comes twice, the last one with so many numbers counts.
+    const std::vector<double>* find(std::string_view key, std::size_t count) const {
+        const std::string wanted = lower_case(key);
+        for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)
+            if (entry->first == wanted && entry->second.size() == count) return &entry->second;
+        return nullptr;
+    }
+    std::optional<double> number(std::string_view key) const {
+        const std::vector<double>* found = find(key, 1);
+        return found ? std::optional(found->front()) : std::nullopt;
+    }
+    std::optional<Vec3> vector(std::string_view key) const {
+        const std::vector<double>* found = find(key, 3);
+        if (!found) return std::nullopt;
+        return Vec3((*found)[0], (*found)[1], (*found)[2]);
+    }
+    // The numbers after the first words.
+    const std::vector<double>& first_numbers() const {
+        static const std::vector<double> none;
+        for (const auto& [key, numbers] : entries_)
+            if (!numbers.empty()) return numbers;
+        return none;
+    }
+
+  private:
+    std::string first_word_;
+    std::vector<std::pair<std::string, std::vector<double>>> entries_;  // with keys in lower case
+};
+
+using Polygon = std::vector<Vec3>;
+
+// The part of a polygon where x·way <= most (Sutherland and Hodgman 1974).
+Polygon cut(const Polygon& polygon, const Vec3& way, double most) {
+    Polygon kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double from = way.dot(a) - most, to = way.dot(b) - most;
+        if (from <= 0) kept.push_back(a);
+        if ((from < 0 && to > 0) || (from > 0 && to < 0)) kept.push_back(a + (b - a) * (from / (from - to)));
+    }
+    return kept;
+}
+
+// A polygon on a face of the box may lie outside it by rounding.
+Polygon cut_to(Polygon polygon, const Vec3& low, const Vec3& high) {
+    const double slack = 1e-9 * (high - low).norm();
+    for (int axis = 0; axis < 3; ++axis) {
+        polygon = cut(polygon, Vec3::Unit(axis), high[axis] + slack);
+        polygon = cut(polygon, -Vec3::Unit(axis), -low[axis] + slack);
+    }
+    for (Vec3& corner : polygon) corner = corner.cwiseMax(low).cwiseMin(high);
+    return polygon;
+}
+
+// The part of an infinite plane through `place` that lies in the box, whose edges are along the axes.
+// `outwards` is the normal that points away from the grains; the front of the surface faces the other way. If
+// the plane is outside the box, this is the box's cross-section, moved onto the plane. It is empty where the
+// normal has no length.
+TriangleMesh plane_in_box(const Vec3& place, const Vec3& outwards, const WorldCell& box) {
+    TriangleMesh mesh;
+    const Vec3 low = box.origin, high = box.origin + box.edges[0] + box.edges[1] + box.edges[2];
+    const double size = (high - low).norm();
+    if (!(outwards.norm() > 0) || !(size > 0) || !place.allFinite()) return mesh;
+    const Vec3 normal = outwards.normalized();
+    const Vec3 middle = 0.5 * (low + high);
+    const Vec3 foot = middle + normal * normal.dot(place - middle);
+    int axis = 0;
+    normal.cwiseAbs().minCoeff(&axis);
+    const Vec3 u = normal.cross(Vec3::Unit(axis)).normalized(), v = u.cross(normal);
+    const Polygon large{foot - size * u - size * v, foot + size * u - size * v, foot + size * u + size * v,
+                        foot - size * u + size * v};
+    Polygon polygon = cut_to(large, low, high);
+    if (polygon.size() < 3) {  // the plane is outside the box: it is cut at the box's end and moved back
+        const double reach = 0.5 * normal.cwiseAbs().dot(high - low);
+        const double away = normal.dot(foot - middle);
+        const Vec3 shift = normal * (std::copysign(reach * (1 - 1e-9), away) - away);
+        polygon.clear();
+        for (const Vec3& corner : large) polygon.push_back(corner + shift);
+        polygon = cut_to(polygon, low, high);
+        for (Vec3& corner : polygon) corner -= shift;
+    }
+    if (polygon.size() < 3) return mesh;
+    mesh.vertices = polygon;
+    for (std::size_t i = 2; i < polygon.size(); ++i)  // their corners go round against the normal
+        mesh.triangles.push_back({0, static_cast<std::int32_t>(i - 1), static_cast<std::int32_t>(i)});
+    return mesh;
+}
 
 class MercuryRestart : public RawFile {
   public:
