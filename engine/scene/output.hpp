@@ -1,5 +1,5 @@
-// What a run can write: columns of measures.csv, fields, and files in formats of other programs. Plain
-// values.
+// What a run can write, as plain values: columns of measures.csv, fields, and files in formats of other
+// programs.
 //
 // The observers decide which columns there are (engine/measure/observer_list.hpp). The reader of a scene
 // gets the list, because plots and live words name columns.
@@ -44,11 +44,17 @@ struct Measurable {
 // Gives the columns for a scene that has been read except for its film.
 using MeasurableIn = std::function<Measurable(const Scene&)>;
 
-// A species' name as a part of a column's name.
-std::string column_part(const std::string& name);
+// Gives a species' name as a part of a column's name. Quotes and separators of CSV are replaced, because they
+// would break the row.
+inline std::string column_part(const std::string& name) {
+    std::string result = name;
+    for (char& c : result) {
+        if (c == ',' || c == '"' || c == '\n' || c == '\r') c = '_';
+    }
+    return result;
+}
 
-// What a scene says about the fields that are kept in fields.nc. Plain values in SI units.
-
+// What a scene says about the fields that are kept in fields.nc, as plain values in SI units.
 struct FieldOutput {
     // none: no fields; yz: means over the depth; xyz: in three dimensions.
     enum class Grid { none, yz, xyz };

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/random.hpp"
 #include "engine/base/vector.hpp"
+#include "engine/scene/bed.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -64,6 +66,16 @@ struct Traffic {
 // A grain of a feed, without its place. `feed` is the number of the feed in the scene, and `number` is the
 // grain's number in the feed, from 0. Scene and seed determine the grain, so the number of grains that have
 // come tells which ones have come.
-NewGrain fed_grain(const Scene& scene, std::size_t feed, std::int64_t number);
+inline NewGrain fed_grain(const Scene& scene, std::size_t feed, std::int64_t number) {
+    const Feed& from = scene.feeds[feed];
+    const Species& species = scene.species[from.species];
+    Random random(scene.run.seed, Stream::feed_sizes, {static_cast<std::int64_t>(feed), number});
+    NewGrain grain;
+    grain.species = static_cast<std::int32_t>(from.species);
+    grain.radius = 0.5 * draw_diameter(species.diameter, random);
+    grain.density = species.density;
+    grain.velocity = from.velocity;
+    return grain;
+}
 
 }  // namespace grainreel
