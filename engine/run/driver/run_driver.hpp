@@ -16,7 +16,6 @@
 #include "engine/files/run_json.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/driver/agenda.hpp"
-#include "engine/run/driver/kept_moments.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"

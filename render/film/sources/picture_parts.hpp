@@ -15,7 +15,7 @@
 #include "engine/files/wear_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/run/driver/kept_moments.hpp"
+#include "engine/run/driver/agenda.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"

@@ -13,7 +13,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/questions/asked_run.hpp"
-#include "engine/run/driver/kept_moments.hpp"
+#include "engine/run/driver/agenda.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/recorded_run.hpp"

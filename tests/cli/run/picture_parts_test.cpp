@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "engine/run/driver/agenda.hpp"
-#include "engine/run/driver/kept_moments.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
