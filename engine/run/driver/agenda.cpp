@@ -10,6 +10,47 @@
 
 namespace grainreel {
 
+Frame places_of(const Frame& frame) {
+    Frame places = moment_of(frame);
+    places.id = frame.id;
+    places.position = frame.position;
+    return places;
+}
+
+void KeptMoments::want(std::int64_t frame, const std::vector<WantedMoment>& moments) {
+    for (const WantedMoment& moment : moments) {
+        Wanted& wanted = wanted_[moment.step];
+        wanted.whole = wanted.whole || moment.whole;
+        wanted.last = frame;
+        of_frame_[frame].insert(moment.step);
+    }
+}
+
+std::set<std::int64_t> KeptMoments::steps() const {
+    std::set<std::int64_t> steps;
+    for (const auto& [step, wanted] : wanted_) steps.insert(steps.end(), step);
+    return steps;
+}
+
+void KeptMoments::keep(const Frame& frame) {
+    const auto wanted = wanted_.find(frame.step);
+    if (wanted == wanted_.end()) return;
+    kept_[frame.step] = std::make_shared<const Frame>(wanted->second.whole ? frame : places_of(frame));
+}
+
+FramePtr KeptMoments::at(std::int64_t step) const {
+    const auto found = kept_.find(step);
+    return found == kept_.end() ? nullptr : found->second;
+}
+
+void KeptMoments::done_with(std::int64_t frame) {
+    const auto done = of_frame_.find(frame);
+    if (done == of_frame_.end()) return;
+    for (const std::int64_t step : done->second)
+        if (wanted_.at(step).last == frame) kept_.erase(step);
+    of_frame_.erase(done);
+}
+
 namespace {
 
 constexpr std::int64_t never = Rhythm::kNever;
@@ -88,47 +129,6 @@ std::set<std::int64_t> key_steps(const Scene& scene, const Plan& plan, std::int6
     for (const std::int64_t step : wanted_steps(scene, plan, first, named))
         if (steps.size() < most && step >= first && step <= plan.steps) steps.insert(step);
     return steps;
-}
-
-Frame places_of(const Frame& frame) {
-    Frame places = moment_of(frame);
-    places.id = frame.id;
-    places.position = frame.position;
-    return places;
-}
-
-void KeptMoments::want(std::int64_t frame, const std::vector<WantedMoment>& moments) {
-    for (const WantedMoment& moment : moments) {
-        Wanted& wanted = wanted_[moment.step];
-        wanted.whole = wanted.whole || moment.whole;
-        wanted.last = frame;
-        of_frame_[frame].insert(moment.step);
-    }
-}
-
-std::set<std::int64_t> KeptMoments::steps() const {
-    std::set<std::int64_t> steps;
-    for (const auto& [step, wanted] : wanted_) steps.insert(steps.end(), step);
-    return steps;
-}
-
-void KeptMoments::keep(const Frame& frame) {
-    const auto wanted = wanted_.find(frame.step);
-    if (wanted == wanted_.end()) return;
-    kept_[frame.step] = std::make_shared<const Frame>(wanted->second.whole ? frame : places_of(frame));
-}
-
-FramePtr KeptMoments::at(std::int64_t step) const {
-    const auto found = kept_.find(step);
-    return found == kept_.end() ? nullptr : found->second;
-}
-
-void KeptMoments::done_with(std::int64_t frame) {
-    const auto done = of_frame_.find(frame);
-    if (done == of_frame_.end()) return;
-    for (const std::int64_t step : done->second)
-        if (wanted_.at(step).last == frame) kept_.erase(step);
-    of_frame_.erase(done);
 }
 
 }  // namespace grainreel
