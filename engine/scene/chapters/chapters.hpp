@@ -16,6 +16,11 @@ namespace grainreel {
 
 class TableReader;
 
+namespace keys {
+template <class T>
+class KeyTable;
+}
+
 // Title and gravity, above all tables.
 void list_top_level(keys::Keys& all);
 void read_top_level(Document& document, Scene& scene);
@@ -29,6 +34,10 @@ void write_species(SceneText& out, const Scene& scene);
 void list_contact(keys::Keys& all);
 void read_contact(Document& document, Scene& scene);  // after species and meshes
 void write_contact(SceneText& out, const Scene& scene, const Reasons& reasons);
+// The keys of one kind of contact, as [contact], [contact.wall] and [[contact.pair]] have them.
+const keys::KeyTable<PairContact>& contact_table();
+// Gives the tangential law that suits a normal law.
+TangentialLaw suiting(NormalLaw law);
 
 void list_container(keys::Keys& all);
 void read_container(Document& document, Scene& scene);

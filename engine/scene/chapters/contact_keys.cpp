@@ -10,7 +10,6 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/container_keys.hpp"
-#include "engine/scene/chapters/pair_contact_keys.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,8 +1,9 @@
-#include "engine/scene/chapters/pair_contact_keys.hpp"
-
+// The keys of one kind of contact, as [contact], [contact.wall] and [[contact.pair]] have them.
 #include <fmt/format.h>
 
+#include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/words.hpp"
+#include "engine/scene/keys/bound_key.hpp"
 
 namespace grainreel {
 
