@@ -60,8 +60,9 @@ class PackingSharing {
     // To be called for each setting when it is planned.
     void add_setting(const Scene& scene, const Plan& plan);
 
-    // "4 settings share one packing", or why settings that differ in the drive alone do not share theirs.
-    // Empty where there is nothing to say: a single setting, or none that packs.
+    // Says how many packings the settings begin with when some share one, or why settings that differ in the
+    // drive alone share none. The text is empty where there is nothing to say: for a single setting, or when
+    // none packs.
     std::string text() const;
 
   private:
