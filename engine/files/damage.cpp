@@ -1,9 +1,14 @@
 #include "engine/files/damage.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 #include <cmath>
 
 namespace grainreel {
+
+void Checksum::add_bytes(const void* bytes, std::size_t count) {
+    sum_ = XXH64(bytes, count, sum_);
+}
 
 namespace {
 

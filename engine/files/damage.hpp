@@ -2,7 +2,6 @@
 // does not fit its numbers.
 #pragma once
 
-#include <xxhash.h>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +24,7 @@ class Checksum {
     template <class Value>
     void add(const Value* values, std::size_t count) {
         static_assert(std::is_arithmetic_v<Value>);
-        sum_ = XXH64(values, count * sizeof(Value), sum_);
+        add_bytes(values, count * sizeof(Value));
     }
 
     std::array<int, 2> words() const {
@@ -34,6 +33,8 @@ class Checksum {
     }
 
   private:
+    void add_bytes(const void* bytes, std::size_t count);
+
     std::uint64_t sum_ = 0;
 };
 

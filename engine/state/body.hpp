@@ -80,7 +80,7 @@ std::vector<BodyPose> poses_of(const std::vector<Body>& bodies, const Pose& driv
 // an earlier version hold only the poses of container and floor.
 void add_planes(const std::vector<FreeWall>& planes, double time, std::vector<BodyPose>& poses);
 
-// The motion of the drive: its pose at each step.
+// WallMotion gives the pose of the drive at each step.
 class WallMotion {
   public:
     WallMotion() = default;  // at rest for ever
@@ -94,9 +94,9 @@ class WallMotion {
     // The phase comes from the step count, so it does not drift. Before step 0 the walls are at rest.
     Pose at(std::int64_t step) const { return at(step, 0); }
     // The pose between two steps; `share` is the share of the step that has passed, from 0 to 1.
-    // In a stage z_w = a (sin(p) - sin phi), the last term without a ramp only, where the phase p goes on
-    // from before and a and f are constant, or change as in engine/scene/drive_schedule.hpp. A tap is z_w
-    // = a (1 - cos wt), once up and down from rest to rest.
+    // In a stage z_w = a (sin(p) - sin phi). The last term is there only without a ramp. The phase p goes on
+    // from before; a and f are constant, or change as engine/scene/drive_schedule.hpp says. A tap is z_w =
+    // a (1 - cos wt): the walls go up and down once, from rest to rest.
     Pose at(std::int64_t step, double share) const;
 
   private:
