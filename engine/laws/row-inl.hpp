@@ -6,7 +6,7 @@
 #define GRAINREEL_LAWS_ROW_INL
 #endif
 
-#include "engine/laws/touch_chunk.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/vector/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/laws/touch_chunk.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/geometry/walls.hpp"
 

@@ -1,5 +1,5 @@
 // Geometry and motion of contacts: from the places and motions of the bodies to the rows that a law reads
-// (TouchChunk, engine/laws/touch_chunk.hpp).
+// (TouchChunk, engine/laws/law_kernel.hpp).
 #pragma once
 
 #include <cstdint>

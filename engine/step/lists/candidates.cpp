@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "engine/base/numbers.hpp"
-#include "engine/laws/touch_chunk.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/lists/large_bed.hpp"
 

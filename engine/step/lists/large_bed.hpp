@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "engine/base/processor.hpp"
-#include "engine/laws/touch_chunk.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/lists/contact_table.hpp"
 

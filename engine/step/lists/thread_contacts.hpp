@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/base/processor.hpp"
-#include "engine/laws/touch_chunk.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_rules.hpp"
 #include "engine/step/lists/contact_table.hpp"

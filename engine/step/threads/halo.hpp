@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/base/processor.hpp"
-#include "engine/laws/touch_chunk.hpp"
+#include "engine/laws/law_kernel.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/integrate.hpp"
 
