@@ -9,30 +9,31 @@
 
 namespace grainreel {
 
-// A stretch of time in which the frequency is constant or goes from one value to another. It begins with a
-// whole period.
+// A stretch of time in which the frequency is constant or goes from one value to another. At its start a
+// period begins.
 struct PeriodStretch {
     double start = 0;
     double cycles = 0;  // number of periods before its start, a whole number
     double period = 0;  // at its start
     // The frequency changes as f(u) = f0 + (f1 - f0) s(u), with u from 0 to 1 and s of smooth_step.
     double period_after = 0;
-    double length = std::numeric_limits<double>::infinity();  // how long the change lasts (s); infinite where
-                                                              // nothing changes
+    double length =
+        std::numeric_limits<double>::infinity();  // how long the change lasts; infinite without one
 
     bool changes() const { return length < std::numeric_limits<double>::infinity(); }
-    // Number of periods since its start, by the time since its start: the integral of f.
+    // Number of periods in the first `time` of the stretch: the integral of f.
     double cycles_after(double time) const;
-    // For a stretch without a change: how long ago the last whole period began, in [0, period). The time
-    // since its start is whole + part. `part` is small, and no digit of `whole` is lost however large it is.
+    // For a stretch without a change: the time since the present period began, in [0, period). `whole + part`
+    // is the time since the stretch began. They are given apart so that a large `whole` loses no digits to a
+    // small `part`.
     double into_period(double whole, double part) const;
-    // The fraction of a period that has gone by since its start, in [0, 1), with times as above.
+    // The part of the present period that has gone by, in [0, 1). The time is given as above.
     double turns_after(double whole, double part) const;
-    // The time from its start until so many periods have gone by.
+    // The time from the start of the stretch until `cycles` periods have gone by.
     double time_after(double cycles) const;
 };
 
-// How long a change of frequency must take for exactly so many periods to go by in it.
+// How long a change of frequency must last so that exactly `cycles` periods go by in it.
 double length_of_change(double cycles, double period, double period_after);
 
 class PeriodTable {
@@ -41,8 +42,8 @@ class PeriodTable {
     void add(const PeriodStretch& stretch) { stretches_.push_back(stretch); }
     const std::vector<PeriodStretch>& stretches() const { return stretches_; }
 
-    // The stretch in which a time lies, or after so many periods. What lies before the first stretch counts
-    // as part of it.
+    // The stretch in which a time lies, given as a time or as the number of periods gone by. What lies before
+    // the first stretch counts as part of it.
     std::size_t index_at(double time) const;
     std::size_t index_at_cycles(double cycles) const;
     double cycles(double time) const;
@@ -56,9 +57,9 @@ class PeriodTable {
 // drifts. Where the drive's frequency changes, a table tells the number of periods before each step.
 struct Clock {
     double step = 0;                    // s, the length of one step
-    std::int64_t steps_per_period = 0;  // a multiple of 8; 0 without a drive; where it changes, the first one
+    std::int64_t steps_per_period = 0;  // a multiple of 8; 0 without a drive; at the first of its frequencies
     double initial_phase = 0;           // turns, the drive's phase at step 0
-    PeriodTable changes = {};           // in steps; empty for one frequency throughout
+    PeriodTable changes = {};           // times in steps; empty if the frequency stays the same
 
     // s since the drive started; negative while filling and settling.
     double time(std::int64_t n) const { return static_cast<double>(n) * step; }
@@ -86,13 +87,14 @@ struct Clock {
         return static_cast<double>(n) / static_cast<double>(steps_per_period);
     }
 
-    // The step nearest to the time when so many periods have gone by. There must be a drive.
+    // The step nearest to the time when `cycles` periods have gone by. There must be a drive.
     std::int64_t step_at(double cycles) const {
         if (!changes.empty() && cycles >= 0) return std::llround(changes.time(cycles));
         return std::llround(cycles * static_cast<double>(steps_per_period));
     }
 
-    // The length in steps of the period that begins there, not always a whole number. There must be a drive.
+    // The length in steps of the period that begins at step n, not always a whole number. There must be a
+    // drive.
     double period_at(std::int64_t n) const {
         if (!changing_at(n)) return static_cast<double>(steps_per_period);
         const double begins = changes.cycles(static_cast<double>(n));

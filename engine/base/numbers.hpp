@@ -7,7 +7,8 @@
 
 namespace grainreel {
 
-// The distance x to the nearest periodic image. period: m, 0 where nothing repeats. |x| < 1.5 periods.
+// The difference x of two coordinates, taken to the nearest periodic image. period: m, 0 where nothing
+// repeats. |x| must be less than 1.5 periods.
 inline double nearest_image(double x, double period) {
     if (period > 0) {
         if (x > 0.5 * period) return x - period;

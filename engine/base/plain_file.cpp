@@ -94,7 +94,7 @@ std::error_code make_plain_folder(const fs::path& path) {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-    // Reasons other than a full disk or missing rights.
+    // Errors that come from what is at the path, not from a full disk or missing rights.
     const bool refused = error == EINVAL || error == EEXIST || error == ELOOP || error == ENXIO;
     const std::string other = refused ? other_than_file(path, false) : "";
     const std::string why = other.empty() ? std::strerror(error) : "it is " + other;

@@ -14,8 +14,8 @@
 
 namespace grainreel {
 
-// What is there in place of an ordinary file: "a folder", "a pipe", "a link", ...; empty for an ordinary file
-// and where there is nothing. behind_links: links are followed.
+// What is at the path if it is not an ordinary file: "a folder", "a pipe", "a link", ...; empty for an
+// ordinary file and where there is nothing. behind_links: whether links are followed.
 std::string other_than_file(const std::filesystem::path& path, bool behind_links);
 
 // Whether an ordinary file has that name, perhaps through a link.
@@ -28,11 +28,12 @@ std::ifstream read_plain(const std::filesystem::path& path);
 // descriptor, or -1 with errno.
 int open_plain(const std::filesystem::path& path, int flags = 0);
 
-// Makes a new, empty file in place of what had the name. A link is removed, not followed. A device
+// Makes a new, empty file in place of whatever is at the path. A link is removed, not followed. A device
 // (/dev/full) stays and is opened. Returns a descriptor, or -1 with errno.
 int make_plain(const std::filesystem::path& path);
 
-// Removes what has the name, unless it is a folder or a device, for libraries that make a file by its name.
+// Removes what is at the path, unless it is a folder or a device. It is called before a library makes a file
+// there.
 void make_way(const std::filesystem::path& path);
 
 // Makes a folder, or accepts one that exists. A link to a folder is an error.
@@ -42,8 +43,7 @@ std::error_code make_plain_folder(const std::filesystem::path& path);
 // one (a full disk) is a RunError that names the file and the reason.
 class TextFile {
   public:
-    // Makes the file in place of what had the name; a link is not followed. Throws RunError when it cannot be
-    // made.
+    // Makes the file in place of whatever is at the path; a link is not followed. Throws RunError on failure.
     explicit TextFile(const std::filesystem::path& path);
     // Continues an existing file after its first `bytes`; the rest is cut off. Throws RunError as above, and
     // where the file is a link.

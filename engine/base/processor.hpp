@@ -17,9 +17,9 @@
 
 namespace grainreel {
 
-// Memory for LargeArray. Where an array is large and the system has pages of 2 MiB, it lies in these: the
-// step loop reads arrays of a large bed at many places at once, and the processor remembers where only a few
-// pages are. This saves 5 to 10 % of a step of a million grains (docs/notes/performance.md).
+// Allocates the memory of LargeArray, in pages of 2 MiB if the array is large and the system has such pages.
+// The step loop reads arrays of a large bed at many places at once, and the processor remembers the addresses
+// of only a few pages. This saves 5 to 10 % of a step of a million grains (docs/notes/performance.md).
 template <class T>
 struct LargePages {
     using value_type = T;
@@ -54,8 +54,8 @@ struct LargePages {
 template <class T>
 using LargeArray = std::vector<T, LargePages<T>>;
 
-// Asks for a line of memory in order to write to it, so that another processor that has the line gives it up.
-// (GCC's __builtin_prefetch does this only when it compiles for processors later than 2014.)
+// Fetches a cache line that will be written, so that another processor that has the line gives it up. (GCC's
+// __builtin_prefetch does this only when it compiles for processors later than 2014.)
 [[gnu::always_inline]] inline void fetch_to_write(const void* at) {
 #if defined(__x86_64__)
     asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(at)));
@@ -68,7 +68,7 @@ using LargeArray = std::vector<T, LargePages<T>>;
 // processor can have some 16 lines under way, and waits when it is asked for more.
 class Ahead {
   public:
-    // Begins with nothing to fetch. All that is added later comes within so many calls of fetch_some().
+    // Begins with nothing to fetch. Whatever is added later is fetched within `calls` calls of fetch_some().
     void start(int calls) {
         count_ = 0;
         calls_ = calls;
@@ -115,8 +115,8 @@ class FlushDenormals {
     unsigned before_;
 };
 
-// The processor's own clock. It is cheap to read, but the length of a tick is not known, so it only tells
-// shares of time.
+// The processor's own clock. It is cheap to read, but the length of a tick is not known, so it only tells how
+// times compare.
 inline std::uint64_t ticks() {
 #if defined(__x86_64__)
     return __builtin_ia32_rdtsc();

@@ -1,5 +1,5 @@
-// Streams of random numbers by name, the same on every machine. The use of one stream never changes another.
-// The numbers of streams must not change, because runs would change with them.
+// Named streams of random numbers, the same on every machine. Drawing from one stream never changes another.
+// The number of each stream is part of its seed and must not change, because runs would change with it.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ enum class Stream : std::uint64_t {
     velocities = 3,
     rain_species = 4,
     rain_places = 5,
-    feed_sizes = 6,   // by feed and grain
-    feed_places = 7,  // by feed, grain and step
+    feed_sizes = 6,   // one part for each feed and grain
+    feed_places = 7,  // one part for each feed, grain and step
     wall_grains = 8
 };
 
@@ -30,7 +30,7 @@ class Random {
         engine_.seed(mix);
     }
 
-    // A part of the stream that does not depend on what else was drawn.
+    // One part of the stream, named by numbers. It does not depend on what was drawn from other parts.
     Random(std::uint64_t seed, Stream stream, std::initializer_list<std::int64_t> part) {
         std::vector<std::uint32_t> words;
         const auto add = [&](std::uint64_t number) {

@@ -28,9 +28,9 @@ void relax() {
 
 using Clock = std::chrono::steady_clock;
 
-// Offers the processor to other programs for about as long as waking up would take. False if `value` is still
-// `old` then. If another program wants the processor, a yield lasts as long as its turn, which is many steps;
-// the next waits then do not yield.
+// Yields the processor to other programs for about as long as waking up would take. Returns false if `value`
+// is still `old` afterwards. If another program wants the processor, a yield lasts as long as its turn, which
+// is many steps; the next waits then do not yield.
 bool yield_while(const std::atomic<int>& value, int old) {
     constexpr int kUntilNextTry = 100;  // number of waits, some hundredths of a second
     thread_local int waits_without = 0;
@@ -143,9 +143,9 @@ void Team::work_as(int member) {
     (*work_)(member);
 }
 
-// Each member writes the number of its barrier into a cache line of its own and reads the others' lines. This
-// takes one way from processor to processor; a common counter would take three. No member is more than one
-// barrier ahead.
+// Each member writes the number of its barrier into a cache line of its own and reads the others' lines. So a
+// message travels once from processor to processor; with a common counter it would travel three times. No
+// member is more than one barrier ahead.
 void Team::barrier(int member) {
     if (size_ == 1) return;
     Timing& mine = timings_[member];

@@ -32,7 +32,7 @@ class Team {
     double busy(int member) const { return timings_[member].busy.load(std::memory_order_relaxed); }
 
   private:
-    // Each is a cache line that only its member writes.
+    // Timing and Seat are cache lines that only their member writes.
     struct alignas(64) Timing {
         std::uint64_t since = 0;  // tick at which the present work began
         std::atomic<double> busy{0};

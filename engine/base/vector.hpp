@@ -1,4 +1,4 @@
-// Vec3, the vector type of the whole program: three doubles, z up.
+// Vec3 and Quaternion, the types of all vectors and rotations in the program. z points up.
 #pragma once
 
 #include <Eigen/Core>

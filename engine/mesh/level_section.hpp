@@ -10,7 +10,7 @@
 
 namespace grainreel {
 
-// Sixteen level rays go to all sides, also along the axes x and y. These are the lines that they lie on.
+// The lines of the sixteen level rays that go to all sides, among them those along x and y.
 inline constexpr int kLevelAxes = 8;
 Vec3 level_direction(int i);  // unit; i from 0 to 2 kLevelAxes - 1
 
@@ -28,7 +28,7 @@ struct LevelPiece {
 
 class LevelSection {
   public:
-    // `closed` says for each triangle whether its part has an inside.
+    // `closed` says for each triangle whether its connected part of the surface has an inside.
     LevelSection(const Surface& surface, const std::vector<char>& closed, double z);
 
     // Whether rays to all sides meet the section.
@@ -44,7 +44,7 @@ class LevelSection {
         bool closed;
         double at(double x) const { return a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()); }
     };
-    // The segments sorted by their places across one axis.
+    // The segments, sorted into bins by their places across one axis.
     struct Axis {
         Eigen::Vector2d along, across;
         double first = 0, per_width = 0;

@@ -43,7 +43,7 @@ constexpr double same_place = 1e-9;  // as a share of the extent
 constexpr double crack =
     1e-5;  // greatest width of a crack between open edges, as a share of the extent; floats are exact to 6e-8
 constexpr double crack_room = 0.01;  // as a share of the shortest open edge at a vertex
-constexpr double slender = 1e-3;     // height over longest edge
+constexpr double slender = 1e-3;     // height divided by longest edge
 
 using Box = Eigen::AlignedBox3d;
 
@@ -121,8 +121,8 @@ std::int64_t drop_doubled(TriangleMesh& mesh) {
         std::erase_if(mesh.triangles, [&](const TriangleMesh::Triangle&) { return doubled[i++] != 0; }));
 }
 
-// The vertices and the rule by which they are joined. Two vertices are joined if they lie within `reach` (m)
-// of each other and within the room of each of them.
+// The vertices and the rule by which they are joined. Two vertices are joined if their distance is at most
+// `reach` (m) and at most the `room` of each.
 struct Welding {
     const std::vector<Vec3>& vertices;
     double reach = 0;
@@ -230,7 +230,7 @@ void drop_unused_vertices(TriangleMesh& mesh) {
     mesh.vertices = std::move(vertices);
 }
 
-// Joins vertices along open edges that rounding has moved apart.
+// Joins vertices at open edges that rounding has moved apart.
 std::int64_t close_cracks(TriangleMesh& mesh, double extent) {
     std::vector<double> room(mesh.vertices.size(), 0);
     EdgeTable(mesh).each([&](std::int32_t low, std::span<const EdgeSide> sides) {

@@ -1,6 +1,6 @@
-// Makes a usable mesh of a file by reading, placing and mending it. The formats are STL (ASCII and binary),
-// OBJ and PLY (ASCII and binary, both byte orders). The content decides the format, never the suffix. These
-// files name no units: `scale` brings them to m.
+// Loads a mesh file: reads it, places the mesh in the scene and mends its faults. The formats are STL (ASCII
+// and binary), OBJ and PLY (ASCII and binary, both byte orders). The content decides the format, never the
+// suffix. These files name no units: `scale` brings them to m.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct MeshPlacement {
 };
 
 struct LoadedMesh {
-    TriangleMesh mesh;  // m, in the scene at rest
+    TriangleMesh mesh;  // m, in the scene before anything moves
     MeshFacts facts;
     std::string hash;  // XXH64 of the file's bytes, as 16 hexadecimal digits
 };

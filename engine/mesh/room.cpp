@@ -8,7 +8,8 @@
 
 namespace grainreel {
 
-// Directions of the rays that are tried for the winding number. Two rays with one answer decide.
+// Directions of the rays that are tried for the winding number. As soon as two rays agree, their answer
+// counts.
 constexpr std::array<int, 5> tried{1, 7, 11, 5, 14};
 
 bool EnclosedRoom::holds(const Vec3& place) const {
@@ -51,7 +52,7 @@ const EnclosedRoom::Slice* EnclosedRoom::slice_at(double z) const {
     return above == slices_.begin() ? &slices_.front() : &above[-1];
 }
 
-// The value of the line at height z. It is known at the two heights of Gauss's rule.
+// The value at height z of a line that is known at the two heights of Gauss's rule.
 double EnclosedRoom::value_at(double z, Line Slice::*line) const {
     const Slice* const slice = slice_at(z);
     if (slice == nullptr) return 0;

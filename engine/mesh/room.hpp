@@ -8,10 +8,10 @@
 // fifth of the enclosed volume; otherwise it is the region with the largest volume. Parts that are not closed
 // (sheets, open hoppers, baffles) enclose, but have no inside.
 //
-// Sizes come from level sections at 256 or more heights. A section is the polygon in which a plane cuts the
-// surface, and its area is exact. There are two sections in each slice of the room, and slices end at all
-// heights at which the surface has level faces. Volumes of boxes and prisms are
-// exact, and volumes of cones are exact to 1e-4.
+// Sizes come from level sections at some 128 heights or more. A section is the polygon in which a plane cuts
+// the surface, and its area is exact. There are two sections in each slice of the room. Slices end at the
+// heights of vertices or, if these are more than 64, at those of the largest level faces. Volumes of boxes
+// and prisms are exact, and volumes of cones are exact to 1e-4.
 #pragma once
 
 #include <array>

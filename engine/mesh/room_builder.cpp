@@ -63,8 +63,8 @@ class EnclosedRoom::Builder {
     };
 
     // The area of a section is a polynomial of second order between the heights of two vertices, for which
-    // Gauss's rule is exact. If there are very many heights, only those are taken at which the area jumps
-    // most.
+    // Gauss's rule is exact. If there are more than 64 heights, only those at which the area jumps most are
+    // taken.
     void find_borders() {
         const double low = surface_.facts().low.z(), high = surface_.facts().high.z();
         alike_ = same_height * (high - low);
@@ -201,7 +201,7 @@ class EnclosedRoom::Builder {
     }
 
     // Fills a line from the sections at two heights. `missing` is used for a height without room. If it is
-    // below zero, such a height takes the number of the other one.
+    // below zero, such a height takes the number of the other height.
     template <class Number>
     void fill(Line& line, const Pair& pair, Number&& number, double missing) const {
         const Part *const first = part_of(pair.first), *const second = part_of(pair.second);

@@ -1,6 +1,6 @@
 // A mesh that grains can touch: its triangles with their neighbours, and a tree of boxes to find triangles
-// near a place. It is made once and never changes. All lengths are in the body's frame, which is the scene at
-// rest.
+// near a place. It is made once and never changes. All coordinates are in the body's frame, which is the
+// scene's before anything moves.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The nearest point of one triangle.
+// Searches on a surface: the nearest point of one triangle, and the triangles that a ray meets.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     const Vec3 to[3] = {point - *corners.at[0], point - *corners.at[1], point - *corners.at[2]};
     NearestPoint best{point, -1, Feature::face};
     for (std::size_t e = 0; e < 3; ++e) {
-        // This is n . (edge x way to the point), where the edge is the difference of two ways.
+        // This is n . (edge x way to the point); the edge is the difference of the ways from its two corners.
         if (!(n.dot(to[e].cross(to[after(e)])) < 0)) continue;
         const NearestPoint here = nearest_on_edge(corners, e, point);
         if (best.squared < 0 || here.squared < best.squared) best = here;
@@ -64,7 +64,7 @@ NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
     return {point - distance * n, distance * distance, Feature::face};
 }
 
-// The tests of the edges in nearest() are heights over the edges, times the lengths of the edges.
+// The edge tests in nearest() give the height of the point above each edge, times the length of the edge.
 double Surface::stays_on_face(std::int32_t triangle, const Vec3& point) const {
     constexpr double kRounding = 1e-13, kLess = 1 - 1e-9;
     const Vec3& n = normal(triangle);

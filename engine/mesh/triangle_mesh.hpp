@@ -1,5 +1,5 @@
-// A surface of triangles, as it is read from a file and as it is drawn, with its edges, and with the parts of
-// it that are closed.
+// A triangle mesh as it is read from a file and as it is drawn, a table of its edges, and which of its parts
+// are closed.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct MeshFacts {
     std::string format;                        // "binary STL", "ASCII STL", "OBJ", "PLY"
     std::int64_t read = 0;                     // triangles in the file; a quad counts as two
     std::int64_t triangles = 0, vertices = 0;  // numbers after mending
-    Vec3 low{0, 0, 0}, high{0, 0, 0};          // m, corners of the box around it, at rest in the scene
+    Vec3 low{0, 0, 0}, high{0, 0, 0};          // m, corners of the box around it, before anything moves
     std::int64_t solids = 0;                   // connected parts
     std::int64_t open_edges = 0;               // edges of one triangle alone
     std::int64_t crowded_edges = 0;            // edges of more than two triangles
@@ -113,9 +113,9 @@ class DisjointSets {
     std::vector<std::int32_t> parent_;
 };
 
-// Whether the part of each triangle bounds a solid. A part hangs together by edges. It bounds a solid if it
-// is closed and consistently wound: each edge is run through as often one way as the other. For such a part,
-// rays find out whether a place is inside.
+// Whether the part of each triangle bounds a solid. A part is connected by edges. It bounds a solid if it is
+// closed and consistently wound: its triangles run through each edge as often one way as the other. Rays can
+// tell whether a place is inside such a part.
 std::vector<char> in_closed_part(const TriangleMesh& mesh);
 
 }  // namespace grainreel

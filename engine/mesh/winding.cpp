@@ -88,8 +88,8 @@ class Winder {
             }
     }
 
-    // Six times the volume inside, with the triangles turned as the flood has found. It is negative if they
-    // face inwards.
+    // Six times the volume inside, with the triangles turned as the flood fill has found. It is negative if
+    // they face inwards.
     double six_volumes(const Patch& patch) const {
         const Vec3& origin = mesh_.vertices[index(mesh_.triangles[index(patch.triangles[0])][0])];
         double sum = 0;

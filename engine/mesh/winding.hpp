@@ -1,4 +1,4 @@
-// Gives a surface consistent sides by bringing neighbours to the same order of corners.
+// Orients a mesh: gives neighbouring triangles the same order of corners, so that their normals agree.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan);
 // Share of all contacts between grains that each species has; 0 for a species that is only glued to walls.
 std::vector<double> contact_shares(const Scene& scene);
 
-// The smallest and the largest restitution of a free impact at the plan's impact speed, over the smallest
+// The smallest and the largest restitution of a free impact at the plan's impact speed, among the smallest
 // and largest grains of the two species. b is nullptr for a wall.
 struct RestitutionRange {
     double low = 1, high = 0;

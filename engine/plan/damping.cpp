@@ -18,9 +18,9 @@ struct Bracket {
     double low = 0, high = std::numeric_limits<double>::infinity();
 };
 
-// The damping in [0, most] at which the restitution, which falls with the damping, takes the wanted value.
-// It is found by sixty halvings. The bracket saves computing what it already knows; the result is the same,
-// bit for bit.
+// The damping in [0, most] at which the restitution, which falls with the damping, takes the wanted value. It
+// is found by sixty halvings. The bracket `known` saves computing restitutions; the result is the same, bit
+// for bit.
 template <class Restitution>
 double solve(double wanted, double most, const Restitution& restitution, const Bracket& known = {}) {
     double low = 0, high = most;
@@ -99,10 +99,10 @@ double approach(double restitution, double before, double at) {
 }
 
 // The narrowest bracket that is certain to hold. The integration ends with a whole step, so the restitution
-// jumps by up to 1e-6 where the number of steps changes. The wide bracket is wide enough for such jumps.
-// The narrow one is only wider than rounding, and holds when no jump lies within the wide one.
+// jumps by up to 1e-6 where the number of steps changes. The wide bracket is wide enough for such jumps. The
+// narrow one is just wider than rounding, and is certain if no jump lies within the wide one.
 Bracket hertz_bracket(double restitution, double damping) {
-    constexpr double wide = 1e-5, narrow = 3e-13;  // over the damping
+    constexpr double wide = 1e-5, narrow = 3e-13;  // as a share of the damping
     Bracket known;
     for (const double share : {wide, narrow}) {
         const Bracket next{damping * (1 - share), damping * (1 + share)};

@@ -13,9 +13,8 @@ double linear_damping(double restitution, bool attraction);
 
 // Hertz' spring with the dashpot d sqrt(m k) a^(1/4) v, of overlap a, its rate v and effective mass m (Tsuji,
 // Tanaka & Ishida 1992, Powder Technol. 71, 239). Its restitution does not depend on speed. Where the dashpot
-// may pull, d = -sqrt(5) ln e / sqrt(pi^2
-// + ln^2 e) (Antypov & Elliott 2011, EPL 94, 50004); without attraction the impact is integrated, and e
-// is right to about 1e-5.
+// may pull, d = -sqrt(5) ln e / sqrt(pi^2 + ln^2 e) (Antypov & Elliott 2011, EPL 94, 50004). Without
+// attraction the impact is integrated, and e is right to about 1e-5.
 double hertz_restitution(double damping, bool attraction);
 double hertz_damping(double restitution, bool attraction);
 

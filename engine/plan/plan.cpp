@@ -32,8 +32,9 @@ std::optional<double> stiffness_in_file(const StartFacts& file, const PairContac
     return found > 0 ? std::optional(found) : std::nullopt;
 }
 
-// Whether the plan's own stiffness must be taken in place of the file's. Contacts that latch can rest on
-// any overlap, so their overlaps in the file give only a lower bound.
+// Whether the plan's own stiffness must be taken in place of the file's. Contacts that latch (those that
+// unload along a steeper line than they load) can rest at many overlaps, so the overlaps in the file give
+// only a lower bound.
 bool wants_more(const PairPlan& own, const PairPlan& found) {
     const bool latches = own.model.normal != NormalForce::hertz &&
                          own.model.normal != NormalForce::spring_dashpot && own.hardening == 0 &&
@@ -56,9 +57,9 @@ PairPlan plan_kind(const Scene& scene, const BedPlan& bed, const StartFacts& fil
     return wants_more(own, pair) ? own : pair;
 }
 
-// Plans the contacts with glued grains. A glued grain is as heavy as its wall. The numbers are those of the
-// pair of species except for the stiffness: it is chosen for the effective mass of the contact, which is
-// the free grain's mass (for equal grains twice that of a free pair) and may demand more.
+// Plans the contacts with glued grains. A glued grain counts as infinitely heavy, like its wall. The numbers
+// are those of the pair of species except for the stiffness: it is chosen for the effective mass of the
+// contact, which is the free grain's mass (for equal grains twice that of a free pair) and may demand more.
 void plan_glued(const Scene& scene, const BedPlan& bed, const StartFacts& file, Plan& plan) {
     if (!scene.container.wall_grains) return;
     const Species glued = glued_species(scene);
@@ -111,7 +112,7 @@ void plan_overlaps(const Scene& scene, const BedPlan& bed, Plan& plan) {
     plan.usual_overlap = std::max(between_grains, at_walls);
 }
 
-// Gives `seconds` in steps. `key` is the place that the message names when there are too many.
+// Gives `seconds` in steps. key: the scene's key that the error names if there are too many.
 std::int64_t count_steps(const Scene& scene, double seconds, double step, const char* key) {
     const double steps = seconds / step;
     if (steps > most_steps)
@@ -135,7 +136,7 @@ Clock plan_clock(const Scene& scene, double step) {
     return drive_clock(scene.drive, 1 / (scene.drive.frequency * static_cast<double>(period)), period);
 }
 
-// Throws where a file would hold too many records, one every so many steps.
+// Throws if a file would hold too many records, with one every `every` steps.
 void check_records(const Scene& scene, const Plan& plan, double every, const char* what, const char* key) {
     const double records = static_cast<double>(plan.steps) / every;
     if (records <= most_records) return;
@@ -145,7 +146,8 @@ void check_records(const Scene& scene, const Plan& plan, double every, const cha
         scene.where(key), plan.steps, records, what, most_records, key));
 }
 
-// Where the scene has no interval, the time between records is a number of periods of the stage that is on.
+// Where the scene gives no interval, the time between records is a number of periods of the drive's present
+// stage.
 void go_by_periods(const Output& output, Plan& plan) {
     const double mean = static_cast<double>(plan.steps) / plan.clock.cycles(plan.steps);  // steps a period
     if (output.trajectory && !output.trajectory_interval) {
@@ -194,8 +196,8 @@ void plan_outlet(const Scene& scene, Plan& plan) {
                         scene.where("container.outlet.opens"), opens, scene.run.duration));
 }
 
-// This is checked here and not by the reader: a finished run can be drawn again though its start file is
-// gone.
+// This is checked here and not by the reader of scenes, because a finished run can be drawn again after its
+// start file is gone.
 void check_start_file(const Scene& scene) {
     std::error_code ignored;
     const std::string& file = scene.start.file;
@@ -205,9 +207,9 @@ void check_start_file(const Scene& scene) {
                                 scene.where("start.file"), file, exists ? "is no file" : "does not exist"));
 }
 
-// The step (s) that the plan would choose if only the drive moved walls. It shows when a wall's own speed
-// makes the step far too short: such a fast rim is hardly meant, and the run would never end. Where nothing
-// else moves, the given step is returned.
+// The step (s) that the plan would choose if only the drive moved walls. Compared with it, one sees whether a
+// wall's own speed makes the step far too short: nobody means such a fast rim, and the run would never end.
+// If no wall moves by itself, the given step is returned.
 double step_without_own_speeds(const Scene& scene, const StartFacts& file, const BedPlan& bed, double step) {
     if (bed.speed_of_others == bed.impact_speed || bed.speed_of_others == 0) return step;
     BedPlan slow = bed;

@@ -44,14 +44,14 @@ struct PairPlan {
     std::vector<RestitutionPoint> restitution_table;  // in place of one e: K2 = K1 / e(v)^2
     double modulus = 0;                               // Pa, E* of Hertz
     double tangential_stiffness = 0;                  // N/m: K0 or kt; Mindlin: at the allowed overlap
-    double tangential_ratio = 0;                      // tangential over normal stiffness (Mindlin)
+    double tangential_ratio = 0;  // tangential stiffness divided by normal stiffness (Mindlin)
     double gamma = 0;
     double restitution = 1;  // at v* where it depends on speed
     double friction = 0;
     double rolling_friction = 0;
-    // The dashpots: damping rates (1/s), to be multiplied by the effective mass of the touching pair. To
-    // each rate the value `by_root` (kg^(1/2)/s) over the root of that mass is added; this keeps one
-    // restitution for grains of all sizes.
+    // The dashpots: damping rates (1/s), to be multiplied by the effective mass of the touching pair. The
+    // value `..._by_root` (kg^(1/2)/s), divided by the root of that mass, is added to each rate; this keeps
+    // one restitution for grains of all sizes.
     double normal_damping = 0, tangential_damping = 0;
     double damping_by_root = 0, tangential_damping_by_root = 0;
     double hertz_damping = 0;    // d of Hertz' dashpot d sqrt(m k) a^(1/4) v
@@ -75,14 +75,14 @@ struct StartFacts {
     // Stiffness (N/m; with Hertz Pa) in the run that wrote the file, by kind of contact as in Plan. Empty
     // where that run has another law, or where the file does not tell.
     std::vector<std::optional<double>> grain, wall, glued, mesh;
-    double linear = 0, modulus = 0;  // N/m and Pa; with this stiffness the file's overlaps carry its weight.
-                                     // 0: they do not tell
+    double linear = 0, modulus = 0;  // N/m and Pa; the stiffness with which the file's overlaps carry the
+                                     // bed's weight; 0 where they do not tell
     double speed = 0;                // m/s, of the impacts to expect
 };
 
-// How a run begins that starts from a file.
+// How a run begins if it starts from a file.
 struct StartPlan {
-    bool keeps_histories = false;  // contacts keep their histories where their law is that of the file's run
+    bool keeps_histories = false;  // contacts keep their histories if their law is that of the file's run
     bool relaxes = false;          // the file's bed comes to rest under the scene's laws before step 0
     std::string text;              // for the user: what happens to stiffness, histories and bed
 };
@@ -93,9 +93,9 @@ struct Plan {
     bool moving_walls = false;
 
     std::vector<PairPlan> grain;  // species x species, row-major
-    std::vector<PairPlan> wall;   // one a species
+    std::vector<PairPlan> wall;   // one for each species
     std::vector<PairPlan>
-        glued;  // one a species, for contacts with grains glued to walls; empty without these
+        glued;  // one for each species, for contacts with grains glued to walls; empty without such grains
     std::vector<PairPlan> mesh;  // mesh x species, row-major
 
     Clock clock;
@@ -105,13 +105,13 @@ struct Plan {
     std::string step_reason;                                    // names the condition that binds the step
     double impact_speed = 0;                                    // m/s, v* of the stiffness rule
     double wall_speed = 0;  // m/s, of the fastest wall with a motion of its own (reach.hpp)
-    // Overlap over the smaller diameter: the largest that is expected, and that of most contacts. `deepest`
-    // names the kind of contact that has the largest.
+    // Overlap divided by the smaller diameter: the largest that is expected, and that of most contacts.
+    // `deepest` names the kind of contact that has the largest.
     double expected_overlap = 0, usual_overlap = 0;
     std::string deepest;
 
-    // Number of steps, not always whole: each record is taken at the step nearest to its multiple, so the
-    // times do not drift. 0: none.
+    // Number of steps between records, not always whole: a record is taken at the step nearest to a multiple,
+    // so the times do not drift. 0: no records.
     double trajectory_every = 0, measures_every = 0;
     FieldTimes fields;  // when fields are measured, if there are any
     // `capacity` is the greatest number of grains that there will ever be, including those that have left.
@@ -119,9 +119,9 @@ struct Plan {
     std::int64_t capacity = 0;
     bool traffic = false;
     std::optional<std::int64_t> opens;  // the step in which the container's outlet opens
-    // Where a drive changes and the scene gives no interval, records come every so many periods of the
-    // stage that is on; trajectory_every and measures_every are then the steps between them on average. 0:
-    // they come every so many steps.
+    // Where a drive changes and the scene gives no interval, this is the number of periods of the drive's
+    // present stage between records; trajectory_every and measures_every are then mean numbers of steps. 0:
+    // records come by steps.
     double trajectory_periods = 0, measures_periods = 0;
     double bed_height = 0;              // m, expected, at a solid fraction of 0.6
     std::vector<std::string> warnings;  // one line each, with place and remedy
@@ -139,7 +139,7 @@ struct Plan {
 // Plans the scene's run; reads the file that it starts from, if there is one (engine/start/start_plan.cpp).
 // Throws UserError when the scene cannot be run as it stands (does not fit, too many steps, no stiffness).
 Plan make_plan(const Scene& scene);
-// Plans with facts about the start file that are known already. Leaves Plan::start as it is.
+// The same, if the facts about the start file are known already. Leaves Plan::start as it is.
 Plan make_plan(const Scene& scene, const StartFacts& file);
 
 }  // namespace grainreel

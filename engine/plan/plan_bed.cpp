@@ -19,15 +19,16 @@ namespace {
 
 // Settling is short and is not shown, so overlaps may be this large there.
 constexpr double settling_overlap = 0.05;
-// Top speed of a bed that acts as a plastic block, over a omega: it hits the plate at up to 2.13 a omega
-// for Gamma from 1.2 to 10. Grains that a turning wall throws up at its own speed v fall back on it about
-// as fast: they are lifted by up to 2 v^2 / g, so they come back at sqrt(v^2 + 4 v^2).
+// Top speed of a bed that acts as a plastic block, divided by a omega (the drive's amplitude times its
+// angular frequency): the bed hits the plate at up to 2.13 a omega for Gamma from 1.2 to 10. Grains that a
+// turning wall throws up at its own speed v fall back on it about as fast: they are lifted by up to 2 v^2 /
+// g, so they come back at sqrt(v^2 + 4 v^2).
 constexpr double plastic_block_speed = 2.2;
 
-// Top speed of a grain over the drive's a omega. A single ball on a plate of random phase gains and loses
-// until <v^2> = (1 + e) / (1 - e) (a omega)^2 / 2, and rarely has more than three times that speed. In a bed
-// of n layers a blow passes 2n - 1 contacts before it is back at the plate: e becomes e^(2n-1), and for a
-// deep bed that is the plastic block. (The two ends are derived, the exponent is an estimate.)
+// Top speed of a grain, divided by the drive's a omega. A single ball on a plate of random phase gains and
+// loses until <v^2> = (1 + e) / (1 - e) (a omega)^2 / 2, and rarely has more than three times that speed. In
+// a bed of n layers a blow passes 2n - 1 contacts before it is back at the plate: e becomes e^(2n-1), and for
+// a deep bed that is the plastic block. (The two ends are derived, the exponent is an estimate.)
 double speed_over_drive(double restitution, double layers) {
     const double whole = std::min(0.98, std::pow(restitution, 2 * layers - 1));
     return std::max(plastic_block_speed, 3 * std::sqrt((1 + whole) / (2 * (1 - whole))));
@@ -98,7 +99,7 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
     } else if (file.known) {
         bed.impact_speed = std::max(bed.impact_speed, file.speed);
     } else if (!drive.present) {
-        bed.impact_speed = fall;  // more is not known of a file that cannot be read
+        bed.impact_speed = fall;  // nothing more is known of a file that cannot be read
     }
     if (scene.container.tray)
         bed.impact_speed =
@@ -113,7 +114,7 @@ BedPlan plan_bed(const Scene& scene, const StartFacts& file) {
 
 namespace {
 
-constexpr double loose_fraction = 1.0 / 3;  // solid share of the loose crowd that layers begin as
+constexpr double loose_fraction = 1.0 / 3;  // solid share of the loose crowd in which grains start in layers
 
 Vec3 up_of(const Scene& scene) {
     const double gravity = scene.gravity.norm();
@@ -202,7 +203,7 @@ double drop_below(const Scene& scene) {
 
 namespace {
 
-constexpr double lowest = 2, highest = 6;  // over the largest diameter
+constexpr double lowest = 2, highest = 6;  // in largest diameters
 constexpr double thin = 0.05;              // solid share of the layer
 
 // Area (m2) of the room's level section, the mean over its height.
@@ -232,7 +233,8 @@ double rain_rate(const Scene& scene) {
     if (scene.start.rain_rate) return *scene.start.rain_rate;
     const RainLayer layer = rain_layer(scene);
     const double deep = layer.high - layer.low, area = mean_area(scene);
-    const double stays = std::sqrt(2 * deep / scene.gravity.norm());  // s, that a grain falls through it
+    const double stays =
+        std::sqrt(2 * deep / scene.gravity.norm());  // s, time in which a grain falls through it
     const double volume = solid_volume(scene) / static_cast<double>(scene.grains());
     return thin * area * deep / volume / stays;
 }

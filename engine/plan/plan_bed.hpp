@@ -8,8 +8,8 @@ namespace grainreel {
 
 constexpr double settled_solid_fraction = 0.6;
 
-// Depth (m) of the settled bed. In empty space with meshes it is taken over a region's section, or over a
-// cube.
+// Depth (m) of the settled bed. In empty space with meshes the grains are taken to fill the start region's
+// section or, without a region, a cube.
 double bed_depth(const Scene& scene);
 
 // Height (m) of the lowest wall that grains can fall on: the container's base, or a mesh that lies lower.
@@ -27,9 +27,9 @@ double start_drop(const Scene& scene, double depth);
 // How far (m) grains fall from the container, or from their start region, to a mesh further below.
 double drop_below(const Scene& scene);
 
-// Rain: where above the bed its grains appear, and how many a second.
+// Rain: where above the bed its grains appear, and how many per second.
 
-// The layer in which grains appear: lowest and highest height (m) of their centres over the bed's surface.
+// The layer in which grains appear: lowest and highest height (m) of their centres above the bed's surface.
 struct RainLayer {
     double low = 0, high = 0;
 };
@@ -38,13 +38,14 @@ RainLayer rain_layer(const Scene& scene);
 // The deepest fall (m) of a grain of the rain.
 double rain_drop(const Scene& scene);
 
-// Grains a second: as the scene says, or as many as fill a twentieth of the layer that they fall through.
+// Grains per second: as the scene says, or so many that they fill a twentieth of the layer that they fall
+// through.
 double rain_rate(const Scene& scene);
 
 // How long (s) a grain may find no place before rain gives up: five times a fall through the layer.
 double rain_patience(const Scene& scene);
-// The limit of rain (s): twice the time that it needs if every grain finds its place at once, plus that
-// patience.
+// The limit of rain (s): twice the time that it needs if every grain finds its place at once, plus
+// rain_patience().
 double rain_limit(const Scene& scene);
 
 }  // namespace grainreel

@@ -1,5 +1,6 @@
 // Stiffness by the three conditions of the bed: impacts, weight, and waves that cross it within a period.
-// Symbols: d smaller diameter, m effective mass, eps wanted overlap over d, v* impact speed, h bed height.
+// Symbols: d smaller diameter, m effective mass, eps wanted overlap divided by d, v* impact speed, h bed
+// height.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -31,7 +32,8 @@ double contact_time_factor(const PairContact& contact) {
     return std::sqrt(pi * pi + logarithm * logarithm);  // pi / sqrt(1 - beta^2)
 }
 
-// The weight that rests on one grain, over its diameter (N/m). The static condition is K1 >= load / eps.
+// The weight that rests on one grain, divided by its diameter (N/m). The static condition is K1 >= load /
+// eps.
 double static_load(const BedPlan& bed, double diameter) {
     return 3 * (1 + bed.g_level) * settled_solid_fraction * bed.largest_density * bed.gravity *
            bed.carried_height * diameter;
@@ -236,7 +238,8 @@ double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& 
     return largest;
 }
 
-// What the numbers of a contact mean for two grains of given size, and which sizes of a species meet.
+// What the numbers of a contact give for two grains of certain sizes, and which sizes of two species may
+// meet.
 
 namespace {
 

@@ -27,7 +27,8 @@ struct BedPlan {
 BedPlan plan_bed(const Scene& scene, const StartFacts& file);
 
 double mass_of(const Species& species, double diameter);  // kg
-// The restitution at a speed, by straight lines between the rows of the table, constant beyond its ends.
+// The restitution at a speed (m/s), interpolated linearly between the rows of the table and constant beyond
+// its ends.
 double restitution_at(const std::vector<RestitutionPoint>& table, double speed);
 
 // Two grains that may touch, or a grain and a wall (whose mass is infinite). Sizes in m, masses in kg.
@@ -45,10 +46,10 @@ double mean_effective_mass(const Species& a, const Species* b);
 PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Species& a,
                    const Species* b);
 
-// The largest overlap, over the smaller diameter, that impacts and weight are expected to cause. `landing`
-// (kg) is the mass of the grain that lands: stiffness is chosen for the impact of the pair alone, but a
-// heavy grain that lands on three others drives these deeper into each other and into the wall. (So 3.2 %
-// are expected in scenes/wedge_mixing.toml; 3.3 % were seen within 3 s.)
+// The largest overlap, divided by the smaller diameter, that impacts and weight are expected to cause.
+// `landing` (kg) is the mass of the grain that lands: stiffness is chosen for the impact of the pair alone,
+// but a heavy grain that lands on three others drives these deeper into each other and into the wall. (In
+// scenes/wedge_mixing.toml this expects 3.2 %, and 3.3 % were seen within 3 s.)
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair,
                         const std::vector<Touching>& sizes, double landing);
 

@@ -14,12 +14,12 @@ namespace {
 // Factor on the step of free pairs: it stays well below the stable limit, so that the stiffest branch is
 // followed too.
 constexpr double pair_share = std::numbers::pi / 2 / 2.75;
-// Factor on the step that the bed's fastest mode allows. That mode decides over stability only, not over
+// Factor on the step that the bed's fastest mode allows. That mode matters only for stability, not for
 // accuracy.
 constexpr double bed_share = 1.2;
-// Factors on the step at which dashpots would let the motion grow. Along the contact Coulomb's law limits
-// their force, and no bed has twelve contacts a grain: 300 grains blew up from 2.4 times that step on, at e
-// = 0.165.
+// Factors on the step at which dashpots would let the motion grow. Sideways, Coulomb's law limits their
+// force, and no bed has twelve contacts for each grain: 300 grains of e = 0.165 blew up only from 2.4 times
+// that step on.
 constexpr double damped_share = 0.6, damped_sideways_share = 1.7;
 
 std::string pair_name(const Scene& scene, std::size_t a, std::size_t b) {
@@ -88,10 +88,10 @@ BedModes bed_modes(const Scene& scene, const Plan& plan, std::size_t species, do
     return modes;
 }
 
-// The longest step (s) with dashpots. A dashpot uses the velocity of the steps before and knows only its
-// own contact. Where many act on a grain, (omega dt / limit)^2 + damping dt <= 1 keeps the mode from
-// growing. (The recurrence of the scheme was tried for two to sixteen contacts and damping ratios from 0.01
-// to 20: it grows from 1.02 to 1.3 on.)
+// The longest step (s) with dashpots. A dashpot uses the velocity of earlier steps and knows only its own
+// contact. Where many act on a grain, (omega dt / limit)^2 + damping dt <= 1 keeps the mode from growing.
+// (The recurrence of the scheme was tried for two to sixteen contacts and damping ratios from 0.01 to 20: it
+// grows from 1.02 to 1.3 on.)
 double damped_limit(const Mode& mode, double limit) {
     if (mode.omega2 == 0) return share_of(1, mode.damping);
     const double rate = mode.omega2 / (limit * limit), half = 0.5 * mode.damping;

@@ -17,7 +17,7 @@ namespace grainreel {
 namespace {
 
 constexpr double loose_fraction = 0.55;  // solid share of a bed between near walls
-constexpr double thrown_faster = 1.6;    // speed of the highest grains over that of the plate
+constexpr double thrown_faster = 1.6;    // speed of the highest grains divided by that of the plate
 constexpr double upright = 0.95;         // cosine of the largest angle between gravity and -z
 
 bool has_a_bed(const Scene& scene) {

@@ -1,5 +1,4 @@
-// How high the grains get, as far as the scene tells it before the run, and how fast walls move by
-// themselves.
+// How high the grains get, as far as it can be told before the run, and how fast walls move by themselves.
 #pragma once
 
 #include <optional>

@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-// Beds of grains that are shaken in a laboratory, with room to spare on either side.
+// What beds in a laboratory have, with a margin on either side.
 constexpr double lightest = 25, heaviest = 23000;  // kg/m3: beads of foam, osmium
 constexpr double finest = 10e-6, coarsest = 0.5;   // m, of a grain
 constexpr double largest_container = 20;           // m
@@ -207,7 +207,7 @@ namespace {
 constexpr double alarming_share = 4;  // overlaps are then twice as large as wanted
 
 struct Wanted {
-    double share = 0;  // stiffness that is wanted over the stiffness there is
+    double share = 0;  // wanted stiffness divided by the stiffness there is
     double stiffness = 0, there = 0;
     bool hertz = false;
 };
@@ -216,8 +216,8 @@ bool is_of_file(const PairPlan& pair) {
     return pair.stiffness_reason.ends_with("start file");
 }
 
-// Keeps in `most` what the plan would choose by itself for this kind of contact, where its share is the
-// largest yet.
+// Finds what the plan would choose by itself for this kind of contact, and keeps it in `most` if its share is
+// the largest so far.
 void look_at(const Scene& scene, const BedPlan& bed, const PairPlan& pair, const PairContact& contact,
              const Species& a, const Species* b, Wanted& most) {
     if (!is_of_file(pair)) return;

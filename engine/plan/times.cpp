@@ -107,7 +107,7 @@ void check_field_size(const Scene& scene) {
 
 namespace {
 
-constexpr double dearest = 1.05;    // steps, over the fewest that would do
+constexpr double dearest = 1.05;    // number of steps divided by the fewest that would do
 constexpr double rounding = 1e-12;  // relative: what is so close to whole steps is meant to be whole
 
 bool is_whole(double value) {

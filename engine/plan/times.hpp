@@ -1,4 +1,5 @@
-// When fields are looked at: a record is the mean of many moments, over whole periods of the drive.
+// When fields are measured. A moment is a step at which they are measured; a record is the mean of many
+// moments, over whole periods of the drive.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +15,13 @@ namespace grainreel {
 struct FieldTimes {
     static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-    // The times below are in ticks. A tick is a step; where a drive changes, a tick is the same part of
-    // each period as a step is of the first period.
+    // record, first and every are in ticks. A tick is a step; where a drive changes, a tick is the same part
+    // of each period as a step is of the first period.
     std::int64_t record = 1;  // length of a record
-    double first = 0;         // from the start to the first moment
+    double first = 0;         // from step 0 to the first moment
     double every = 1;         // from moment to moment, not always whole: the nearest tick is taken
     std::int64_t end = 0;     // step at which the last record ends, which may be a shorter one
-    std::int64_t phases = 1;  // after so many moments the phase is that of the first again
+    std::int64_t phases = 1;  // number of moments until the drive's phase is that of the first again
     Clock clock = {};
 
     // The first moment, or end of a record, after `step`; kNever after the last one.
@@ -30,7 +31,7 @@ struct FieldTimes {
     bool ends_record(std::int64_t step) const;
     // The first end of a record at or after `step`; kNever after the last one.
     std::int64_t next_end(std::int64_t step) const;
-    // The step where the record began that ends at this step.
+    // The step at which the record began that ends at this one.
     std::int64_t begin_of_record(std::int64_t end_of_it) const;
 
   private:
@@ -57,7 +58,7 @@ struct Rhythm {
 
     Rhythm(double every_steps, double every_periods = 0) : steps(every_steps), periods(every_periods) {}
 
-    // The first step that is nearest to a multiple and not below `step` (which is not negative).
+    // The first step, from `step` (not negative) on, that is nearest to a multiple.
     std::int64_t next(std::int64_t step, const Clock& clock) const {
         if (periods > 0) {
             // The count begins one lower, so that rounding skips none.
@@ -74,10 +75,10 @@ struct Rhythm {
 
 // The clock that goes with a drive: how many steps its periods have, throughout all stages.
 
-// An eighth of a period of the drive's own frequency in steps: `least` or somewhat more. It is the first
-// number with which the periods of all stages are multiples of 8 steps too, and intervals between taps are
-// whole steps. Where there is no such number within a few per cent, it is `least`; then phases lie between
-// steps in some stages.
+// The number of steps in an eighth of a period at the drive's own frequency: `least` or somewhat more. It is
+// the first number for which the periods of all stages are multiples of 8 steps, and intervals between taps
+// are whole steps. If there is no such number within a few per cent, it is `least`; in some stages the
+// eighths of a period then fall between steps.
 double common_eighths(const Drive& drive, double least);
 
 // step is in s, steps_per_period is of the drive's own frequency.

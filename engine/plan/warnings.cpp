@@ -1,5 +1,5 @@
-// Warnings of what will run, but perhaps not as one wishes. What goes wrong in a run without stopping it is
-// said before.
+// Warnings of what will run, but perhaps not as one wishes. What would go wrong in a run without stopping it
+// is said before the run.
 #include "engine/plan/warnings.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +18,7 @@ namespace grainreel {
 namespace {
 
 constexpr double alarming_size_ratio = 10;
-constexpr double rounding =
-    1e-9;  // as a share of decimal numbers: a value exactly at a bound is not beyond it
+constexpr double rounding = 1e-9;  // relative; a decimal number exactly at a bound is not beyond it
 
 double smallest_free_diameter(const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
@@ -57,7 +56,7 @@ void warn_of_drive(const Scene& scene, const Plan& plan, const BedPlan& bed, War
                         "g_level or amplitude",
                         bed.g_level));
     const bool reaches_a_period =
-        drive.frequency * scene.run.duration >= 1;  // else likely_slips() has said it
+        drive.frequency * scene.run.duration >= 1;  // if not, likely_slips() warns of it
     if (reaches_a_period && !is_replaced(drive) && drive.ramp / drive.frequency > scene.run.duration)
         warnings.add("drive.ramp",
                      fmt::format("the drive grows over {:.4g} s, longer than the run of {:.4g} s, and never "
@@ -70,7 +69,7 @@ void warn_of_drive(const Scene& scene, const Plan& plan, const BedPlan& bed, War
 
 // A quick change from one frequency to another shakes harder than either of them.
 void warn_of_changes(const Scene& scene, Warnings& warnings) {
-    constexpr double alarming = 1.2;  // over the larger of the two accelerations
+    constexpr double alarming = 1.2;  // times the larger of the two accelerations
     const Drive& drive = scene.drive;
     if (!drive.present || !drive.changes()) return;
     const DriveSchedule schedule(drive);
@@ -172,7 +171,7 @@ void warn_of_outlet(const Scene& scene, Warnings& warnings) {
 }
 
 void warn_of_short_period(const Scene& scene, Warnings& warnings) {
-    constexpr double kWide = 6;  // diameters, above which a bed hardly knows its images
+    constexpr double kWide = 6;  // diameters; a bed of a longer period hardly feels its images
     const Container& c = scene.container;
     if (!c.periodic_depth) return;
     const Sizes sizes = sizes_of(scene);
@@ -218,11 +217,12 @@ std::vector<std::string> plan_warnings(const Scene& scene, const Plan& plan, con
 namespace {
 
 constexpr double alarming_overlap =
-    0.05;  // over the smaller diameter; 1 % is the usual aim for most contacts
+    0.05;  // as a share of the smaller diameter; 1 % is the usual aim for most contacts
 // docs/reference/stability.md has what each of these costs.
 constexpr double alarming_turn = 0.05;   // as a share of a period that a contact with a moving wall lasts
 constexpr double alarming_flight = 0.2;  // as a share of a diameter that a grain flies while a contact lasts
-constexpr double fewest_last_places = 100;  // as a share of a position, in the overlap of a grain at rest
+constexpr double fewest_last_places =
+    100;  // how many times the rounding of a position the overlap of a grain at rest must be
 
 using Kinds = std::vector<ContactKind>;
 
@@ -238,8 +238,8 @@ double mean_over(const Kinds& kinds, bool at_wall, const Of& of) {
     return shares > 0 ? sum / shares : 0;
 }
 
-// " (0.1 s in most contacts, 0.2 s between "nut" and a wall)", where one kind lasts much longer than the
-// mean.
+// " (0.1 s in most contacts, 0.2 s between "nut" and a wall)" if one kind lasts much longer than the mean;
+// else empty.
 std::string longest_text(const Kinds& kinds, bool at_wall, double mean) {
     constexpr double much = 1.25;
     const ContactKind* longest = nullptr;

@@ -1,5 +1,5 @@
-// A bundle: four or eight doubles that lie together in memory, such as place and radius of a grain. It is
-// held in as many registers as it takes.
+// A bundle: four or eight doubles that lie together in memory, such as the position and radius of a grain. It
+// is held in one register or in several, depending on the instruction set.
 #if defined(GRAINREEL_VECTOR_BUNDLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_BUNDLE_INL
 #undef GRAINREEL_VECTOR_BUNDLE_INL
@@ -74,8 +74,8 @@ HWY_INLINE Bundle<4> bundle_of(double x) {
     for (auto& part : r.part) part = hn::Set(Bundle<4>::D(), x);
     return r;
 }
-// These are put together in registers. Four numbers that are stored one by one and loaded as one would have
-// to wait for the stores.
+// A bundle of four numbers, put together in registers. If they were stored one by one and loaded together,
+// the load would wait for the stores.
 #if HWY_TARGET == HWY_SCALAR
 HWY_INLINE Bundle<4> bundle_of(double a, double b, double c, double d) {
     const Bundle<4>::D one;

@@ -1,5 +1,5 @@
-// Loads bundles of four numbers from any places in memory so that each register has one of the numbers, a
-// lane for each bundle.
+// Loads bundles of four numbers from scattered places in memory into four registers: each register holds one
+// of the four numbers, in one lane for each bundle. Other functions turn registers back into bundles.
 #if defined(GRAINREEL_VECTOR_BUNDLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_BUNDLES_INL
 #undef GRAINREEL_VECTOR_BUNDLES_INL
@@ -93,8 +93,8 @@ HWY_INLINE hn::Vec<D> both_halves(D d, const double* low, const double* high) {
     return hn::Combine(d, hn::Load(half, high), hn::Load(half, low));
 }
 
-// Loads four numbers from each of as many addresses as there are lanes, aligned to 32 bytes. They are not
-// transposed yet.
+// Loads four numbers from each address, of which there is one for each lane, aligned to 32 bytes. They are
+// not transposed yet.
 template <class D>
 HWY_INLINE Four<D> rows_at(D d, const double* const* at) {
     if constexpr (hn::MaxLanes(D()) == 8) {
@@ -141,7 +141,7 @@ HWY_INLINE Four<D> transposed_floats(D d, const Four<D>& r) {
             hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23))};
 }
 
-// The same for bundles of four floats, aligned to 16 bytes.
+// rows_at() for bundles of four floats, aligned to 16 bytes.
 template <class D>
 HWY_INLINE Four<D> rows_at(D d, const float* const* at) {
     return {every_fourth(d, at), every_fourth(d, at + 1), every_fourth(d, at + 2), every_fourth(d, at + 3)};
@@ -194,9 +194,9 @@ HWY_INLINE auto some_of(D, hn::Vec<D> v) {
     }
 }
 
-// As many bundles of four or eight floats as a register has lanes. Those of four are in four registers as
-// transposed_floats() leaves them. Those of eight are in eight registers, where two follow each other for
-// bundles k and k + 4.
+// As many bundles of four or eight floats as a register has lanes. Bundles of four are in four registers as
+// transposed_floats() leaves them. Bundles of eight are in eight registers; registers 2 k and 2 k + 1 share
+// bundles k, k + 4, ...
 template <int size>
 struct FloatRows {
     hn::Vec<Floats> part[size];
@@ -244,7 +244,7 @@ HWY_INLINE FloatRows<8> float_rows_of(const Four<Floats>& f, const Four<Floats>&
              even_blocks(r.c, s.c), odd_blocks(r.c, s.c), even_blocks(r.d, s.d), odd_blocks(r.d, s.d)}};
 }
 
-// The opposite: from bundles into registers.
+// The opposite of load_bundles(): from registers into bundles.
 template <class D>
 HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     const D d;
@@ -273,7 +273,7 @@ HWY_INLINE Rows<4> rows_of(const Four<D>& f) {
     return rows;
 }
 
-// Four numbers and the four after them.
+// The same for bundles of eight: f holds their first four numbers, g the other four.
 template <class D>
 HWY_INLINE Rows<8> rows_of(const Four<D>& f, const Four<D>& g) {
     Rows<8> rows;

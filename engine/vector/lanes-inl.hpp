@@ -23,7 +23,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Doubles = hn::CappedTag<double, 8>;  // as many as the machine has, at most half a block of contacts
+using Doubles = hn::CappedTag<double, 8>;  // as wide as the processor's registers, at most 8
 using Floats = hn::CappedTag<float, 16>;
 
 template <class D>
@@ -100,7 +100,7 @@ struct NumberIn<LanesOf<D>> {
 template <class R>
 using NumberOf = typename NumberIn<R>::type;
 
-// The same for one number.
+// The functions of LanesOf and MaskOf for a plain number.
 template <std::floating_point T>
 HWY_INLINE T select(bool which, T yes, T no) {
     return which ? yes : no;
@@ -152,7 +152,8 @@ HWY_INLINE void store(LanesOf<D> a, hn::TFromD<D>* at) {
     hn::Store(a.value, D(), at);
 }
 
-// The same where memory holds doubles and the register perhaps floats, as many or twice as many.
+// Loads and stores where memory and register may differ in precision. A register of floats has as many lanes
+// as one of doubles, or twice as many.
 template <class D>
 requires(LanesOf<D>::count == kLanes) HWY_INLINE hn::Vec<D> rounded(D d, const double* at) {
     return hn::DemoteTo(d, hn::Load(Doubles(), at));
@@ -223,7 +224,7 @@ struct Triple {
     HWY_INLINE Triple less(const Triple& b, const R& s) const {
         return {less_product(x, b.x, s), less_product(y, b.y, s), less_product(z, b.z, s)};
     }
-    // Its part across the unit vector k.
+    // Its part perpendicular to the unit vector k.
     HWY_INLINE Triple across(const Triple& k) const { return less(k, k.dot(*this)); }
     HWY_INLINE Triple operator-() const { return {-x, -y, -z}; }
     HWY_INLINE Triple& operator+=(const Triple& b) {

@@ -1,5 +1,5 @@
-// Products of triples with the same bits as those of Vec3: nothing is fused, and terms are added in the same
-// order. So code that computes one contact at a time gets the same result.
+// Products of triples that give the same bits as those of Vec3: nothing is fused, and terms are added in the
+// same order. So the kernels agree with code that computes one contact at a time.
 #if defined(GRAINREEL_VECTOR_PLAIN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_PLAIN_INL
 #undef GRAINREEL_VECTOR_PLAIN_INL

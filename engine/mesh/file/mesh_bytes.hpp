@@ -1,5 +1,5 @@
-// Gives the bytes of a mesh file, which lies on disk or is part of the program, and the error messages about
-// them.
+// Gives the bytes of a mesh file, which is on disk or built into the program, and throws the errors about
+// mesh files.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ const std::vector<ShippedMesh>& shipped_meshes();
 // Whether the file's name begins with "shipped:".
 bool is_shipped_mesh(const std::filesystem::path& file);
 
-// The bytes of the mesh that such a name stands for, whatever folder stands before it. Empty for any other
-// name. Throws UserError if the program has no such mesh.
+// The bytes of a shipped mesh by its name; a folder before "shipped:" is ignored. Empty for any other name.
+// Throws UserError if the program has no such mesh.
 std::optional<std::string_view> shipped_mesh(const std::filesystem::path& file);
 
 }  // namespace grainreel

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* known = "give an STL, OBJ or PLY file";
 
-// The size of a binary STL with the count that stands in the file; 0 for files that are too short for one.
+// The size that a binary STL with the file's count of triangles must have; 0 for files that are too short for
+// one.
 struct BinaryStl {
     std::uint64_t triangles = 0, bytes = 0;
 };

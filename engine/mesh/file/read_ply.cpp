@@ -1,5 +1,5 @@
-// Reads the vertices and faces of a PLY file, as text or as bytes of either order. The header of the file
-// describes the numbers behind it.
+// Reads the vertices and faces of a PLY file, as text or as binary numbers of either byte order. The file's
+// header describes the numbers after it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ struct PlyHeader {
     enum class Form { ascii, little_endian, big_endian };
     Form form = Form::ascii;
     std::vector<PlyElement> elements;
-    std::string_view body;       // the bytes behind the header
+    std::string_view body;       // the bytes after the header
     std::int64_t body_line = 1;  // number of the line in which the body begins
     const PlyElement* element(std::string_view name) const {
         for (const PlyElement& element : elements)
@@ -92,8 +92,8 @@ std::optional<PlyType> type_of(std::string_view word) {
     return std::nullopt;
 }
 
-// Reads the header. It throws UserError with the line, also where the rest of the file cannot hold the
-// counts.
+// Reads the header. Throws UserError with the line, also if the rest of the file is too short for the counts
+// in the header.
 class PlyHeaderReader {
   public:
     PlyHeaderReader(const fs::path& file, std::string_view bytes) : file_(file), words_(bytes) {}
@@ -168,7 +168,7 @@ class PlyHeaderReader {
         header_.elements.back().properties.push_back(property);
     }
 
-    // Each number of a text takes at least two bytes, except the last.
+    // Each number of a text takes at least two bytes (a digit and a blank), except the last.
     void check_count(const PlyElement& element) const {
         std::size_t bytes = 0;
         for (const PlyProperty& property : element.properties)

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t head = 84, row = 50,
-                      first_corner = 12;  // bytes; the first corner comes behind the normal
+                      first_corner = 12;  // bytes; the first corner comes after the normal
 
 static_assert(std::endian::native == std::endian::little);
 
