@@ -216,7 +216,7 @@ struct Stamp {
 };
 
 Stamp make_stamp(double reach) {
-    constexpr double kFade = 1.2;  // pixels over which the halo ends
+    constexpr double kFade = 1.2;  // pixels over which the halo fades out
     Stamp stamp;
     stamp.reach = static_cast<int>(std::ceil(reach + 0.5 * kFade));
     for (int y = -stamp.reach; y <= stamp.reach; ++y)
@@ -227,12 +227,11 @@ Stamp make_stamp(double reach) {
     return stamp;
 }
 
-// The halo is so much stronger than the pixel's own alpha, because strokes of small letters are thinner than
-// a pixel and never opaque.
+// The halo's alpha over the pixel's own. It is above 1 because strokes of small letters are thinner than a
+// pixel and never opaque.
 constexpr float kGain = 2.2f;
 
-// The halo's alpha in the part, 0 to 255. Only pixels that are not clear add to it, since most of a surface
-// is clear.
+// The halo's alpha in the part, 0 to 255. Clear pixels, which are most of a surface, are skipped.
 std::vector<float> halo_in(cairo_surface_t* from, const Rectangle& part, const Stamp& stamp) {
     std::vector<float> halo(static_cast<std::size_t>(part.width) * part.height, 0);
     const int r = stamp.reach, wide = cairo_image_surface_get_width(from),

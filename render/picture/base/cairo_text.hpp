@@ -1,6 +1,6 @@
-// Texts on surfaces of Cairo: their sizes by Pango, and the halos and plates that they stand on over a
-// picture. There is no hinting, so that letters neither jump nor depend on the screen. Only files of
-// render/picture may include this header, since Cairo's are not known elsewhere.
+// Draws texts on Cairo surfaces. Pango measures and sets them; halos and plates keep them legible over a
+// picture. Hinting is off, so that letters neither jump nor depend on the screen. Only files of
+// render/picture may include this header, since no other room knows Cairo's headers.
 #pragma once
 
 #include <cairo.h>
@@ -60,7 +60,8 @@ void copy_surface(cairo_surface_t* from, const Rectangle& to, Picture& picture);
 // Copies a part of a surface whose corner lies at (x, y) in the picture.
 void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Picture& picture);
 
-// Words without a background must be legible on whatever lies under them, so they stand on a halo.
+// A soft seam around the letters of words that have no background, so that they are legible on whatever lies
+// under them.
 struct Halo {
     Colour colour;
     double reach = 0;  // pixels beyond the words
@@ -73,16 +74,17 @@ Halo halo_of(const TypeScale& type, const Palette& palette);
 void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const Halo& halo,
                        Picture& picture);
 
-// A box around words, in pixels from the gutter's corner.
+// A box around words, in pixels from the corner of the gutter, the strip of the picture kept for words.
 struct WordBox {
     double x, y, width, height;
 };
 
-// Plates for words that lie over the picture: whole pixels around each box, inside the gutter.
+// The plates behind words that lie over the picture: rectangles of whole pixels around each box, inside the
+// gutter.
 std::vector<Rectangle> plates_around(const std::vector<WordBox>& boxes, const TypeScale& type,
                                      const Rectangle& gutter);
 
-// Paints plates with rounded corners, as strong as the words on them need.
+// Paints plates with rounded corners, opaque enough for the words on them to be read.
 void paint_plates(cairo_t* on, const std::vector<Rectangle>& plates, const TypeScale& type,
                   const Palette& palette);
 

@@ -17,7 +17,7 @@ struct Paint {
     double alpha = 1;
 };
 
-// Pixels: the pen of marks over the grains, by which their widths are counted.
+// Pixels: the unit in which the widths of marks over the grains are given.
 inline double mark_pen(int picture_height) {
     return std::max(1.0, picture_height / 540.0);
 }

@@ -15,7 +15,8 @@
 
 namespace grainreel {
 
-// How many values have had colours in pictures, and how many of them lie beyond an end of the bar.
+// Counts the values that pictures have shown as colours, and those of them beyond either end of the colour
+// bar.
 struct ClippedCount {
     std::int64_t all = 0, below = 0, above = 0;
     void take(double value, const std::array<double, 2>& range) {
@@ -27,7 +28,7 @@ struct ClippedCount {
 };
 
 // "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where no value lies beyond an end. of:
-// what has the colours, "grains".
+// the things that are coloured, such as "grains".
 std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of);
 
 // The same for the triangles of meshes: "walls by wear: ...".
@@ -36,7 +37,7 @@ std::string clipped_words(const FilmWalls& walls, const ClippedCount& count);
 class ColourScale {
   public:
     explicit ColourScale(const GrainColouring& colouring);
-    explicit ColourScale(const FilmWalls& walls);  // whose colour is not plain
+    explicit ColourScale(const FilmWalls& walls);  // for walls that are coloured by a quantity
 
     // The sRGB colour of a value (SI). Beyond the range it is the colour of the nearer end.
     Colour at(double value) const { return at_share(share_of(value)); }
@@ -49,7 +50,7 @@ class ColourScale {
     bool logarithmic() const { return logarithmic_; }
     double low() const { return range_[0]; }  // SI
     double high() const { return range_[1]; }
-    // Whether there can be values beyond an end. The end then also stands for them.
+    // Whether there can be values beyond an end. The colour at the end then also stands for them.
     bool open_below() const { return signed_ || low() > 0; }
     bool open_above() const { return true; }
     double unit_size() const { return unit_size_; }      // SI value of one unit as shown

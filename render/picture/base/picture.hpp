@@ -22,8 +22,8 @@ struct Picture {
     // width * height * 4 bytes without padding. Colours are not multiplied by alpha, which is 255 except in
     // films with a transparent background.
     std::vector<std::uint8_t> rgba;
-    // Pictures with the same number have the same `moving`, and outside of it the same pixels. 0: nothing is
-    // known.
+    // The number of the part that stands still: pictures with the same number have the same rectangles
+    // `moving`, and outside these the same pixels. 0: nothing is known.
     std::uint64_t still = 0;
     std::vector<Rectangle> moving;
 
@@ -35,7 +35,7 @@ struct Picture {
     }
 };
 
-// Makes plain colours, as pictures have them, of colours multiplied by alpha, as layers have them.
+// Turns colours multiplied by alpha, which layers have, into plain colours, which pictures have.
 void divide_by_alpha(Picture& picture, const Rectangle& port);
 
 // Sizes of letters and gaps, pixels.
@@ -87,8 +87,8 @@ inline double contrast(const Colour& a, const Colour& b) {
     return x > y ? x / y : y / x;
 }
 
-// The colours of everything that is not a grain. They follow from the background alone, so that they can be
-// read on light and dark ones.
+// The colours of everything that is not a grain. They are computed from the background, so that they can be
+// read on light and on dark ones.
 struct Palette {
     Colour background, ink, faint_ink, solid, accent;
     Colour force;       // lines between grains, and arrows at one grain
@@ -111,15 +111,15 @@ inline Palette make_palette(const Colour& background) {
     return palette;
 }
 
-// Without a background no words are faint, because grey words on a halo may be lost on whatever lies below.
+// In a film without a background no words are faint: grey words on a halo may be lost on what lies below.
 inline Palette palette_of(const Film& film) {
     Palette palette = make_palette(film.background);
     if (film.transparent) palette.faint_ink = palette.ink;
     return palette;
 }
 
-// The least strength of a plate of the background's colour at which all words on it have a contrast of 4.5,
-// whatever is under it; 1 when no strength is enough.
+// The least alpha of a plate of the background's colour at which all words on it have a contrast of 4.5 (and
+// a little more, for rounding), whatever is under the plate; 1 when no lower alpha is enough.
 inline double plate_strength(const Palette& palette) {
     for (double strength = 0.7; strength < 1; strength += 0.01) {
         bool reads = true;

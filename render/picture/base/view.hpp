@@ -1,5 +1,5 @@
-// The camera at one moment: from metres to pixels of the port, the part of the picture that shows the
-// container.
+// The camera at one moment, which projects metres to pixels of the port (the part of the picture that shows
+// the container), and how far it must stand away so that everything is in the picture.
 #pragma once
 
 #include <vector>
@@ -68,7 +68,8 @@ class Framing {
     const bool orthographic_;
     const double half_width_, half_height_, focal_;
     double farthest_aside_ = 0, back_aside_ = 0, reach_ = 0;  // m
-    // m: the extremes of y; in perspective those of y - k z and y + k z.
+    // m: the extremes of y; in perspective those of y - k z and y + k z, with k the slope of the frustum's
+    // side.
     double highest_ = -1e300, lowest_ = 1e300;
 };
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
 
-// degrees: between samples that are this near, the outline of what turns differs from its largest by less
-// than 1e-5 of its size.
+// degrees between the directions of an orbit that are sampled for the framing. Between two of them the
+// outline exceeds what they show by less than 1e-5 of its size.
 constexpr double sample_angle = 0.5;
 constexpr int key_samples = 720;
 
@@ -134,8 +134,8 @@ double CameraPath::least_depth(const std::vector<Vec3>& points) const {
     return least;
 }
 
-// The track through the keys that give a value. Where the first key gives none, it begins at `at_first`.
-// There is no track where no key gives a value.
+// The track of one quantity, through the keys that give a value for it. If the first key gives none, the
+// track begins at `at_first`. If no key gives one, there is no track.
 template <class Value>
 CameraPath::Track CameraPath::track(double at_first, Value value) const {
     std::vector<double> times, values;

@@ -18,9 +18,9 @@
 namespace grainreel {
 namespace {
 
-constexpr double almost_all =
-    0.88;  // as a share of the container's height: a part that is higher is not worth a cut
-constexpr double steepest = 60;  // degrees, of a camera that may leave the upper part out
+// As a share of the container's height. Where the part is higher than that, the whole container is shown.
+constexpr double almost_all = 0.88;
+constexpr double steepest = 60;  // degrees: a camera that looks down more steeply shows the whole container
 
 double upward(const FilmedScene& scene) {
     return std::abs(scene.drive.direction.z());

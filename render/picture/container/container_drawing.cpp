@@ -72,8 +72,8 @@ void draw_container(const FilmedScene& scene, const Views& views, const Frame& f
     if (scene.film.wall_ghost) draw_ghost(scene, sketches.lab, shapes.over);
 }
 
-// Free walls are planes. The piece of each plane is drawn that lies in the container, or without a container
-// in the box of everything that the camera looks at.
+// Free walls are planes. Of each plane the piece inside the container is drawn; without a container, the
+// piece inside the box of everything that the camera looks at.
 
 namespace {
 
@@ -165,7 +165,7 @@ void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const 
 
 namespace {
 
-constexpr double begins_at = 0.5;  // share of the way out, from the floor on; there the fade begins
+constexpr double begins_at = 0.5;  // share of the way from the floor to the exit at which the fade begins
 constexpr double least_rows = 4;
 
 // Pixels from the top: the lowest point that the floor's plate reaches in the course of the film.

@@ -40,8 +40,8 @@ struct ContainerShapes {
     Shapes over;              // painted over everything
 };
 
-// The camera as it is before it follows anything, and as it is now. moves: whether it moves in the course of
-// the film.
+// The camera's view before it follows anything (at_rest) and in the present frame (now). moves: whether the
+// camera moves in the course of the film.
 struct Views {
     View at_rest, now;
     bool moves = false;

@@ -14,7 +14,8 @@ namespace grainreel {
 
 namespace {
 
-// The sine of the angle to each side of a change over which one look becomes another for a camera that moves.
+// For a camera that moves, glass becomes solid, and far becomes near, over 8 degrees on each side of the
+// place where they change. This is the sine of that angle.
 const double fade = std::sin(8 * std::numbers::pi / 180);
 
 }  // namespace

@@ -50,9 +50,9 @@ class Sketch {
         return turned_ ? Vec3(rotation_.conjugate() * in_lab) : in_lab;
     }
     bool is_turned() const { return turned_; }
-    // How solid a part looks, from 0 for glass to 1. It depends on where the eye is when everything is at
-    // rest, or a part whose plane the eye crosses would blink once a period. The order of painting, however,
-    // depends on the present. For a camera that moves, glass becomes solid over some degrees.
+    // How solid a part looks, from 0 for glass to 1. This is decided for the container at rest; otherwise a
+    // part whose plane the eye crosses would blink once a period. The order of painting, however, depends on
+    // the present frame. For a camera that moves, glass becomes solid over some degrees.
     double solid(const Vec3& point, const Vec3& normal) const;
     // How much the end at positive x is the near one: 1, 0, or in between while near and far change places.
     double positive_end_is_near() const;

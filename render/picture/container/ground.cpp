@@ -244,7 +244,8 @@ Rectangle Ground::where() const {
     return {from.x(), from.y(), std::max(0, to.x() - from.x()), std::max(0, to.y() - from.y())};
 }
 
-// Where a pixel's line of sight meets the ground: (u, v, w), linear in x and y, for the cell u/w, v/w.
+// Where a pixel's line of sight meets the ground: the cell (u/w, v/w) of the map. The result (u, v, w) is
+// linear in x and y.
 Vec3 Ground::seen_at(double x, double y) const {
     const Vec3 beside = ((x - 0.5 * width_) * view_.right + (0.5 * height_ - y) * view_.up) / view_.focal;
     const Vec3 from = view_.orthographic ? Vec3(view_.eye + beside) : view_.eye;

@@ -53,7 +53,7 @@ void Context::check_version() const {
 
 void set_raster_threads(int raster_threads) {
     GRAINREEL_CHECK(raster_threads >= 1);
-    // With 0 Mesa rasterises on the calling thread itself; that is meant by one thread here.
+    // Mesa takes 0 as "rasterise on the calling thread itself", which is what one thread means here.
     const std::string threads = std::to_string(raster_threads == 1 ? 0 : raster_threads);
     setenv("LP_NUM_THREADS", threads.c_str(), 1);
 }

@@ -106,7 +106,7 @@ class Context {
 
     const Functions& gl() const { return functions_; }
     std::string description() const;  // "EGL: ", then vendor, renderer and version
-    // Why this is not the expected kind of context; mostly empty.
+    // Why this is not the kind of context that one would expect; empty if it is.
     const std::string& note() const { return note_; }
     void set_note(std::string note) { note_ = std::move(note); }
 
@@ -123,9 +123,9 @@ class Context {
     std::string note_;
 };
 
-// raster_threads >= 1: threads of Mesa's software rasteriser. It reads the number once a process, at the
-// first context, and later values have no effect. All of these throw RunError when there is no library or no
-// context.
+// The functions below make contexts, and throw RunError when there is no library or no context.
+// raster_threads >= 1: threads of Mesa's software rasteriser. Mesa reads this number once in a process, for
+// the first context; later values have no effect.
 
 // Mesa's software rasteriser through libOSMesa, opened at run time.
 std::unique_ptr<Context> make_osmesa_context(int raster_threads);

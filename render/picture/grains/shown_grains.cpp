@@ -77,7 +77,7 @@ const Frame& ShownGrains::of(const Frame& frame) {
     return shown_;
 }
 
-// From here on are the quantities that colour grains, grain by grain, and the albedo that follows from them.
+// The rest of the file computes the quantity of each grain, and from it the grain's albedo.
 
 namespace {
 

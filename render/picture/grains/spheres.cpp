@@ -1,5 +1,5 @@
-// Takes the grains of a frame into view coordinates, with glued grains, cuts, poles and paints, for the layer
-// of lit spheres.
+// Takes the grains of a frame into view coordinates for the layer of lit spheres, with the glued grains, the
+// planes of the cut, the poles that show rotation, and which grains are painted.
 #include "render/picture/grains/spheres.hpp"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ Lamp lamp_of(const FilmLook& look, bool colours_are_read) {
         lamp.rim = 0.85f;
         lamp.shine = 0.20f;
     }
-    if (colours_are_read && look.style != FilmLook::Style::flat) {  // changes colours half as much
+    if (colours_are_read && look.style != FilmLook::Style::flat) {  // light changes colours half as much
         lamp.key = 0.45f;
         lamp.sky = 0.50f;
         lamp.ground = 0.35f;

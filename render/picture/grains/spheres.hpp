@@ -60,10 +60,11 @@ class SpherePainter {
 
     const ClippedCount& clipped() const { return grain_colours_.clipped(); }
 
-    // These four are called in this order.
+    // For each frame these are called in this order: take(), find_visible(), find_order(), find_neighbours(),
+    // light().
     void take(const View& view, const Frame& frame);
     void find_visible(const SolidDepth& solid = {});
-    // Sight and cut for the frame that is taken.
+    // The lines of sight and the cut of the frame that was taken.
     const Sight& sight() const { return sight_; }
     const Cut& cut() const { return cut_; }
     const Visibility& visibility() const { return layer_.visibility(); }

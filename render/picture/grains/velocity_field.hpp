@@ -1,5 +1,5 @@
-// The mean velocity of the grains in the y-z plane, over the whole depth, at the picture's moment or over the
-// last period of the drive. It is momentum over mass by coarse-graining, as in fields.nc
+// The mean velocity of the grains in the y-z plane, averaged over the whole depth, at the picture's moment or
+// over the last period of the drive. It is momentum divided by mass, both coarse-grained as in fields.nc
 // (engine/measure/fields).
 #pragma once
 
@@ -16,9 +16,9 @@ namespace grainreel {
 // and cells as fine as `finest` (m), but not more cells than a picture has use for.
 FieldOutput picture_fields(const FilmedScene& scene, double width, double finest);
 
-// What coarse-graining takes of a frame: places relative to the container, and velocities in the lab. period:
-// displacements over a period take the place of velocities. Then grains that were not there a period before
-// are left out, and so are all grains while the frame has no displacements.
+// The values of a frame that are coarse-grained: places relative to the container, and velocities in the lab.
+// period: displacements over a period take the place of velocities. Grains that were not there a period
+// before are then left out, and all grains while the frame has no displacements.
 FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period);
 
 class VelocityField {

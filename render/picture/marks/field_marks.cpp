@@ -15,7 +15,7 @@ namespace grainreel {
 namespace {
 
 constexpr double strength = 0.8;   // alpha of the layer; the grains are seen through it
-constexpr double full_from = 0.3;  // from this solid fraction on the layer has its full strength
+constexpr double full_from = 0.3;  // solid fraction at and above which the layer has its full strength
 
 // The kernel is wider than the kernel of fields in files, since this field shows a single moment. The cells
 // are finer, for the eye.
@@ -123,11 +123,12 @@ std::vector<StreamPoint> streamline(const PlaneVelocity& velocity, const PlanePo
 
 namespace {
 
-constexpr double longest_arrow = 1.5;            // cells
-constexpr double streamline_reach = 1.5;         // distances between seeds, to either side of the seed
-constexpr double slow = 0.1;                     // share of the speed of full width; slower lines fade out
-constexpr double thin = 0.6, thick = 2;          // widths of lines, pens
-const double side_over_width = std::sqrt(12.0);  // side of a square over its spread along that side
+constexpr double longest_arrow = 1.5;     // cells
+constexpr double streamline_reach = 1.5;  // distances between seeds, to either side of the seed
+constexpr double slow = 0.1;  // share of the speed at which lines have full width; slower lines fade out
+constexpr double thin = 0.6, thick = 2;  // widths of lines, in pens (mark_pen())
+// The side of a square divided by the standard deviation of its points along that side.
+const double side_over_width = std::sqrt(12.0);
 
 // m: the kernel is as wide as an arrow's cell, and no narrower than half a grain.
 double arrow_kernel(const FilmedScene& scene) {
@@ -193,7 +194,7 @@ void FlowMarks::draw_arrows(const View& view, const Frame& frame, Shapes& on) co
         }
 }
 
-// Seeds stand still in a staggered grid, so that the lines change as gently as the flow.
+// The seeds stay at the places of a staggered grid, so that the lines change as gently as the flow.
 void FlowMarks::draw_streamlines(const View& view, const Frame& frame, Shapes& on) const {
     const double side = seed_distance(scene_);
     const Extent extent = extent_of(scene_);

@@ -1,4 +1,4 @@
-// Marks that show fields of the grains by coarse-graining (engine/measure/fields): a coloured layer of a
+// Marks that show coarse-grained fields of the grains (engine/measure/fields): a coloured layer of a
 // quantity, and arrows and streamlines of the mean velocity.
 #pragma once
 
@@ -40,7 +40,7 @@ class FieldLayer {
     Quantities quantities_;
     ColourScale scale_;
     ClippedCount clipped_;
-    // For each cell: solid fraction, kg/m3, and kg/m3 times the mean.
+    // For each cell: solid fraction, density (kg/m3), and density times the mean of the quantity.
     std::vector<double> solid_, mass_, sum_;
 };
 
@@ -53,8 +53,8 @@ struct StreamPoint {
 };
 
 // A piece of a streamline through `seed`, up to `reach` (m) on either side of it; it is shorter where the
-// field ends or stands still, and empty where the seed has no velocity. Its points are `step` (m) apart, by
-// the fourth order method of Runge and Kutta in arc length.
+// field ends or stands still, and empty where the seed has no velocity. Its points are `step` (m) apart,
+// found by the fourth order method of Runge and Kutta in arc length.
 std::vector<StreamPoint> streamline(const PlaneVelocity& velocity, const Eigen::Vector2d& seed, double reach,
                                     double step);
 
@@ -62,7 +62,8 @@ std::vector<StreamPoint> streamline(const PlaneVelocity& velocity, const Eigen::
 double arrow_cell(const FilmedScene& scene);
 // m: the length of an arrow for each m/s.
 double arrow_scale(const FilmedScene& scene);
-// Pixels: the width of a streamline where the flow has the speed of full width or more.
+// Pixels: the full width of a streamline, which it has where the flow is as fast as the film's scale or
+// faster.
 double widest_streamline(int picture_height);
 
 // Arrows and streamlines of the mean velocity.

@@ -15,9 +15,10 @@ namespace grainreel {
 namespace {
 
 constexpr double longest = 0.14;         // share of the smaller side of the port
-constexpr double shortest = 9;           // pens
+constexpr double shortest = 9;           // pens (mark_pen())
 constexpr double thin = 1.6, thick = 3;  // pens, of shafts
-constexpr double along_sight = 0.25;     // seen share of the length in space; below it arrows are circles
+constexpr double along_sight =
+    0.25;  // least share of an arrow's length that is seen; below it a circle stands
 
 constexpr double room = 10;  // pens: least distance from a grain's centre to the ends of arrows
 
@@ -122,7 +123,7 @@ double wall_force_scale(const FilmedScene& scene) {
     return usual_arrow * extent_of(scene).size().y() / scene.film.shows.wall_forces.scale;
 }
 
-// A moment M = r x F does not tell where r lies along F: r = F x M / F^2 + s F.
+// The moment M = r x F leaves the place along F open: r = F x M / F^2 + s F. The plane gives s.
 std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const Vec3& moment) {
     const double across = force.dot(plane.normal);
     if (!(std::abs(across) >= grazing * force.norm()) || force.isZero(0)) return std::nullopt;

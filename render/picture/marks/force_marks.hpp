@@ -43,15 +43,15 @@ double longest_force_arrow(const View& view);
 // away from its centre. The arrow of a force along the line of sight has a length near 0.
 struct ForceArrow {
     Pixel tail, tip;
-    double share;     // over the strongest force
+    double share;     // the force divided by the strongest force
     bool at_eye;      // the force points towards the eye
     double in_space;  // pixels: the arrow's length if it lay across the line of sight
 };
 std::vector<ForceArrow> force_arrows(const View& view, const std::vector<PointForce>& forces, double pen);
 
-// Draws forces on a body, each as an arrow at the point where it acts. A force along the line of sight is a
-// circle, with a point where it comes towards the eye and a cross where it goes away. pen: pixels, of the
-// border.
+// Draws forces on a body, each as an arrow at the point where it acts. A force along the line of sight is
+// drawn as a circle, with a point in it if the force is towards the eye and a cross if it is away from the
+// eye. pen: pixels, of the border.
 void draw_point_forces(const View& view, const std::vector<PointForce>& forces, const Palette& palette,
                        double pen, Shapes& on);
 

@@ -1,4 +1,4 @@
-// Trails, lines of force and rings, in which order all marks are drawn, and the legend that explains them.
+// Draws trails, lines of force and rings; sets the order in which all marks are drawn; writes their legend.
 #include "render/picture/marks/marks.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +65,8 @@ std::vector<std::vector<Trails::Point>> Trails::paths() const {
 
 namespace {
 
-constexpr double weakest_force = 0.02;  // as a share of the widest line's force; weaker forces are left out
+// As a share of the force at which a line has its full width. Weaker forces are left out.
+constexpr double weakest_force = 0.02;
 
 }  // namespace
 
@@ -173,8 +174,6 @@ void Marks::draw_ring(const View& view, const Vec3& at, double grain_radius, dou
     const double radius = grain_radius * view.pixels_per_metre(at) + 2.5 * pen_;
     outlined(on, circle_corners(middle, radius, corners), true, 2 * pen_, palette_.accent, strength);
 }
-
-// The legend explains the marks over the grains.
 
 namespace {
 

@@ -20,7 +20,7 @@
 
 namespace grainreel {
 
-// Where chosen grains have been in the last frames.
+// The paths of chosen grains through the last frames.
 class Trails {
   public:
     explicit Trails(const FilmedScene& scene);
@@ -63,7 +63,7 @@ class Marks {
 
     // See Renderer.
     void start_from(const Frame& frame);
-    // Takes a frame for the trails that is not drawn.
+    // Takes a frame that is not drawn but belongs to the trails.
     void remember(const Frame& frame);
     // The share of a grain of the frame that is seen.
     using SeenShare = std::function<double(std::size_t grain)>;

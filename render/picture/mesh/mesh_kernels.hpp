@@ -17,7 +17,7 @@ constexpr float kSampleY[kMeshSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
 // How near a point is: 1/z in perspective, -z with an orthographic camera. Both are linear in the picture.
 constexpr float kNowhereNear = -std::numeric_limits<float>::infinity();
 
-// value = at + x (px - px0) + y (py - py0), between low and high.
+// A value that is linear in the picture: at + x (px - px0) + y (py - py0), but not outside low to high.
 struct ScreenPlane {
     float at = 0, x = 0, y = 0;
     float low = 0, high = 0;
@@ -31,9 +31,9 @@ struct ScreenTriangle {
         float least;
     };
     Edge edge[3];
-    float x = 0, y = 0;  // one corner, from which the planes count
+    float x = 0, y = 0;  // one corner: px0 and py0 of the planes
     ScreenPlane near, shade;
-    float colour[3], brighter[3];        // 0 to 255: colour at shade 0, and what shade 1 adds to it
+    float colour[3], brighter[3];        // 0 to 255: colour at shade 0, and the rise to that at shade 1
     float tint = 0;                      // thickness of glass, in panes seen straight on
     std::uint32_t number = 0;            // number of its plane in MeshProjection, from 1 on
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels that it may touch; high ends excluded
@@ -41,10 +41,10 @@ struct ScreenTriangle {
 
 // Rows of a band, `stride` numbers each. Up to 15 pixels past the end of a row may be read and written.
 struct MeshRows {
-    float* near[kMeshSamples];            // nearness at the samples of what is nearest so far
+    float* near[kMeshSamples];            // the greatest nearness so far, at each sample
     std::uint32_t* colour[kMeshSamples];  // opaque
     float* near_middle;                   // nearness in the middle of the pixel
-    std::uint32_t* number;                // triangle that is seen there
+    std::uint32_t* number;                // the triangle that is seen there (ScreenTriangle::number)
     std::size_t stride;
     int first_row;  // number of the row in the picture
 };
@@ -58,7 +58,7 @@ struct GlassRows {
 };
 
 struct MeshKernels {
-    // Rows y0 to y1 (excluded) of the picture, which lie in the band.
+    // Draw a triangle in rows y0 to y1 (excluded) of the picture, which lie in the band.
     void (*solid)(const ScreenTriangle&, const MeshRows&, int y0, int y1);
     void (*glass)(const ScreenTriangle&, const GlassRows&, int y0, int y1);
     // Takes the mean of the samples of a row: colours multiplied by alpha, and z of the pixel's middle, which
@@ -72,7 +72,8 @@ struct MeshKernels {
 };
 const MeshKernels& mesh_kernels();
 
-// These give the alpha of glass by its thickness in panes: 0.05 for one pane, and never more than 0.25.
+// Constants of the alpha of glass as a function of its thickness in panes: 0.05 for one pane, and 0.25 at
+// most.
 constexpr float kMostTint = 0.25f, kPaneShare = 0.25f;
 
 }  // namespace grainreel

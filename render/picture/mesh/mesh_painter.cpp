@@ -16,14 +16,14 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr int kPad = 64;     // numbers after a row that kernels may write to
-constexpr float kApart = 3;  // pixels, of depth: samples that lie farther apart may have grains between them
+constexpr float kApart = 3;  // in depth, but in pixels: between samples farther apart there may be grains
 constexpr float kOnThePlane = 1;  // pixels by which a line may lie behind a plane and still count as on it
 
 float depth_of(const Sight& sight, float near) {
     return sight.orthographic ? -near : 1 / near;
 }
 
-// What one sample adds to a pixel: a quarter of an opaque one.
+// A quarter of an opaque colour, which is what one sample adds to a pixel.
 std::uint32_t quarters(std::uint32_t opaque) {
     return scaled(opaque, 64);
 }
@@ -35,7 +35,7 @@ std::uint32_t sum_of(std::uint32_t a, std::uint32_t b) {
     return sum;
 }
 
-// The colour of a pixel's rest when the share `taken` of 255 has been taken away from the pixel.
+// The colour of the rest of a pixel when the share taken/255 of it has been taken away.
 std::uint32_t in_the_rest(std::uint32_t pixel, std::uint32_t taken) {
     if (taken >= 255) return 0;
     std::uint32_t out = 0;
@@ -260,7 +260,7 @@ void MeshPainter::draw_line(const ScreenLine& line, int y0, int y1, const Job& j
     }
 }
 
-// Lays solid pixels again over the outlines of grains that were drawn over them though the solid is nearer.
+// Paints solid pixels again where the outline of a grain covers them although the solid is nearer.
 void MeshPainter::bring_forward(int y, const Job& job, Worker& worker, const Columns& columns) {
     if (columns.empty()) return;
     const Visibility& seen = job.seen;

@@ -42,8 +42,8 @@ class MeshPainter {
 
   private:
     static constexpr int kBand = MeshProjection::kBand;
-    // A pixel whose samples are not alike. Some of them are nearer, and the others are farther away by a
-    // step.
+    // A pixel that shows two surfaces, one of which is nearer by a step: some samples see the nearer one, and
+    // the others the farther one.
     struct Mixed {
         int x, y;
         std::uint32_t near, far;    // colours, multiplied by the share of the samples
@@ -61,7 +61,7 @@ class MeshPainter {
         Columns solid, over;  // columns that were drawn last
         std::vector<Mixed> mixed;
     };
-    // Rows of a band, of one thread.
+    // The rows of the band on which one thread works.
     struct Worker {
         std::vector<float> near[kMeshSamples], near_middle;
         std::vector<std::uint32_t> colour[kMeshSamples];

@@ -123,7 +123,7 @@ void MeshProjection::take_mesh(const DrawnMesh& mesh, Team& team) {
     add_sections(shares);
 }
 
-// Joins the shares in the order of the members, which is also the order of the triangles.
+// Joins the shares in the order of the threads, which is also the order of the triangles.
 void MeshProjection::join(std::vector<Share>& shares) {
     for (Share& share : shares) {
         const auto first = static_cast<std::uint32_t>(planes_.size());
@@ -231,7 +231,7 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
     }
 }
 
-// A number above 0 where the front of the smooth surface turns to the eye.
+// A number that is above 0 where the front of the smooth surface faces the eye.
 float MeshProjection::towards_eye(const MeshShape& shape, std::int32_t triangle, std::size_t corner) const {
     const auto t = static_cast<std::size_t>(triangle);
     const Eigen::Vector3f normal = turn_ * shape.corners[t][corner];
@@ -256,7 +256,7 @@ void MeshProjection::add_edge(const MeshShape& shape, const MeshShape::Edge& edg
     const Seen* right = edge.right >= 0 ? &seen_[static_cast<std::size_t>(edge.right)] : nullptr;
     if (left.face == Face::unseen && (!right || right->face == Face::unseen)) return;
     if (!edge.feature && !is_outline(shape, edge)) return;
-    float turned = 0;  // cosine of the solid face that turns to the eye most
+    float turned = 0;  // cosine of the solid face that faces the eye most directly
     bool glass = true;
     for (const Seen* one : {&left, right}) {
         if (!one || one->face != Face::solid) continue;

@@ -1,5 +1,5 @@
 // Meshes as the camera sees them at one moment: triangles, solid or of glass, and the lines along their
-// edges, in pixels and sorted into bands of rows. The file is hot.
+// edges, in pixels and sorted into bands of rows. Hot code.
 #pragma once
 
 #include <array>
@@ -30,13 +30,13 @@ struct MeshPaints {
     float pen = 1;                   // pixels, the width of a main line
 };
 
-// The section where a cut opens the material of a mesh: the area inside an odd number of its outlines.
+// The surface where a cut opens the material of a mesh: the area inside an odd number of its outlines.
 struct MeshSection {
     struct Edge {
         float x0, y0, x1, y1;  // pixels
     };
     std::vector<Edge> edges;
-    ScreenPlane near;                    // counts from pixel (0, 0)
+    ScreenPlane near;                    // px0 and py0 are 0
     std::uint32_t number = 0;            // as ScreenTriangle::number
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels; high ends excluded
 };
@@ -55,7 +55,7 @@ class MeshProjection {
         float distance;
     };
     const Plane& plane(std::uint32_t number) const { return planes_[number - 1]; }
-    // Numbers of what lies in each band of rows, rising.
+    // For each band of rows, the numbers of the triangles and lines in it, rising.
     struct Band {
         std::vector<std::uint32_t> solid, glass, lines;
     };
@@ -97,12 +97,12 @@ class MeshProjection {
     Seen look_at(const MeshShape& shape, std::size_t t) const;
     float lit(const Eigen::Vector3f& normal) const;
 
-    // The moment that was given last.
+    // What take() was given last.
     Sight sight_;
     DrawnSpace space_;
     PortSize port_{1, 1};
     MeshPaints paints_;
-    Eigen::Matrix3f turn_;  // turns the mesh at hand from rest into the view
+    Eigen::Matrix3f turn_;  // turns directions of the mesh at hand from its place at rest into the view
     Eigen::Vector3f up_;    // where the light of the sky comes from, in the view
     std::vector<Eigen::Vector3f> vertices_;
     std::vector<char> whole_;  // for each vertex: whether it is within the drawn space

@@ -77,7 +77,8 @@ bool go_round(const Surface& surface, const EdgeFlags& features, std::int32_t st
     return false;
 }
 
-// Gives each corner the mean of the normals around it, up to the next feature edges.
+// Gives each corner of a triangle the mean of the normals around its vertex, as far as the next feature
+// edges.
 void add_corner_normals(const Surface& surface, const EdgeFlags& features, MeshShape& shape) {
     shape.corners.resize(shape.triangles.size());
     for (std::int32_t t = 0; t < surface.size(); ++t)

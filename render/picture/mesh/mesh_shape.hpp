@@ -12,8 +12,8 @@
 
 namespace grainreel {
 
-// A vessel shows its inner side solid and is glass from outside. An insert is solid from both sides.
-// automatic: the share of the surface that encloses something decides.
+// vessel: solid where it is seen from inside, glass from outside. solid: from both sides, as for an insert.
+// automatic: one of these, by the share of the surface that encloses something.
 enum class MeshLook { automatic, vessel, solid, glass };
 
 struct MeshShape {
@@ -22,7 +22,7 @@ struct MeshShape {
         std::int32_t left, right;                // triangles; right is -1 at an open edge
         std::uint8_t left_corner, right_corner;  // for each triangle, its corner that is not on the edge
         bool feature;  // drawn wherever it is seen; other edges only as part of an outline
-        bool rippled;  // its triangle stands for a part of a twisted surface
+        bool rippled;  // at a triangle that stands for a part of a twisted surface (mesh_shape.cpp)
     };
     // How a triangle looks from the side that its normal points to, and from the other side. Where material
     // fills a closed surface, it is on the unseen side.
@@ -49,8 +49,9 @@ std::vector<std::int32_t> smooth_patches(const Surface& surface, double edge_ang
 // rad: the angle between the planes of a triangle and its neighbour across an edge.
 double turn_of(const Surface& surface, std::int32_t triangle, const Neighbour& neighbour);
 
-// The sides of each triangle: which of them look into something that the mesh encloses, and which look out. A
-// few rays from each patch tell which share of a side's view is surface of the mesh.
+// How both sides of each triangle look, which depends on whether they look into something that the mesh
+// encloses or out of it. A few rays from each patch tell how much of a side's view is filled by the mesh
+// itself.
 std::vector<MeshShape::Sides> find_sides(const Surface& surface, double edge_angle, MeshLook look);
 
 }  // namespace grainreel

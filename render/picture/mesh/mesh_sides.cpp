@@ -1,5 +1,5 @@
 // Finds which sides of a mesh look into something that it encloses (find_sides() of mesh_shape.hpp), by rays
-// from some places.
+// from places on its surface.
 #include "render/picture/mesh/mesh_shape.hpp"
 
 #include <algorithm>
@@ -19,13 +19,14 @@ constexpr int kRays = 12;              // rays to each side of a place
 constexpr std::size_t kPlaces = 4000;  // places that rays start from, at most
 constexpr std::size_t kPlacesOfPatch = 8;
 
-// A side looks into a room when at least this share of what it sees is surface. The second share is for
-// meshes that are not said to be vessels.
+// A side looks into an enclosed space (a room) when at least this share of its rays meets the surface. The
+// second share is for meshes that are not said to be vessels.
 constexpr double kEnclosed = 0.5, kSurelyEnclosed = 0.6;
-// How much more one side of an open sheet must see than the other.
+// How much more of the surface one side of an open sheet must see than the other side.
 constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
-constexpr double kHoldsRoom = 0.5,
-                 kInRoom = 0.9;       // shares of a closed part: the room is within it, or around it
+// A closed part is the sheet around a vessel's room, or a body in that room, when at least this share of it
+// borders on the room.
+constexpr double kHoldsRoom = 0.5, kInRoom = 0.9;
 constexpr double kShellShare = 0.15;  // share of the area of thick walls that looks into the room
 
 // Directions around z, weighted by the cosine, as a matt surface takes its light.
@@ -40,11 +41,11 @@ std::array<Vec3, kRays> make_directions() {
     return directions;
 }
 
-// What the rays from one patch, or from one connected part, have seen.
+// Sums over the rays from one patch, or from one connected part.
 struct Seen {
     double area = 0;                       // m2, of all triangles
     double weight = 0;                     // sum of the weights of the places
-    double front = 0, back = 0;            // sums of weight times the share that is surface
+    double front = 0, back = 0;            // sums of weight times the share of rays that meet the surface
     double room_front = 0, room_back = 0;  // weights of the places that the vessel's room lies beside
     double front_share() const { return weight > 0 ? front / weight : 0; }
     double back_share() const { return weight > 0 ? back / weight : 0; }
@@ -272,7 +273,7 @@ class SideFinder {
     std::vector<std::size_t> part_of_patch_;
     std::vector<Seen> patch_seen_, part_seen_;
     std::vector<char> part_closed_, visible_front_;
-    // For each part: how many closed parts are around each side.
+    // For each part: how many closed parts enclose each of its sides.
     std::vector<int> around_front_, around_back_;
     std::optional<EnclosedRoom> room_;  // room of a vessel with closed parts
 };

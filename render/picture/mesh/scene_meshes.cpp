@@ -85,7 +85,7 @@ MeshPainter::Inks mesh_inks(const Palette& palette) {
 
 namespace {
 
-constexpr int kDirections = 256;  // over the sphere, 0.2 apart: 0.5 % of a round body's radius is cut off
+constexpr int kDirections = 256;  // 0.2 rad apart, so 0.5 % of a round body's radius is cut off
 constexpr int kTurns = 48, kPathPlaces = 64;
 
 std::vector<Vec3> outermost(const std::vector<Vec3>& points) {
@@ -135,7 +135,7 @@ std::vector<Vec3> mesh_reach(const FilmedScene& scene) {
 
 namespace {
 
-constexpr double kPatches = 6000;        // patches of one mesh, about
+constexpr double kPatches = 6000;        // about as many patches has one mesh
 constexpr double kVesselOpacity = 0.12;  // share of the light that each wall takes
 constexpr int kMostAlong = 64;           // patches along the side of one triangle
 

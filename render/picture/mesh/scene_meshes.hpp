@@ -26,7 +26,7 @@ class SceneMeshes {
     explicit SceneMeshes(const FilmedScene& scene);
 
     bool any() const { return !drawn_.empty(); }
-    // Colours the meshes by what the grains do to them in this frame, where the film wants it.
+    // Colours the meshes by the pressure or the wear of this frame, if the film asks for it.
     void colour_by(const Frame& frame);
     // How many of the triangles that it has coloured lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }

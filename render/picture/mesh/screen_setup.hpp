@@ -1,5 +1,5 @@
-// From corners in view coordinates to triangles and lines in pixels, cut off where nothing is drawn. The file
-// is hot.
+// Makes triangles and lines in pixels of corners in view coordinates, and cuts them off where nothing is
+// drawn. Hot code.
 #pragma once
 
 #include <array>

@@ -118,7 +118,7 @@ std::vector<ContactSheet::Tile> ContactSheet::chosen(const Picture& last) const 
     for (std::size_t i = 0; i < wanted; ++i) {
         const double share = wanted == 1 ? 1 : static_cast<double>(i) / static_cast<double>(wanted - 1);
         const double time = first + share * (end - first);
-        const std::size_t most = tiles.size() - (wanted - i);  // this many tiles are still to come
+        const std::size_t most = tiles.size() - (wanted - i);  // leaves one tile for each place still to fill
         while (next < most && std::abs(tiles[next + 1].time - time) <= std::abs(tiles[next].time - time))
             ++next;
         result.push_back(tiles[next++]);
@@ -132,8 +132,7 @@ Picture ContactSheet::draw(const Picture& last) const {
     set_colour(on.get(), background_);
     cairo_paint(on.get());
     const std::vector<Tile> tiles = chosen(last);
-    // There are enough decimals for the times of neighbours to differ; at the mean distance they differ in
-    // two figures.
+    // So many decimals that the times of neighbouring tiles differ, and by two figures at the mean distance.
     double between = tiles.size() > 1
                          ? (tiles.back().time - tiles.front().time) / static_cast<double>(tiles.size() - 1)
                          : 1;

@@ -20,8 +20,7 @@ class ContactSheet {
     explicit ContactSheet(const Film& film);
 
     // Takes every frame of the film in order, since a run may be stopped and nobody knows how many frames
-    // will come. time: simulated s, which slow motion passes slowly. Of frames with the same time the first
-    // is shown.
+    // will come. time: s of the simulation, not of the film. Of frames with the same time the first is shown.
     void add(const Picture& picture, double time);
 
     // Draws the page of the frames up to now. last: the frame that was added last, which is always the last
@@ -43,7 +42,7 @@ class ContactSheet {
     int label_;           // pixels of the times under the tiles; 0 without them
     Colour background_, ink_;
     std::vector<Tile> kept_;  // by rising time; several times as many as the page has room for
-    double apart_ = 0;        // s: no two kept tiles are nearer than this
+    double apart_ = 0;        // s: no two kept tiles are nearer in time than this
     double last_time_ = 0;
 };
 

@@ -9,20 +9,20 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_unlike = 3;  // ratio of the panels' scales beyond which each has its own
+constexpr double most_unlike = 3;  // if panels need scales that differ by more, each has its own scale
 
 // The plots of one panel: in rows under its port, or in a column beside it where panels are wide.
 enum class PlotsAt { none, below, beside };
 struct PlotGrid {
     PlotsAt at = PlotsAt::none;
     int columns = 1, rows = 1, width = 0, height = 0;  // pixels that they take from the port
-    int taller = 0;  // pixels by which a plot may be higher than most_upright says
+    int taller = 0;  // pixels by which a plot may be higher than most_upright allows
 };
 
-constexpr double most_upright = 0.75;  // height of a plot over its width
+constexpr double most_upright = 0.75;  // greatest height of a plot divided by its width
 // The height of the words above and below the curves of a plot, in sizes of minor letters.
 constexpr double words_high = 5;
-// Pixels: the least height and width of a plot. The curves need as many whatever the size of the letters is.
+// Pixels: the least height and width of a plot. Its curves need 48 pixels even if the letters are small.
 double least_high(double minor) {
     constexpr double usual = 7.5, curves = 48;
     return std::max(usual * minor, words_high * minor + curves);
@@ -69,7 +69,7 @@ std::vector<Rectangle> places_of(std::size_t count, const PlotGrid& grid, const 
 }
 
 struct PanelSize {
-    int x = 0, width = 0, port = 0;  // port: its height
+    int x = 0, width = 0, port = 0;  // pixels; port: the height of the port
 };
 
 // Puts the parts of a panel below each other, from y down.
@@ -225,7 +225,7 @@ Planned best_grid(const std::vector<Panel>& panels, const Film& film, const Word
 }  // namespace
 
 TypeScale panel_type(const Film& film) {
-    constexpr double tallest = 1.25;  // height over width
+    constexpr double tallest = 1.25;  // height divided by width
     Film less = film;
     less.height = std::min(film.height, static_cast<int>(tallest * film.width));
     return type_scale(less);

@@ -17,8 +17,8 @@ namespace {
 constexpr double longest_bar = 0.14, common_colour_bar = 0.2, common_marks = 0.17;
 constexpr int pace_lines = 4;
 
-// Writes what holds of the drive in all panels; the rest is in their captions. frame: null to measure the
-// longest lines.
+// Writes what is true of the drives in all panels; what differs is in their captions. frame: null to measure
+// the longest lines.
 TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Common& common,
                       const Frame* frame, double x, double y) {
     if (!scene.film.word_kinds.drive) return {};
@@ -50,8 +50,8 @@ WordBlock dial(const Writer& measure, const Drive& drive) {
             }};
 }
 
-// common_marks_of() has the kinds of marks that mean the same in all panels, and own_marks_of() has the
-// others. scale: pixels a metre; 0 where panels have scales of their own.
+// common_marks_of() gives the kinds of marks that mean the same in all panels, own_marks_of() the others.
+// scale: pixels a metre; 0 where panels have scales of their own.
 MarkKinds common_marks_of(const Common& common, double scale) {
     MarkKinds kinds = common.marks;
     kinds.arrows = kinds.arrows && scale > 0;
@@ -270,7 +270,7 @@ void draw_foot(const Writer& writer, const Panel& panel, const Common& common, d
 
 namespace {
 
-// A text that is the same for plots whose values can be compared.
+// The name of the quantity that a plot shows. Plots with the same name can be compared.
 std::string quantity_of(const FilmPlot& plot) {
     return plot.is_profile() ? std::to_string(static_cast<int>(plot.profile)) + (plot.period ? "p" : "")
                              : plot.column;

@@ -32,10 +32,11 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
 // Puts blocks in rows across the width. Returns the height that they take with their margins.
 double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width);
 
-// The height of the live words under panels of this width; 0 for none.
+// The height of the notes under panels of this width: words that change with the frames. 0 without notes.
 double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width);
 
-// The height of the caption of time over each panel; 0 where all panels share one.
+// The height of the caption of time over each panel, which tells how fast its film plays; 0 where all panels
+// share one.
 double pace_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
                    double width);
 // Writes the caption of time over one panel.
@@ -54,8 +55,8 @@ double foot_height(const Writer& measure, const std::vector<Panel>& panels, cons
 void draw_foot(const Writer& writer, const Panel& panel, const Common& common, double scale, bool bar,
                double width);
 
-// The plots of panels that stand side by side. Plots of one quantity have one span of values and of time, so
-// that their curves can be compared.
+// The plots of panels that stand side by side. Plots of the same quantity show the same span of values and of
+// time, so that their curves can be compared.
 class PanelPlots {
   public:
     // Makes as many plots as the layout has places for.

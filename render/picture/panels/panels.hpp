@@ -11,7 +11,7 @@
 namespace grainreel {
 
 struct Panel {
-    FilmedScene scene;  // its film counts as far as panels share it: camera, `shows`, captions, look
+    FilmedScene scene;  // of its film these count: camera, `shows`, captions, look
     std::string caption;
     std::vector<std::string> playback = {};  // how fast the film plays, in words, for each of its segments
 };
@@ -41,8 +41,8 @@ Common common_of(const std::vector<Panel>& panels);
 std::vector<Panel> without_common(std::vector<Panel> panels, const Common& common);
 
 // Words that tell the scenes apart. Where all titles are alike and the drives differ, they are the drives'
-// frequency, g level or amplitude. Else they are the titles, with the drives where these differ too; else the
-// names; else the names with numbers.
+// frequency, g level or amplitude. Otherwise they are the titles, with the drives if those differ too. If
+// that does not tell the scenes apart, they are the names, and as a last resort the names with numbers.
 std::vector<std::string> captions_of(const std::vector<FilmedScene>& scenes);
 
 // Gives panels that show the same quantity one range of colours that holds all of theirs, so that a colour
@@ -55,7 +55,7 @@ void share_reach(std::vector<Panel>& panels);
 
 struct PanelLayout {
     struct Place {
-        Rectangle caption, pace, port, note;  // pace: caption of time; note: live words
+        Rectangle caption, pace, port, note;  // pace: caption of time; note: words that change
         std::vector<Rectangle> plots;
         Rectangle foot;   // has height 0 when everything is written below the panels
         double zoom = 1;  // zoom of the panel's camera
@@ -64,7 +64,7 @@ struct PanelLayout {
     std::vector<Place> places;  // in rows from the top; empty when the picture is too small for them
     Rectangle top, bottom;      // top: title; bottom: clock, legend, scale
     double scale = 0;           // pixels a metre in the middle of every panel; 0: panels differ
-    bool plots_fit = true;      // whether plots have room; without it they are left out
+    bool plots_fit = true;      // whether there is room for plots; if not, they are left out
 };
 
 constexpr int least_panel = 64;  // pixels, width and height

@@ -201,7 +201,7 @@ void SideBySide::Impl::write_note(std::size_t panel, const Frame& frame) {
     std::string note = note_text(scenes[panel], frame);
     if (part.height <= 0 || note == notes[panel]) return;
     const Writer measure{nullptr, type, palette};
-    // The longest note would stand in the middle, so that words do not move with their values.
+    // Notes begin where the longest note would begin if centred, so that words do not move with their values.
     const auto width_of = [&](const std::string& text) {
         return note_block(measure, text, 0, 0, part.width - 2, note_lines(scenes[panel])).width;
     };

@@ -17,7 +17,7 @@ double round_step(double least) {
     return 10 * decade;
 }
 
-constexpr double hair = 1e-9;  // share of a step, for rounding
+constexpr double hair = 1e-9;  // tolerance for rounding errors, as a share of a step between ticks
 
 }  // namespace
 

@@ -31,8 +31,8 @@ AxisTicks axis_ticks(double low, double high, int most, int finest);
 // there are also ticks at 2 and 5 times the powers.
 std::vector<double> power_ticks(double low, double high, int most);
 
-// The narrowest interval around [low, high] whose ends are ticks and which has at most `most` ticks. Equal
-// ends are moved a little apart.
+// The narrowest interval around [low, high] whose ends are ticks and which has at most `most` ticks. If low
+// equals high, they are first moved a little apart.
 std::array<double, 2> round_limits(double low, double high, int most);
 
 // The words of a tick. They have as many decimals as the distance between ticks needs, and a minus as wide as
@@ -67,7 +67,7 @@ struct PlotBox {
 
 constexpr int most_axis_ticks = 4;
 
-// Ticks of the upright axis: as many as there is room for above each other.
+// Ticks of the upright axis: as many as fit above each other.
 AxisTicks upright_ticks(const PlotBox& box, const TypeScale& type, double low, double high);
 
 // Draws the upright axis: a faint line across the box at each tick, the words of the tick beside it, and the

@@ -127,10 +127,9 @@ bool Plot::take(const Frame& frame) {
     return true;
 }
 
-// The mean of this row and of the rows since a period ago. The row that is exactly a period old is not
-// counted. Before a period has passed there is no value (NaN).
+// The mean of this row and of those less than a period old. NaN before a period has passed.
 double Plot::mean_of_period(double cycles, double value) {
-    constexpr double hair = 1e-3;  // share of a period: rows are at whole steps
+    constexpr double hair = 1e-3;  // tolerance, as a share of a period: rows are at whole time steps
     period_.push_back({cycles, value});
     while (period_.front()[0] <= cycles - 1 + hair) period_.pop_front();
     double sum = 0, count = 0;
@@ -157,7 +156,7 @@ void Plot::widen(double value) {
     if (any_ && value >= limits_[0] && value <= limits_[1]) return;
     const double low = any_ ? std::min(limits_[0], value) : value;
     const double high = any_ ? std::max(limits_[1], value) : value;
-    // A first value gets room for a change by a tenth.
+    // Around the first value there is room for a change by a tenth of it.
     const double room = any_ ? 0 : std::max(0.1 * std::abs(value), least_room);
     const std::array<double, 2> wide =
         round_limits(frame_.from_zero ? 0 : low - room, high + room, most_axis_ticks + 1);
@@ -177,7 +176,7 @@ void Plot::draw_axes() {
     const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
     draw_title(on.get(), title, frame_.width, frame_.height, type_, palette_.ink);
 
-    // Zeros alone span nothing that has a unit.
+    // If all values are 0, no unit fits them, and the only tick is at 0.
     const bool zeros = high - low < 10 * least_room && low <= 0 && high >= 0;
     const PlotBox box{left_, right_, top_, bottom_};
     const AxisTicks ticks = zeros ? AxisTicks{{0}, 1} : upright_ticks(box, type_, low / size, high / size);

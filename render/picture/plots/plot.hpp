@@ -34,8 +34,8 @@ class SidePlot {
     virtual void draw(cairo_t* on, int x, int y) = 0;
 };
 
-// place: only its size counts. end: s, where the axis of time ends. expected: SI, a value that the unit of a
-// column must suit, beside the values that the scene leads to expect.
+// place: only its size counts. end: s, where the axis of time ends. expected: SI, a value that the unit of
+// the values must suit, in addition to the values that the scene itself makes likely.
 std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlot& plot,
                                          const Rectangle& place, double end, const TypeScale& type,
                                          const Palette& palette, double expected = 0);
@@ -101,7 +101,7 @@ class Plot final : public SidePlot {
     std::optional<std::array<double, 2>> drawn_;  // limits of the axes as drawn
     std::shared_ptr<const MeasureTable> table_;
     std::size_t rows_ = 0;
-    std::deque<std::array<double, 2>> period_;  // periods and values of the last rows
+    std::deque<std::array<double, 2>> period_;  // time (in periods) and value of the last period's rows
     bool any_ = false;
     bool gap_ = true;                             // the last row has no value
     std::array<double, 2> limits_{0, 1};          // SI, of the rows

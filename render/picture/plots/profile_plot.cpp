@@ -1,4 +1,4 @@
-// A plot of a profile: it takes a frame's profile by coarse-graining, and draws axes and curves.
+// Computes a frame's profile by coarse-graining, and draws its axes and curves.
 #include "render/picture/plots/profile_plot.hpp"
 
 #include <fmt/format.h>

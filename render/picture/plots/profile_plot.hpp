@@ -1,5 +1,5 @@
-// A plot beside the grains of a profile at the picture's moment, over the height or over the width. The
-// height is then the upright axis. Profiles of species have the species' colours; all other profiles show a
+// Plots a profile at the picture's moment, beside the grains: values against height, which is then the
+// upright axis, or against width. Profiles of species have the species' colours; all other profiles show a
 // mean velocity.
 #pragma once
 

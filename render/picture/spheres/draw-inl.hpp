@@ -1,7 +1,7 @@
-// Draws spheres into depth and number, pixel by pixel, and marks the pixels of a row where numbers change.
-// For those pixels, which lie on edges, it finds which grains share them, and how large their shares are: all
-// grains that may be seen in the pixel are met at eight points in it. So silhouettes and lines of
-// intersection are exact, and smooth to an eighth.
+// Draws spheres into arrays of depth and number, pixel by pixel, and marks the pixels of a row where numbers
+// change. For those pixels, which lie on edges, it finds which grains share them, and how large their shares
+// are, in eighths: the lines of sight through eight points of the pixel are met with all grains that may be
+// seen in it. So silhouettes and lines of intersection are exact at these points.
 #if defined(GRAINREEL_SPHERES_DRAW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_DRAW_INL
 #undef GRAINREEL_SPHERES_DRAW_INL
@@ -100,7 +100,7 @@ void mark_edges(const std::uint32_t* row, const std::uint32_t* above, const std:
     });
 }
 
-// From here on pixels on edges are settled.
+// From here on: how grains share the pixels on edges.
 
 HWY_INLINE F candidate_part(const ViewSphere* spheres, float ViewSphere::*part) {
     alignas(64) float values[kPointBlock];

@@ -30,7 +30,7 @@ struct Layer {
 inline std::uint32_t scaled(std::uint32_t pixel, std::uint32_t share) {
     constexpr std::uint32_t kEven = 0x00ff00ffu, kHalf = 0x00800080u;
     const auto pair = [&](std::uint32_t two) {
-        const std::uint32_t product = two * share + kHalf;  // / 255: (p + p / 256) / 256
+        const std::uint32_t product = two * share + kHalf;  // divided by 255 as (p + p / 256) / 256
         return ((product + ((product >> 8) & kEven)) >> 8) & kEven;
     };
     return pair(pixel & kEven) + (pair((pixel >> 8) & kEven) << 8);

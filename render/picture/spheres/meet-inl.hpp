@@ -49,9 +49,10 @@ struct Ray {
     }
 };
 
-// z of the point nearest to the centre, half the chord along z, and radius^2 - distance^2, which is < 0 for a
-// miss. The discriminant comes from the point of closest approach, so it keeps its digits when a sphere is
-// small against its distance (Haines et al. 2019, Ray Tracing Gems, ch. 7).
+// How a line of sight meets a sphere. along: z of its point nearest to the centre; half: half the chord along
+// z; rest: radius^2 - distance^2 (of that point from the centre), < 0 for a miss. Computed from that point,
+// rest keeps its digits for spheres that are far away and small (Haines et al. 2019, Ray Tracing Gems, ch.
+// 7).
 struct Meeting {
     F along, half, rest;
     Triple<F> miss;  // from the centre to the point nearest to it
@@ -98,7 +99,7 @@ HWY_INLINE Kept kept(const Ray<orthographic>& ray, const Cut& cut) {
     return k;
 }
 
-// z of the first point seen of a sphere, or kNowhere. An eye within the sphere sees its far side.
+// z of the first point of a sphere that is seen, or kNowhere. An eye within the sphere sees its far side.
 template <bool orthographic>
 HWY_INLINE F seen_at(const Meeting& m) {
     const F entry = m.along - m.half;

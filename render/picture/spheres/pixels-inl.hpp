@@ -15,7 +15,7 @@ namespace grainreel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// share: of 255, for each lane.
+// share: 0 to 255, for each lane.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V scaled_all(D d, V pixels, V share) {
     const V even = hn::Set(d, 0x00ff00ffu), half = hn::Set(d, 0x00800080u);

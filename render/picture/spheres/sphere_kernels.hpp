@@ -16,8 +16,8 @@ struct ViewSphere {
     float x = 0, y = 0, z = 0, radius = 0;
 };
 
-// From a pixel to its line of sight: x and y of the line at z = 1 (perspective), or at any z (orthographic,
-// m).
+// Finds the line of sight of a pixel. slope_x() and slope_y() are x and y of the line at z = 1 (perspective),
+// or at any z (orthographic, m).
 struct Sight {
     bool orthographic = false;
     float focal = 1;  // pixels a unit of slope
@@ -26,7 +26,7 @@ struct Sight {
     float slope_y(float pixel) const { return (centre_y - pixel) / focal; }
 };
 
-// The half-spaces x . p >= d in which grains are kept, of up to two planes; a slab has two.
+// The half-spaces in which grains are kept, normal . p >= d, bounded by up to two planes; a slab has two.
 struct Cut {
     struct Plane {
         float x = 0, y = 0, z = 0, d = 0;  // unit normal, m
@@ -76,7 +76,7 @@ struct alignas(64) EdgeBlock {
     float share[kCandidates][kPointBlock];
     float mean_x[kCandidates][kPointBlock], mean_y[kCandidates][kPointBlock];
     float nearest[kPoints][kPointBlock];  // m, depth of the grain seen at a point
-    int candidates = 0;                   // most candidates of any pixel; unused ones have radius < 0
+    int candidates = 0;  // the largest number that any of the pixels has; unused ones have radius < 0
 };
 
 // A grain near another one. x, y and z count from the centre of the other.

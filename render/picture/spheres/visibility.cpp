@@ -104,7 +104,8 @@ bool Visibility::hidden(Worker& worker, int band, const PixelBox& box, float nea
     return true;
 }
 
-// Gives the depth of the band's first pixel. Without anything solid, depths are kept only for the band.
+// Returns the place of the depth of the band's first pixel. Without anything solid, depths are kept only
+// while the band is drawn.
 float* Visibility::depth_of_band(int band, Worker& worker, const SolidDepth& solid) {
     if (!solid.away) {
         worker.depth.assign(kBand * stride_, kNothing);

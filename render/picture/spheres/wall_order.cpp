@@ -1,4 +1,4 @@
-// Finds the pixels in which grains reach through walls, and how much walls and grains hide of each other
+// Finds the pixels in which grains reach through walls, and which shares walls and grains hide of each other
 // there. Hot code.
 #include "render/picture/spheres/wall_order.hpp"
 
@@ -23,8 +23,8 @@ bool WallOrder::Plate::disorders(const Vec3& centre, double radius) const {
     return true;
 }
 
-// Returns the whole grain when its centre is on the wrong side. Otherwise the part is a cap of less than half
-// of the grain, and a sphere around the cap's circle in the plane is returned.
+// If the grain's centre is on the wrong side, this is the whole grain. Otherwise the part is a cap of less
+// than half of the grain, and this is a sphere around the circle in which the plane cuts the grain.
 ViewSphere WallOrder::Plate::wrong_part(const Vec3& centre, double radius) const {
     const double height = plane.height(centre), inside = before ? -height : height;
     const auto sphere = [](const Vec3& c, double r) {

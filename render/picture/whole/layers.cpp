@@ -1,4 +1,5 @@
-// How OpenGL's layers are kept, how all layers are laid over each other, and how moments are exposed.
+// Keeps the layers that OpenGL draws, lays all layers over each other, and averages the moments of an
+// exposure.
 #include "render/picture/whole/layers.hpp"
 
 #include <algorithm>
@@ -159,7 +160,7 @@ void SideLayer::bind(const Rectangle& part) {
     gl_.Viewport(-part.x, -part.y, width_, height_);
 }
 
-// Clears pixels that were drawn before and will not be drawn now.
+// Clears pixels that were drawn the last time and will not be drawn this time.
 void SideLayer::forget_beside(const Rectangle& part) {
     for (int y = 0; y < height_; ++y) {
         Layer::Span& span = layer_.spans[static_cast<std::size_t>(y)];

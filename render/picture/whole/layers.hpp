@@ -1,5 +1,5 @@
-// The layers of a picture: the layers that OpenGL draws, how all layers are laid over each other, and how the
-// moments of an open shutter become one picture.
+// The layers of a picture: those that OpenGL draws, how all layers are laid over each other, and how pictures
+// of the moments while a shutter is open become one picture (motion blur).
 #pragma once
 
 #include <cstdint>

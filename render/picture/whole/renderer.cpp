@@ -91,7 +91,7 @@ struct Renderer::Impl {
         try {
             context->make_current();
         } catch (const RunError&) {
-            // Then no context is current, and all that the context owns is deleted with it.
+            // If no context is current, all that the context owns is deleted with the context itself.
         }
     }
 
@@ -185,7 +185,7 @@ void Renderer::Impl::point_out(PointedOut what) {
     solid = ShownGrains::only(scene, std::move(what.grains));
 }
 
-// Copies the words. A picture that has been drawn into before already has most of them.
+// Copies the words into a picture. One that has been drawn into before already has most of them.
 void Renderer::Impl::copy_words(Picture& into) const {
     const bool fits = into.width == words.width && into.height == words.height;
     if (!fits) into = words;
@@ -204,7 +204,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
     into.moving.push_back(port);
 }
 
-// Draws all moments of an open shutter. The marks of each moment are the marks of the frame itself.
+// Draws all moments while the shutter is open. Each of them gets the marks of the frame itself.
 void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch) {
     if (!exposure) exposure.emplace(port);
     const Frame marked = to_be_marked(shown.of(exaggeration.shown(frame)));

@@ -64,7 +64,7 @@ class Renderer {
     std::string last_note() const;
 
     std::string gl_description() const;  // vendor, renderer and version of the context
-    std::string gl_note() const;         // why it is not the expected kind of context; mostly empty
+    std::string gl_note() const;         // why it is not the kind that one would expect; empty if it is
 
     // Draws the same picture and tells what each of its stages cost.
     DrawTimes draw_timed(const Frame& frame, const std::string& playback);

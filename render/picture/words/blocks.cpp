@@ -64,7 +64,7 @@ void lab_mark_sample(const Writer& writer, double x, double y, double reach) {
     cairo_fill(writer.on);
 }
 
-// Draws a direction that the camera looks along: a ring with the arrow's tip in it, or with its feathers.
+// Draws an arrow along the line of sight: a ring with the arrow's tip in it, or with its feathers.
 void arrow_on_end(const Writer& writer, double x, double y, bool towards_eye) {
     const double radius = 0.42 * writer.type.main, width = std::max(1.0, writer.type.main / 12);
     cairo_new_path(writer.on);
@@ -249,8 +249,8 @@ TextSize note_block(const Writer& writer, const std::string& text, double x, dou
 
 namespace {
 
-// The floor's displacement from the middle of its stroke, in amplitudes. The middle is not the rest position
-// where a drive starts without a ramp in the middle of a period.
+// The floor's displacement from the middle of its stroke, in amplitudes. If a drive without a ramp starts in
+// the middle of a period, that middle is not the rest position.
 double share_of_stroke(const Drive& drive, const DriveSchedule::Now& now, const Frame& frame) {
     if (now.amplitude <= 0) return 0;
     const double place = frame.floor().place.dot(drive.direction) / now.amplitude;
@@ -353,7 +353,7 @@ TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame
         return size;
     }
     if (frame->time < 0) return size;  // the drive is off, so there is no hand
-    // Close to the period's end the disc is empty, because the phase beside it reads 0.00.
+    // Close to the period's end, where the phase written beside the dial is 0.00, the disc is empty.
     const double phase = shown_cycle(*frame).phase > 0 ? frame->phase : 0;
     const DriveSchedule::Now now = drive_now(drive, frame->cycles);
     const Eigen::Vector2d tip = dial.tip(phase), floor = dial.on_bar(share_of_stroke(drive, now, *frame));

@@ -82,7 +82,7 @@ std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
         for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
             if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
     };
-    // These shares have the longest numbers.
+    // At these shares of the full drive the numbers are longest.
     if (scene.drive.ramp > 0)
         for (const double share : {0.888, 0.0888}) take(growing_lines(scene, share));
     if (!scene.drive.changes()) return longest;
@@ -130,8 +130,8 @@ double round_length(double longest) {
 }
 
 ShownCycle shown_cycle(const Frame& frame) {
-    // Frames of slow motion lie at whole steps, often just before the end of a period. The cycle goes with
-    // the rounded phase.
+    // Frames of slow motion lie at whole steps, often just before the end of a period. The cycle is counted
+    // by the rounded phase.
     const double rounded = std::round(100 * frame.phase) / 100;
     const double cycles = frame.cycles + (rounded - frame.phase);
     return {std::max(0LL, static_cast<long long>(std::floor(cycles + 1e-6))), rounded < 1 ? rounded : 0};

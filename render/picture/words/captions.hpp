@@ -1,5 +1,5 @@
-// What the words around a picture say: numbers with their units, the drive, the time and the scene's own
-// words. Where they stand is decided in blocks.hpp and layout.hpp.
+// The texts around a picture: numbers with their units, the drive, the time and the scene's own words.
+// blocks.hpp and layout.hpp decide where they stand.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ double round_length(double longest);
 std::vector<std::string> drive_lines(const FilmedScene& scene, const Frame& frame);
 // Whether these lines differ from frame to frame.
 bool drive_lines_change(const Drive& drive);
-// Lines as many and about as long as drive_lines() gives at most in the course of the film.
+// The most lines, about as long as the longest, that drive_lines() gives in the course of the film.
 std::vector<std::string> longest_drive_lines(const FilmedScene& scene);
 // The place of a frame in the drive's period as it is shown: the phase in hundredths of a turn, never 1.00,
 // and the cycle that this phase belongs to.
@@ -40,8 +40,8 @@ ShownCycle shown_cycle(const Frame& frame);
 // it.
 std::string playback_text(const Film& film, const Frame& frame, const std::string& playback);
 // What has flowed out, the scene's own words (film.text, with the latest values of measures), and the caption
-// shown at this time. longest_notes() gives texts about as long as these get: one with each caption, or a
-// single one without captions.
+// shown at this time. longest_notes() gives texts about as long as these get: one for each caption, or a
+// single one if there are no captions.
 std::string note_text(const FilmedScene& scene, const Frame& frame);
 std::vector<std::string> longest_notes(const FilmedScene& scene);
 // How many lines of the gutter each line of a note may take.

@@ -1,5 +1,5 @@
-// Blocks of the overlay that say what colours mean: the legend of species, and the colour bars of grains and
-// walls. Both are declared in blocks.hpp.
+// The blocks of words that tell what colours mean (blocks.hpp): the legend of species, and the colour bars of
+// grains and walls.
 #include "render/picture/words/blocks.hpp"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour&
     cairo_new_path(on);
     cairo_arc(on, x, y, radius, 0, 2 * M_PI);
     cairo_fill(on);
-    cairo_set_source_rgb(on, 0, 0, 0);  // lets go of the surface
+    cairo_set_source_rgb(on, 0, 0, 0);  // releases the surface
     cairo_surface_destroy(ball);
 }
 

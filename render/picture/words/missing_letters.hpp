@@ -1,4 +1,4 @@
-// Finds letters that no font on this machine has. Words on a picture have boxes in place of such letters.
+// Finds letters that no font on this machine has. In a picture, boxes stand in place of such letters.
 #pragma once
 
 #include <string>

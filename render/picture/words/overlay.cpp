@@ -98,7 +98,7 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     cairo_rectangle(on.get(), part.x, part.y, part.width, part.height);
     cairo_clip(on.get());
     cairo_set_operator(on.get(),
-                       CAIRO_OPERATOR_SOURCE);  // replaces the pixels, also without a background
+                       CAIRO_OPERATOR_SOURCE);  // replaces the pixels, by clear ones too
     cairo_set_source_surface(on.get(), still_.get(), 0, 0);
     cairo_paint(on.get());
     cairo_set_operator(on.get(), CAIRO_OPERATOR_OVER);

@@ -29,7 +29,7 @@ class Overlay {
     // Lays the plates, if there are any, over a picture that is drawn.
     void lay_over(Picture& picture) const;
 
-    // These give Picture::still and Picture::moving for the gutters.
+    // Picture::still and Picture::moving, as far as the gutters are concerned.
     std::uint64_t still() const { return still_number_; }
     std::vector<Rectangle> moving() const;
 

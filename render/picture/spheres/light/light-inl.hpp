@@ -47,8 +47,8 @@ HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const 
 }
 
 // The share of the light from all around, weighted by the cosine, that no neighbour takes. The share that one
-// sphere takes is exact when the sphere stands wholly above the horizon. Where it reaches below, and where
-// several spheres overlap, the share is approximate (after I. Quilez, "sphere ambient occlusion").
+// sphere takes is exact if the sphere is wholly above the horizon. It is approximate if the sphere reaches
+// below the horizon, or if several spheres overlap (after I. Quilez, "sphere ambient occlusion").
 HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours) {
     F open(1);
     for (int i = 0; i < neighbours.count; ++i) {
@@ -69,8 +69,8 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
     return open;
 }
 
-// The share of the key light that comes past the neighbours. Each hides a part of the lamp's disc where its
-// silhouette lies across the disc.
+// The share of the key light that comes past the neighbours. Each neighbour hides the part of the lamp's disc
+// that its silhouette covers.
 HWY_INLINE F unshadowed(const SurfacePoint& point, const Lamp& lamp, const NeighbourSpan& neighbours) {
     F lit(1);
     const Triple<F> key{F(lamp.to_key[0]), F(lamp.to_key[1]), F(lamp.to_key[2])};
@@ -106,7 +106,7 @@ void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGra
             falls *= unshadowed(p, lamp, grain.casters);
             const Triple<F> halfway = key + p.to_eye;
             const F gloss = larger(p.normal.dot(halfway), F(0)) * inverse_root(halfway.squared());
-            F power = gloss * gloss;  // squared again below, up to the 32nd power
+            F power = gloss * gloss;  // squared four more times: the 32nd power
             power *= power, power *= power, power *= power, power *= power;
             shine = F(lamp.shine) * power * smaller(falls * F(4), F(1)) * (F(1) - p.cap);
         }

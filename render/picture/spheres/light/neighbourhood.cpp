@@ -78,7 +78,8 @@ void LightGrid::fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, f
 namespace {
 
 constexpr std::size_t kMostCasters = 24;
-// A factor above 1 on the light that neighbours take, because neighbours also stand for grains farther away.
+// Neighbours take this many times as much light as they would alone, because they also stand for the grains
+// farther away.
 constexpr float kFarther = 1.3f;
 
 NearGrain neighbour(const ViewSphere& own, const ViewSphere& other, float weight) {

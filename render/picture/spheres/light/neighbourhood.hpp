@@ -31,8 +31,8 @@ class LightGrid {
                 visit_row(u, v, cell(at[2] - wide, 2), cell(at[2] + wide, 2), visit);
     }
 
-    // Calls visit(index) for spheres that may stand between `s` and the light, cell by cell towards it, until
-    // enough() is true after a layer of cells.
+    // Calls visit(index) for spheres that may stand between `s` and the light, in layers of cells towards the
+    // light, until enough() is true after a layer. beside: m, how far beside `s` they may stand.
     template <class Visit, class Enough>
     void towards_light(const ViewSphere& s, float beside, const Visit& visit, const Enough& enough) const {
         const Place at = place(s);

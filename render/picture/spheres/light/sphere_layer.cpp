@@ -212,8 +212,8 @@ NeighbourSpan BandPainter::nearest(const PaintJob& job, const ViewSphere& own, c
         low = low.cwiseMin(at);
         high = high.cwiseMax(at);
     }
-    // Distances are measured across the line of sight. The room allows for the shift by perspective within
-    // the grain.
+    // Distances are measured across the line of sight; `room` is how far perspective shifts points within the
+    // grain.
     const float room = job.sight.orthographic ? 0 : own.radius * own.radius / std::max(own.z, own.radius);
     const Eigen::Vector2f middle = 0.5f * (low + high);
     const float spread = 0.5f * (high - low).norm() + room;

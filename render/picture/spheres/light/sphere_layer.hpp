@@ -1,6 +1,6 @@
-// Lit grains on a layer without a background. First it is found which grains are seen (Visibility), what
-// walls hide of them (WallOrder) and which grains take light from which (Neighbourhood). Then each pixel is
-// lit once, and a pixel on an edge once for each grain that shares it. The file is hot.
+// Draws lit grains on a layer without a background. It first finds which grains are seen (Visibility), what
+// walls hide of them (WallOrder) and which grains take light from which (Neighbourhood). Then it lights each
+// pixel once, and a pixel on an edge once for each grain that shares it. Hot code.
 #pragma once
 
 #include <array>
