@@ -127,7 +127,7 @@ bool cut_hides(const Snapshot& snapshot, const FilmCut& cut, const std::vector<s
     });
 }
 
-// The scene as it is drawn for a single moment: nothing is shown of what came before.
+// The scene as it is drawn for a single moment, without anything that needs earlier moments.
 FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const AnswerMarks& marks) {
     FilmShows& shows = scene.film.shows;
     shows.plots.clear();

@@ -38,7 +38,7 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-// Drops the captions of a scene whose key is varied: they were written for the scene's own value of the key.
+// If a key of a scene is varied, drops the scene's captions: they were written for its own value of the key.
 // Captions of the command line hold for all panels and stay.
 void leave_out_captions(const CompareRequest& what, Comparison& all) {
     if (!what.vary) return;
@@ -70,7 +70,7 @@ void make_panels(const CompareRequest& what, Comparison& all) {
                         captions.size(), scenes.size()));
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         all.panels.push_back({scenes[i], captions[i], {}});
-        // A still does not play.
+        // A still has no words about how fast it plays.
         if (all.still)
             all.panels[i].playback.resize(all.pictures.segments.size());
         else
@@ -136,7 +136,7 @@ Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) 
 
 namespace {
 
-constexpr double hair = 1e-9;  // s
+constexpr double hair = 1e-9;  // s: tolerance of times
 
 double mean_interval(const std::vector<Frame>& moments) {
     return moments.size() < 2
@@ -144,8 +144,8 @@ double mean_interval(const std::vector<Frame>& moments) {
                : (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
 }
 
-// Index of the finished run with the fewest frames a second, whose moments the others can follow; none when
-// there is no finished run.
+// Index of the finished run with the fewest frames a second; the others can show its moments. None when there
+// is no finished run.
 std::optional<std::size_t> coarsest(const Comparison& all) {
     std::optional<std::size_t> found;
     double longest = 0;
@@ -251,7 +251,7 @@ void take_moments_of_record(Comparison& all) {
     }
 }
 
-// Takes the one moment of a still, whatever the segment there is locked to.
+// Takes the one moment of a still. If the segment there is locked to a phase, the lock does not count.
 void take_one(double at, Comparison& all) {
     const Span common = common_time(all);
     if (at < common.from - hair || at > common.to + hair)

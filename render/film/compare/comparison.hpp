@@ -20,11 +20,11 @@ struct Comparison {
     std::vector<Panel> panels;  // the members as they are drawn, in the same order
     FilmedScene film;           // stands for the whole: name, title, size, rate, segments, duration
     Pictures pictures;          // the moments that every member shows
-    std::size_t reference = 0;  // the panel by whose drive the film goes
+    std::size_t reference = 0;  // the panel whose drive the film's segments follow
     bool by_schedule = true;    // the film's segments chose the moments; else a finished run did
     std::vector<std::string>
         labels;  // one for each panel, with the value that is varied; empty where nothing is varied
-    // Time of the one picture that is drawn instead of a film, in s of film.
+    // If one picture is drawn instead of a film: its time in s of film.
     std::optional<double> still;
     double dots_an_inch = 0;         // resolution of that picture for print; 0: it has no size on paper
     std::int64_t film_pictures = 0;  // number of pictures that the film has, or would have

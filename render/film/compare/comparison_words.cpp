@@ -46,8 +46,9 @@ std::string size_with_plots(const std::vector<Panel>& panels, Film film) {
 
 }  // namespace
 
-// The drive of this panel may differ from that of the reference; its moments then pass at another pace. Where
-// it does not differ, or does not matter, the segment's own words say it best.
+// If the drive of this panel differs from that of the reference, its moments pass at another pace, and the
+// words are found from the moments. Otherwise, or where the drive does not matter, they are the segment's
+// own.
 std::vector<std::string> playback_of(const FrameSource& source, const Comparison& all) {
     const std::vector<FilmSegment>& segments = all.pictures.segments;
     const Drive &drive = source.scene().drive, &reference = all.members[all.reference]->scene().drive;
@@ -77,8 +78,7 @@ void warn_of_pace(Comparison& all) {
     }
 }
 
-// Warns where single moments are shown. Where the moments are those of a finished run, scenes that are run
-// beside it show them too.
+// Where the moments are those of a finished run, the scenes that are run beside it also show single moments.
 void warn_of_single_moments(Comparison& all) {
     std::set<std::string> said;
     for (const auto& member : all.members) {

@@ -22,14 +22,15 @@ std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segmen
 // run.
 void warn_of_pace(Comparison& all);
 
-// Warns of the periods of their beds that finished runs follow, and of means and exposures that cannot be had
-// beside them.
+// Warns of finished runs whose beds repeat themselves only every few periods of the drive, and of scenes that
+// must show single moments beside a finished run although their films ask for means or exposures.
 void warn_of_single_moments(Comparison& all);
 
 // Warns of letters on the film that no font has.
 void warn_of_missing_letters(Comparison& all);
 
-// Warns of what a film of one scene would show and this one does not. The moments must be chosen already.
+// Warns of what a film of one scene would show and a comparison leaves out. The moments must be chosen
+// already.
 void warn_of_what_is_left_out(const PanelLayout& layout, Comparison& all);
 
 // Several values of one key of a scene: `compare SCENE --vary drive.g_level=2,4`.

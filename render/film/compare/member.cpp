@@ -100,7 +100,7 @@ void ComparedMember::close(RunStatus status, int exit_status, FirstFailure& fail
     if (failed_.any()) failure.note(failed_.what());
 }
 
-// Reads what is compared: scenes to run and runs on disk, or one scene with several values of a key.
+// Reading the members: scenes to run and runs on disk, or one scene with several values of a key.
 
 namespace {
 

@@ -1,4 +1,4 @@
-// One of the sources of a film that compares several. It is a scene that is run in its own folder with its
+// A member of a comparison, shown in one panel of its film: a scene that is run in its own folder with its
 // own run.json, or a run that lies on disk.
 #pragma once
 
@@ -37,24 +37,24 @@ class ComparedMember {
     // Where the member's files are, as run.json of the whole film tells it.
     std::string place() const;
 
-    // These are called in this order. A scene that is run calls `go_on` now and then and stops when it
-    // returns false; pack() then returns false, and next() null.
+    // begin(), pack(), start() and next() are called in this order. A scene that is run calls `go_on` now and
+    // then and stops when that returns false; pack() then returns false, and next() null.
     void begin(const std::filesystem::path& folder, const RunRequest& request);
     bool pack(const GoOn& go_on);
     std::string found_packing_text() const { return driver_ ? driver_->found_packing_text() : ""; }
     void start(const Pictures& pictures);
     FramePtr next(const GoOn& go_on);  // null also after the last picture, when the rest of the run is done
 
-    // These end the member after all that, whatever happened: the end state is kept first, then run.json is
-    // closed. status: that of the whole film; where another member has failed, this one was interrupted.
-    // close() may be called twice.
+    // keep_state() and then close(), which closes run.json, end the member whatever happened before. status:
+    // that of the whole film; where another member has failed, this one counts as interrupted. close() may be
+    // called twice.
     void keep_state();
     // Writes the formats of other programs that the scene asks for. watcher: see write_also().
     void write_other_formats(const std::function<bool(const std::string&, double)>& watcher);
     void close(RunStatus status, int exit_status, FirstFailure& failure);
     void note_failure(const std::string& what) { failed_.note(what); }
 
-    // How far the work of the member's thread is, for the progress line.
+    // For the progress line: the share of the member's work that is done, and its speed.
     double done() const { return done_; }
     double speed() const { return speed_; }  // particle-steps/s
 

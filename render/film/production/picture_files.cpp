@@ -15,8 +15,8 @@ namespace grainreel {
 
 namespace {
 
-// Whether a poster is written in passing, so that a killed run has one: at the first frame, and again each
-// time the film has doubled.
+// Whether a poster is written while the film is still being made, so that a killed run has one: at the first
+// frame, and again each time the film has doubled.
 bool poster_in_passing(std::int64_t count) {
     return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
 }

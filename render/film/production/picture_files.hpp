@@ -69,7 +69,7 @@ struct DrawnFrame {
     std::string playback;
 };
 
-// What a PNG file says of the picture in it.
+// The texts that a PNG file holds about its picture.
 std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
                               const std::string& playback);
 
@@ -85,7 +85,7 @@ class PictureFiles {
     void close_poster();
     // Completes the film and the contact sheet, after close_poster(). Throws RunError.
     void finish();
-    // Is called in place of finish(): the film is closed as it was written.
+    // Is called in place of finish() when the film is broken off: closes the file with what was written.
     void leave();
 
     std::int64_t frames() const { return count_; }  // taken so far; may be asked by another thread

@@ -1,6 +1,6 @@
-// Turns the pictures of a film into its frames, and says what can be said of the film's file before it is
-// made. Some pictures are held for several frames so that a caption can be read, and a film can be drawn in
-// parts; film_times.csv says what moment each frame shows. The file has a size, limits and warnings.
+// From the pictures of a film to its frames: some pictures are held for several frames so that a caption can
+// be read, and a film can be drawn in parts; film_times.csv says which moment each frame shows. Also here:
+// the size of the film's file, its limits and warnings, all before the film is made.
 #pragma once
 
 #include <cmath>
@@ -31,8 +31,8 @@ class CaptionHolds {
   public:
     explicit CaptionHolds(const Film& film) : captions_(film.captions), rate_(film.rate) {}
 
-    // How many more times the picture at this simulated time (s) is shown: only the first picture with a
-    // caption is held. To be called by rising time.
+    // How many more times the picture at this simulated time (s) is shown: the first picture with a caption
+    // is held, and no other. To be called by rising time.
     std::int64_t begin_at(double time) {
         for (; next_ < captions_.size() && time >= captions_[next_].from - rounding; ++next_)
             if (shows_caption(captions_[next_], time)) return held_frames(captions_[next_++], rate_);
@@ -98,11 +98,11 @@ constexpr std::int64_t most_frames = 10'000'000;
 // Limit for the earlier moments over which pictures are exposed or averaged; their lists take 2 GB at worst.
 constexpr std::int64_t most_moments = 20'000'000;
 
-// Throws UserError when the film would have more of either. The error names the segment that makes most of
-// them.
+// Throws UserError when the film would have more frames or more earlier moments than that. The error names
+// the segment that makes most of them.
 void check_schedule(const FilmedScene& scene, const std::vector<SegmentCount>& counts);
 
-// Throws UserError when film.max_size leaves so few bits for a pixel that no film could be read.
+// Throws UserError when film.max_size leaves so few bits for a pixel that nothing could be made out.
 void check_max_size(const FilmedScene& scene, std::int64_t frames);
 
 // Warnings: words that the picture has no room for, letters that no font has, and films for a journal that

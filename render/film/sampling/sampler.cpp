@@ -107,7 +107,7 @@ std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, 
     double start = 0;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const bool last = i + 1 == segments.size();
-        // The last step of a segment belongs to the next one; only the last segment keeps it.
+        // The step at which two segments meet belongs to the later one.
         const std::int64_t end = std::min<std::int64_t>(steps, std::llround(ends[i] / clock.step));
         const std::int64_t stop = last ? end + 1 : end;
         if (segments[i].kind == FilmSegment::Kind::motion) {
@@ -153,7 +153,7 @@ double exposed_unit(const FilmSegment& segment, const Clock& clock, std::int64_t
     return stays_in_phase(segment, clock) ? periods * clock.period_at(step) : 1;
 }
 
-// For how many of these units a segment's shutter is open.
+// How many such units the shutter of a segment is open.
 std::int64_t exposed_span(const FilmSegment& segment, double unit, const Clock& clock) {
     const double span = segment.exposure / (clock.step * unit);
     return std::llround(std::min(span, longest_exposure / unit));

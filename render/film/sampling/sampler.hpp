@@ -25,14 +25,14 @@ std::string playback_caption(const FilmSegment& segment, const Drive& drive, dou
 
 // The segment as it is played: where it asks for frames closer than the steps, it gets one frame a step.
 FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock);
-// A warning for each segment that plays faster than its playback says for that reason.
+// A warning for each segment that, played one frame a step, is faster than its playback says.
 std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock);
 
 // How many shots a segment makes at most: motion may round two shots to one step.
 struct SegmentCount {
     std::int64_t shots = 0;
     std::int64_t moments_a_shot = 0;    // earlier steps over which each shot is exposed or averaged
-    std::int64_t exposures_a_shot = 0;  // those of them that are drawn, the exposed ones
+    std::int64_t exposures_a_shot = 0;  // those of them that are exposed, and therefore drawn
 };
 
 // Counts the shots of each segment by formulas, without making them. Throws UserError when a segment is
@@ -69,7 +69,7 @@ std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& se
 // 0.8 of the film.
 double poster_time(const Film& film, double duration);
 
-// With fewer frames a period the eye loses the drive's motion.
+// With fewer frames in a period the eye cannot follow the motion of the drive.
 constexpr double least_frames_a_period = 8;
 
 // The frequency in Hz at which a motion of `frequency` (Hz) seems to go in a film with F = `frames` frames

@@ -70,7 +70,8 @@ std::vector<Shot> shots_at(const std::vector<Instant>& instants, const std::vect
 
 namespace {
 
-// Turns and periods that are closer than this are the same: a step is never less than 1e-7 of them.
+// Phases (turns) and numbers of periods closer than this count as equal: a step is never less than 1e-7 of
+// them.
 constexpr double hair = 1e-9;
 
 double mean_interval(const std::vector<Frame>& moments) {

@@ -79,7 +79,7 @@ std::string BedPeriods::news_of(std::int64_t step, double difference) const {
 
 namespace {
 
-// The way from `from` to `to`, the short way round a periodic container.
+// The displacement from `from` to `to`, the short way round a periodic container.
 Vec3 way(const Vec3& from, const Vec3& to, double depth) {
     Vec3 between = to - from;
     between.x() = nearest_image(between.x(), depth);

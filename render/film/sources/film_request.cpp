@@ -51,7 +51,7 @@ ThreadPlan drawing_threads(int wanted) {
 }
 
 std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run) {
-    constexpr double hair = 1e-9;  // s
+    constexpr double hair = 1e-9;  // s: tolerance of times
     const std::vector<Frame>& moments = run.moments();
     const double from = what.from.value_or(moments.front().time) - hair;
     const double to = what.to.value_or(moments.back().time) + hair;
@@ -68,7 +68,7 @@ std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive&
 }
 
 std::vector<Frame> alike(const std::vector<Frame>& moments, int periods) {
-    constexpr double room = 1e-6;  // periods
+    constexpr double room = 1e-6;  // tolerance, in periods
     std::vector<Frame> kept;
     for (const Frame& moment : moments) {
         const double behind = moment.cycles - moments.front().cycles;

@@ -1,6 +1,6 @@
-// What the user asks of a film: of one that is run, drawn again or compared, or of a picture for print; also
-// how many threads it gets, and which moments of a saved run are drawn. The structs hold values that verbs
-// fill in and runs read.
+// What the user asks for: a film of a scene that is run, of a finished run that is drawn again or of a
+// comparison, or a picture for print. Also how many threads a film gets, and which moments of a saved run are
+// drawn. The verbs fill in the structs here, and the runs read them.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +62,7 @@ struct RenderRequest {
 struct CompareRequest {
     std::vector<std::filesystem::path> inputs;  // scene files and folders of runs
     Assignments sets;                           // values given to keys of every scene
-    std::optional<std::string> captions;        // one for each panel, separated by bars
+    std::optional<std::string> captions;        // one for each panel, separated by "|"
     std::optional<std::string> vary;  // "drive.g_level=2,4": a panel for each value of one scene's key
     std::optional<double> at;         // s: one picture in place of a film
     PrintSize print;                  // size of that picture
@@ -75,7 +75,7 @@ struct ThreadPlan {
     int engine = 1;
     int raster = 1;           // threads of the software rasteriser, besides the drawing thread
     int encoder = 1;          // threads of x264
-    bool take_turns = false;  // the engine rests while pictures are made: there are no processors for both
+    bool take_turns = false;  // the engine rests while pictures are made, for lack of processors
 };
 
 // Plans the threads of a run. processors: the number that the run may keep busy. With a film, about a third

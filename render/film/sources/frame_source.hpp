@@ -18,8 +18,8 @@
 
 namespace grainreel {
 
-// What a source can supply besides grains and container. If a film asks for something that the source lacks,
-// pictures come without it, and news() says so.
+// What a source can supply besides grains and container. If a film asks for something that its source lacks,
+// the pictures do without it, and news() says so.
 struct Supply {
     bool any_moment = false;    // it has every step of its span; false: only the moments of its archive
     bool contacts = false;      // Frame::touches

@@ -109,7 +109,7 @@ EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
 
 std::optional<Taken> EarlierPictures::next() {
     if (next_ == count_) return std::nullopt;
-    // A damaged moment is missing from this list, and the film would go on with another moment in its place.
+    // The list lacks damaged moments. Without this check another moment would take the place of such a one.
     if (next_ >= moments_->moments().size() || moments_->place(next_) != next_)
         throw UserError(moments_->damage().empty()
                             ? moments_->path().string() + ": lacks a picture that it has had"

@@ -24,7 +24,7 @@
 
 namespace grainreel {
 
-// What a source can tell of its run.
+// What PictureParts asks a source for.
 class PartSupply {
   public:
     struct Measured {
@@ -49,12 +49,12 @@ class PictureParts {
     // Only the film of the scene is used. first: the first step that can be had.
     PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first);
 
-    // The other moments of which the picture at `step` is made, in no order; some may come twice. rule: the
-    // segment by which the picture is taken. periods: number of periods after which the bed repeats itself.
+    // The other moments that the picture at `step` needs, in no order; some may come twice. rule: the segment
+    // by which the picture is taken. periods: number of periods after which the bed repeats itself.
     std::vector<WantedMoment> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
 
-    // Adds those parts that can be had. When grains have come or gone in between, displacements and means are
-    // left out.
+    // Adds the parts that the source can supply. If grains have come or gone in between, displacements and
+    // means are left out.
     void add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
 
   private:
@@ -71,7 +71,8 @@ class PictureParts {
     double depth_;  // m, period of a periodic container along x; 0 for none
 };
 
-// Gives the pictures of a film that were taken before its run was broken off, from their kept moments.
+// When a run goes on after it was broken off: gives the pictures that its film had taken before, from the
+// moments that were kept for them.
 class EarlierPictures final : private PartSupply {
   public:
     // run: the run's folder. shots: those of the film. count: how many of the kept moments are pictures of

@@ -56,7 +56,7 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
     if (use.alone) do_without_others();
 }
 
-// Complains of what the trajectory lacks: it holds single moments only, and only some of the run's moments.
+// Reports what the film lacks when there is only the trajectory, which holds some single moments of the run.
 void RecordedRun::do_without_others() {
     if (needs_touches(scene_.film.shows) && !archive_->has_contacts() && !for_questions_)
         archive_->read_contacts(true);
@@ -97,8 +97,8 @@ void RecordedRun::read_measures_of_run() {
                         name, last, end));
 }
 
-// Leaves out plots and live words. Empty plots, and words without values, would look as if the run had been
-// like that.
+// Leaves out plots and live words. Empty plots, and words without values, would look like a result of the
+// run.
 void RecordedRun::leave_out_measures(const std::string& why) {
     FilmShows& shows = scene_.film.shows;
     std::vector<std::string> left_out;

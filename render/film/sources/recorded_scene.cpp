@@ -37,8 +37,8 @@ void check_sets(const Assignments& sets) {
     }
 }
 
-// Adds the settings that the purpose of a film implies. The scene of a run names all its values, so defaults
-// would have no effect; therefore they are set.
+// Adds the settings that the purpose of a film implies. They must be set, because the scene of a run names
+// all its values, so that new defaults would have no effect.
 Assignments with_purpose(const Assignments& sets) {
     Assignments all;
     for (const Assignment& set : sets) {
@@ -98,7 +98,7 @@ FilmedScene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assign
 namespace {
 
 constexpr double most_grains = 2e7;  // limit for the grains that are read, over all frames
-constexpr double strays = 0.01;      // share of the grains that may be higher
+constexpr double strays = 0.01;      // share of the grains that may be higher than the reach
 
 }  // namespace
 

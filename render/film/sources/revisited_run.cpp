@@ -84,8 +84,8 @@ std::vector<Shot> FilmOfRun::shots() const {
     return shots;
 }
 
-// The shots that the film shows, by the bed's periods. Where the film ended before its run did, its later
-// shots follow the periods that the bed had then.
+// The shots that the film shows, following the periods of the bed. Where the run's own film ended before the
+// run did, later shots follow the periods that the bed had then.
 std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
     FilmedScene scene = run_.scene();
     if (!same_) scene.film.periods = run_.frames().periods();
@@ -246,8 +246,7 @@ FramePtr RevisitedRun::grains(std::int64_t step, const GoOn& go_on) {
     return found ? std::make_shared<const Frame>(std::move(found->frame)) : nullptr;
 }
 
-// Keeps the wanted moments up to `step`. Moments that cannot be had are missing in the pictures that need
-// them.
+// Keeps the wanted moments up to `step`. Pictures do without moments that cannot be had.
 bool RevisitedRun::keep_moments_until(std::int64_t step, const GoOn& go_on) {
     while (!wanted_.empty() && *wanted_.begin() <= step) {
         const std::int64_t one = *wanted_.begin();

@@ -1,6 +1,6 @@
-// A run that lies on disk, as a source of any of its moments (RevisitedRun), and the moments that its film
-// shows (FilmOfRun). When the schedule is that of the run's own film, these are the moments of that film
-// (film_times.csv); else they follow from the segments as in a run.
+// A run that lies on disk, as a source of any of its moments (RevisitedRun), and the moments that a film of
+// it shows (FilmOfRun). If the schedule is that of the run's own film, these are the moments of that film
+// (film_times.csv); otherwise they follow from the segments, as they do while a scene is run.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ class FilmOfRun {
   private:
     void read_film_times();
     void read_periods();
-    // The shots that remain when the bed's periods are followed.
+    // Those of the shots at which the bed looks alike (BedPeriods).
     std::vector<Shot> with_bed(const std::vector<Shot>& shots) const;
 
     const RecordedRun& run_;
@@ -58,8 +58,8 @@ class FilmOfRun {
 };
 
 // A run that lies on disk, as a source of any of its moments: those that it kept (RecordedRun), and the
-// others, which are brought back from its checkpoints. When that is impossible or not allowed, a picture
-// shows the nearest kept moment, and news() counts such pictures.
+// others, which are "brought back", that is computed again from its checkpoints. Where that is impossible or
+// not allowed, a picture shows the nearest kept moment, and news() counts such pictures.
 class RevisitedRun final : public FrameSource, private PartSupply {
   public:
     // sets: see RecordedRun. replay: false if nothing may be brought back. sharers: number of runs that share
@@ -75,7 +75,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     const FilmOfRun& film() const { return film_; }
     // The film's segments, without means and exposures when these cannot be had.
     std::vector<FilmSegment> segments() const;
-    // Whether a picture of that step really shows this step, not another one.
+    // Whether a picture of that step can show just this step, and not only a kept moment near it.
     bool has(std::int64_t step) const;
     // The step that is shown in a picture of `step`.
     std::int64_t shown(std::int64_t step) const;
@@ -128,7 +128,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     std::vector<Shot> shots_;
     std::vector<FilmSegment> segments_;
     KeptMoments kept_;
-    std::set<std::int64_t> wanted_;             // steps of moments of which later pictures are made
+    std::set<std::int64_t> wanted_;             // steps whose moments later pictures need
     std::size_t next_ = 0;                      // index of the next shot
     std::optional<std::int64_t> brought_back_;  // the brought-back step whose frame has its contacts
 };

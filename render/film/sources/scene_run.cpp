@@ -9,7 +9,7 @@
 
 namespace grainreel {
 
-// What pictures may take from the run. It has the moments that were kept for them.
+// What pictures may take from the run. Of other moments it has those that were kept for pictures.
 class SceneRun::Parts final : public PartSupply {
   public:
     Parts(const RunDriver& driver, std::shared_ptr<const std::vector<MeshWear>> worn)
@@ -68,7 +68,8 @@ void SceneRun::start(const Pictures& pictures) {
     if (driver_.goes_on() && driver_.files()->keeps_film_moments())
         earlier_.emplace(scene_, clock, driver_.folder(), shots_, driver_.frames_before(),
                          driver_.files()->measures(), *driver_.files(), wear_before_);
-    // The number is an upper limit: which pictures a bed of several periods leaves out is found later.
+    // An upper limit: if the bed turns out to repeat itself only every few periods, some pictures are left
+    // out.
     count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Shot& shot) {
         return shot.step >= driver_.first_step() && bed_periods_->shows(rule(shot.segment), shot);
     });
@@ -145,7 +146,8 @@ void SceneRun::look_at_bed_periods(const Simulation& simulation) {
                        simulation.measure("period_difference_m"));
 }
 
-// Takes the wear over the same records as fields.nc, so that films of the run and of its files are alike.
+// Takes the wear over the same spans of time as the records of fields.nc, so that a film made during the run
+// and one made from its files are alike.
 void SceneRun::look_at_wear(const Simulation& simulation) {
     if (driver_.plan().fields.ends_record(simulation.step()))
         worn_ = std::make_shared<const std::vector<MeshWear>>(

@@ -21,8 +21,8 @@ class SceneRun final : public FrameSource {
     // scene: the driver's scene with its film. The driver must outlive this object.
     SceneRun(const FilmedScene& scene, RunDriver& driver) : scene_(scene), driver_(driver) {}
 
-    // Keeps key moments with their contacts. To be called before start(). A resumed run does what it did
-    // before.
+    // Has the run keep its key moments (engine/run/driver/agenda.hpp) with their contacts. To be called
+    // before start(). A resumed run does what it did before it was broken off.
     void keep_key_moments() { keys_wanted_ = true; }
     // Closes the files of the run's folder that it reads. Nothing else may be called afterwards.
     void close() {
@@ -40,7 +40,7 @@ class SceneRun final : public FrameSource {
     // The driver's news, and what was found so far about the bed's periods.
     std::vector<std::string> news() const override;
 
-    std::int64_t shots() const { return count_; }  // number of pictures that come, at most
+    std::int64_t shots() const { return count_; }  // the number of pictures, or an upper limit of it
     // Whether there are pictures at all.
     bool has_shots(const Pictures& pictures) const { return !shots_of(pictures).empty(); }
 
@@ -51,8 +51,8 @@ class SceneRun final : public FrameSource {
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
     std::optional<Taken> waiting();  // the next picture of the frame that was taken last
-    // Whether the film, as the bed's periods are known now, shows no picture of that step. Notes the pictures
-    // that it does show.
+    // Whether the film shows no picture of that step, by what is known so far of the bed's periods. Notes the
+    // pictures that it does show.
     bool leaves_out(std::int64_t step);
     void look_at_bed_periods(const Simulation& simulation);
     void look_at_wear(const Simulation& simulation);
