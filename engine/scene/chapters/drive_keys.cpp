@@ -135,9 +135,9 @@ const KeyTable<DriveStage>& stage_table() {
     using S = DriveStage;
     static const KeyTable<S> table{
         quantity("from", &S::from, Dimension::time, not_negative, required(),
-                 "When it begins: with the first whole period then or later."),
+                 "When it begins: with the first whole period that starts at this time or later."),
         choice("kind", &S::kind, kind_words, initial(),
-               "Of what: a vibration, single taps, or nothing that moves.")
+               "What the stage does: it vibrates, gives single taps, or rests.")
             .owns({"interval"})
             .read_at(-3),
         quantity("frequency", &S::frequency, Dimension::frequency, positive, note("that of before"),

@@ -82,7 +82,7 @@ const KeyTable<M>& mesh_table() {
             .needed(),
         hash_key("hash", &M::hash, "XXH64 of the file, as a run's scene has it; another file is refused."),
         quantity("scale", &M::scale, Dimension::number, positive_or_tiny, initial(),
-                 "Times the lengths in the file; 0.001 where they are in mm."),
+                 "Factor for the lengths in the file; 0.001 where they are in mm."),
         vector("position", &M::position, Dimension::length, initial(), "Where the file's origin comes to."),
         rotation_key(),
         flag("driven", &M::driven, note("true for the container's mesh that has no other motion"),
@@ -93,7 +93,7 @@ const KeyTable<M>& mesh_table() {
         file_key("path", &M::path_file, note("none"),
                  "CSV of a motion: time_s, x_m, y_m, z_m from where it rests and, if wanted, qw, qx, qy, qz, "
                  "which turn it about its position."),
-        hash_key("path_hash", &M::path_hash, "Likewise of the path's file."),
+        hash_key("path_hash", &M::path_hash, "XXH64 of the path's file; another file is refused."),
     };
     return table;
 }
@@ -163,7 +163,7 @@ const KeyTable<ExitBox>& exit_table() {
         vector("low", &E::low, Dimension::length, required(),
                "Lowest corner of a box that does not move: a grain whose centre is in it leaves the run."),
         vector("high", &E::high, Dimension::length, required(), "Highest corner."),
-        flag("outside", &E::outside, initial(), "Grains leave where they are not in the box."),
+        flag("outside", &E::outside, initial(), "Grains leave when they are not in the box."),
     };
     return table;
 }
@@ -194,7 +194,7 @@ const KeyTable<FreeWall>& wall_table() {
     using W = FreeWall;
     static const KeyTable<W> table{
         text("name", &W::name, note("wall 1, wall 2, ..."),
-             "A plane anywhere, beside the container's faces or without any; for messages.")
+             "Name of a plane, for messages. It may be anywhere, with a container or without one.")
             .usually([](W& wall, const Scene& scene) {
                 wall.name = fmt::format("wall {}", scene.walls.size() + 1);
             })

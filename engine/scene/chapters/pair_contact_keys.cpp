@@ -162,7 +162,7 @@ const KeyTable<PairContact>& contact_table() {
             .written_at(of_springs),
         quantity("tangential_ratio", &P::tangential_ratio, Dimension::number, {0, 1000, true, false},
                  note("0.8; linear-spring 2/7, mindlin 0.824"),
-                 "Tangential over normal stiffness; of mindlin 2(1 - ν)/(2 - ν).")
+                 "Tangential stiffness divided by normal stiffness; 2(1 - ν)/(2 - ν) for mindlin.")
             .usually(usual_ratio)
             .useless_for(of_friction)
             .written_at(of_rubbing),

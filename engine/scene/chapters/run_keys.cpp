@@ -56,7 +56,7 @@ const KeyTable<Run>& run_table() {
                "4 times; docs/reference/accuracy.md has the errors.")
             .written_at(of_method),
         quantity("step", &R::step, Dimension::time, positive, note("chosen by the plan"),
-                 "With a drive shortened so that a multiple of 8 steps makes a period.")
+                 "With a drive it is shortened so that a multiple of 8 steps makes a period.")
             .often_chosen()
             .written_at(of_time),
         quantity("overlap", &R::overlap, Dimension::number, {0, 0.1, true, false},
@@ -256,11 +256,11 @@ const KeyTable<FieldOutput>& field_table() {
             "grid", &F::grid, field_grid_words, initial(),
             "Fields by coarse-graining in fields.nc: means over the depth on a grid in y and z, or a grid in "
             "three dimensions."),
-        choice("kernel", &F::kernel, field_kernel_words, initial(), "What a grain is spread with.")
+        choice("kernel", &F::kernel, field_kernel_words, initial(), "The function that spreads each grain.")
             .useless_for(without_fields),
         quantity("width", &F::width, Dimension::length, positive,
                  note("half of the mean diameter, feeds counted for 1 s"),
-                 "Standard deviation of the kernel along one axis; of a grain's own, its radius at least.")
+                 "Standard deviation of the kernel along one axis; for each grain at least its radius.")
             .useless_for(without_fields)
             .usually([](F& fields, const Scene& scene) { fields.width = 0.5 * usual_diameter(scene); }),
         quantity("cell", &F::cell, Dimension::length, positive, note("`width`; twice that with xyz"),
@@ -268,7 +268,7 @@ const KeyTable<FieldOutput>& field_table() {
             .useless_for(without_fields)
             .usually(usual_cell),
         integer("periods", &F::periods, 1, 1000000, initial(),
-                "Periods of the drive that one record of fields.nc is the mean of.")
+                "One record of fields.nc is the mean over so many periods of the drive.")
             .unwritten_if([](const F& fields) { return fields.periods == 0; }),
         quantity("phase", &F::phase, Dimension::phase, any, note("all phases"),
                  "Only moments at this phase, \"90 deg\" or 0.25 turns.")
@@ -277,7 +277,7 @@ const KeyTable<FieldOutput>& field_table() {
                 "Moments in each period; without a drive in each record.")
             .useless_for(beside_phase),
         quantity("interval", &F::interval, Dimension::time, positive, note("a tenth of the run"),
-                 "Without a drive: time that one record is the mean of.")
+                 "Without a drive: one record is the mean over this time.")
             .usually([](F& fields, const Scene& scene) { fields.interval = 0.1 * scene.run.duration; })
             .unwritten_if([](const F& fields) { return fields.interval == 0; }),
     };

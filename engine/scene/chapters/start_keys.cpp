@@ -103,9 +103,9 @@ const KeyTable<Start>& start_table() {
     using S = Start;
     static const KeyTable<S> table{
         choice("method", &S::method, method_words, note("layers; grains with [[grain]]"),
-               "Grow and settle layers in the room before all planes, the species of the "
-               "largest grains at the bottom; rain, all species mixed; go on from a file; or the grains as "
-               "listed, at once.")
+               "layers are grown and settled in the room before all planes, the species of the largest "
+               "grains at the bottom; rain has all species mixed; file goes on from a file; grains are "
+               "placed as they are listed.")
             .usually([](S& start, const Scene&) {
                 start.method = start.grains.empty() ? Method::layers : Method::grains;
             }),
@@ -170,11 +170,12 @@ void read_species_of(Document& document, const Scene& scene, const std::string& 
 }
 
 BoundKey<ListedGrain> species_key() {
-    return bound_by<ListedGrain>(
-        entry("species", KeyKind::text, note("the first"), "Grains placed one by one; whose numbers it has."),
-        read_species_of, [](const ListedGrain& grain, const Scene& scene) {
-            return quoted(scene.species[grain.species].name);
-        });
+    return bound_by<ListedGrain>(entry("species", KeyKind::text, note("the first"),
+                                       "The species of this grain. Each [[grain]] is "
+                                       "placed by itself."),
+                                 read_species_of, [](const ListedGrain& grain, const Scene& scene) {
+                                     return quoted(scene.species[grain.species].name);
+                                 });
 }
 
 enum Place { of_kind, of_motion };  // the order of reading and writing
@@ -189,7 +190,7 @@ const KeyTable<ListedGrain>& grain_table() {
         vector("spin", &G::spin, Dimension::spin, initial(), "Angular velocity at the start.")
             .placed_at(of_motion),
         quantity("diameter", &G::diameter, Dimension::length, positive, note("the species' mean"),
-                 "Inside the species' spread.")
+                 "It must be within the spread of the species.")
             .usually([](G& grain, const Scene& scene) {
                 grain.diameter = scene.species[grain.species].diameter.mean;
             })
@@ -247,7 +248,7 @@ constexpr double default_box = 3;  // its height over the largest diameter, belo
 BoundKey<Feed> fed_species_key() {
     return bound_by<Feed>(
         entry("species", KeyKind::text, note("the first"),
-              "Grains that come during the run, one after the other at even intervals; of which species."),
+              "The species of the grains. They come during the run, one after the other at even intervals."),
         [](Document& document, const Scene& scene, const std::string& path, Feed& feed) {
             feed.species = species_named(document, scene, path);
         },
@@ -260,7 +261,7 @@ const KeyTable<Feed>& feed_table() {
         fed_species_key(),
         quantity("rate", &F::rate, Dimension::rate, positive, note("required, or `count` and `until`"),
                  "Grains a second."),
-        integer("count", &F::count, 1, most_grains, note("no limit"), "How many there are to be."),
+        integer("count", &F::count, 1, most_grains, note("no limit"), "How many grains it gives."),
         quantity("from", &F::from, Dimension::time, not_negative, literal("\"0 s\""),
                  "When it begins; the first grain comes an interval later."),
         quantity("until", &F::until, Dimension::time, positive, note("the run's end"), "When it ends."),
@@ -268,7 +269,9 @@ const KeyTable<Feed>& feed_table() {
                "Lowest corner of the box in which the centres appear, at random; it does not move."),
         vector("high", &F::high, Dimension::length, note("across the container, at its top"),
                "Highest corner."),
-        vector("velocity", &F::velocity, Dimension::speed, initial(), "With which they appear."),
+        vector("velocity", &F::velocity, Dimension::speed, initial(),
+               "The velocity with which grains "
+               "appear."),
     };
     return table;
 }

@@ -82,7 +82,7 @@ const KeyTable<W>& layer_table() {
                 layer.spacing = scene.species[layer.species].diameter.mean;
             }),
         quantity("disorder", &W::disorder, Dimension::number, Range{0, 0.5, false, false}, initial(),
-                 "How far each is moved at random in its face, over the spacing, at most; 0 leaves a "
+                 "How far at most each is moved at random in its face, divided by the spacing; 0 leaves a "
                  "triangular lattice."),
     };
     return table;

@@ -57,8 +57,8 @@ const KeyTable<Camera>& camera_table() {
                  "Vertical; 0 for orthographic.")
             .written_at(of_angles),
         quantity("zoom", &C::zoom, Dimension::number, magnification, initial(),
-                 "Over the automatic framing: between the gutters at 1, otherwise in the whole frame, as "
-                 "film.words says.")
+                 "Times the automatic size. At 1 the picture lies between the margins for words, otherwise "
+                 "it fills the frame, as film.words says.")
             .written_at(of_angles),
         flag("follow", &C::follow, initial(), "Stand in the container's own frame.").written_at(of_angles),
         choice("frame", &C::frame, camera_frame_words, initial(),

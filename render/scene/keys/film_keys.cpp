@@ -234,7 +234,7 @@ const KeyTable<Film>& picture_table() {
         quantity("rate", &Film::rate, Dimension::number, {1, 240, false, false}, initial(),
                  "Frames a second."),
         integer("periods", &Film::periods, 1, 4, note("as the bed does"),
-                "Periods of the drive that locked frames, displacements and means go by.")
+                "How many periods of the drive locked frames are apart, and displacements and means last.")
             .unwritten_if([](const Film& film) { return film.periods == 0; })
             .written_at(1),
         text("title", &Film::title, note("`title`"), "Shown on the frame; \"\" for none.")

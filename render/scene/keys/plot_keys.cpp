@@ -84,14 +84,16 @@ const KeyTable<FilmPlot>& plot_table() {
         bound_by<P>(
             of_choices(
                 entry("profile", KeyKind::choice, note("none"),
-                      "In place of `y`, of each picture's own moment: by species, or a mean velocity."),
+                      "In place of `y`: a profile at the moment of each picture, by species or of a mean "
+                      "velocity."),
                 all_of(profile_words)),
             read_profile,
             [](const P& plot, const Scene&) {
                 return plot.is_profile() ? quoted(word_of(plot.profile, profile_words)) : "";
             }),
         choice("over", &P::across, directions, note("height"),
-               "Of a profile: over the height above the floor, or over the width across.")
+               "A profile is drawn against the height above the floor, or against the place across the "
+               "width.")
             .useless_for(without_profile),
         choice("of", &P::period, velocity_spans, note("period with a drive, else now"),
                "Of a profile of velocities: as in [film.arrows].")
@@ -103,9 +105,8 @@ const KeyTable<FilmPlot>& plot_table() {
             .useless_for([](const P& plot) {
                 return plot.is_profile() ? "a plot with a 'profile' shows that" : nullptr;
             }),
-        choice(
-            "smooth", &P::period, smoothings, initial(),
-            "Of a column: its rows as they are, or at each row the mean over the last period of the drive.")
+        choice("smooth", &P::period, smoothings, initial(),
+               "A column is drawn row by row, or at each row as the mean over the last period of the drive.")
             .useless_for([](const P& plot) {
                 return plot.is_profile() ? "a 'profile' is of one moment, or says 'of'" : nullptr;
             }),

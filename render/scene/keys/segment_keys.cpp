@@ -49,7 +49,8 @@ const KeyTable<FilmSegment>& segment_table() {
             .useless_for(
                 [](const S& segment) { return of_locked("a segment in motion shows every phase", segment); }),
         integer("average", &S::average, 1, 1000, note("no mean"),
-                "Whole periods up to the picture, of which it shows the grains' mean places.")
+                "The picture shows the grains' mean places over so many whole periods that end at its "
+                "moment.")
             .unwritten_if([](const S& segment) { return segment.average == 0; }),
         quantity("exposure", &S::exposure, Dimension::time, positive, note("one moment"),
                  "Time up to the picture for which the shutter is open: what moves leaves a streak.")

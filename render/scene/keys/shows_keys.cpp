@@ -251,7 +251,7 @@ const KeyTable<FilmShows>& mark_table() {
             .owns({"wall_force_scale"}),
         bound_by<S>(quantity("wall_force_scale", Dimension::force, positive,
                              note("the weight of all grains, times the drive's strongest Γ above 1"),
-                             "Of an arrow a quarter as long as the container is wide."),
+                             "The force whose arrow is a quarter as long as the container is wide."),
                     read_wall_force_scale,
                     [](const S& shows, const Scene&) {
                         return shows.wall_forces.wanted ? as_toml(shows.wall_forces.scale, Dimension::force)
