@@ -39,8 +39,9 @@ struct ContactLaw {
     static constexpr bool uses_velocity = Normal::uses_velocity, has_dashpot = Normal::has_dashpot;
     static constexpr bool uses_mass = Normal::uses_mass, uses_radius = Normal::uses_radius;
 
-    // True if the normal law weighs the onset of a contact and the tangential law gains by that. Slip then
-    // counts from the touch, and the tangential force acts for as long as the normal force.
+    // True if the normal law allows for the instant within the step at which the bodies touch, and the
+    // tangential law becomes more exact by that. Slip then counts from the touch, and the tangential force
+    // acts for as long as the normal force.
     static constexpr bool weighs_onset = Normal::weighs_onset && Tangential::gains_by_onset;
 
     template <class R>
@@ -69,7 +70,8 @@ struct ContactLaw {
         }
     };
 
-    // The force on body j (the wall), in N: the normal force along k, and the tangential force across k.
+    // The force (N) on body j, which may be a wall: the normal force along k, and the tangential force
+    // perpendicular to k.
     template <class R>
     struct Force {
         R normal;
@@ -139,9 +141,9 @@ struct ContactLaw {
         return velocity.plus(select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}), ahead);
     }
 
-    // The contact's own force has changed since, and the change slows the bodies over `time`. The new
-    // velocity and the new force depend on each other. The dashpot is linear, so the velocity can be solved
-    // for.
+    // The contact's own force has changed since the last step, and this change slows the bodies during `time`
+    // (s). The new velocity and the new force depend on each other. The dashpot is linear, so the velocity
+    // can be solved for.
     template <class R, class P>
     static HWY_INLINE void slow_down(Touch<R>& touch, const P& p, R force_before, R time) {
         const R elastic = Normal::spring_force(p, touch) - force_before;

@@ -36,11 +36,10 @@ HWY_INLINE R squared_within(const Triple<R>& force, R limit) {
     return smaller(force.squared(), limit * limit);
 }
 
-// Carries a tangential force along with a contact that turns.
-
-// Turns `force` as its contact has turned. This is Cayley's rotation about the axis of `turn` by 2 atan
-// |turn|, which keeps the length exactly. Projection alone, as in the original program, cannot see the twist.
-// The small part along `normal` (the present normal) that rounding leaves is taken off.
+// Turns a tangential force as its contact has turned: Cayley's rotation about the axis of `turn` by 2 atan
+// |turn|, which keeps the length exactly. Projecting the force onto the new contact plane, as the original
+// program does, cannot see the twist. The small part along `normal` (the present normal) that rounding leaves
+// is taken off.
 template <class R>
 HWY_INLINE Triple<R> carry_along(const Triple<R>& force, const Triple<R>& turn, const Triple<R>& normal) {
     const Triple<R> once = turn.cross(force), twice = turn.cross(once);

@@ -22,8 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct IncrementalSlip {
-    // The stiffness is taken at the step's beginning. That is of first order, so an exact onset would not
-    // help.
+    // The stiffness is taken at the step's beginning, which leaves an error of first order. So it would not
+    // help to know exactly when the contact began.
     static constexpr bool rubs = true, gains_by_onset = false;
 
     template <class R>

@@ -1,4 +1,4 @@
-// Makes of a law the functions over a chunk of contacts (LawKernel) that the step loop and observers call.
+// Turns a law into a LawKernel: the functions over a chunk of contacts that the step loop and observers call.
 // The step itself is step_chunk() in contact_law-inl.hpp.
 #if defined(GRAINREEL_LAWS_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_KERNEL_INL

@@ -58,7 +58,7 @@ union alignas(64) Row {
 struct TouchChunk {
     Row normal[3];
     Row overlap;                 // m
-    Row velocity[3];             // m/s, of i's surface against j's
+    Row velocity[3];             // m/s, of i's surface relative to j's
     Row turn[3];                 // Cayley's vector: a pure number
     Row first_arm, second_arm;   // m, from the centres to where T acts
     Row inverse_distance;        // 1/m, of the centres of a pair
@@ -92,7 +92,7 @@ struct alignas(64) EnergyChunk {
 
 // The motion of contacts that resist rolling, and the resulting torque.
 struct RollingChunk {
-    Row rate[3];    // rad/s, spin of i against j, across k
+    Row rate[3];    // rad/s, spin of i relative to j, without its part along k
     Row torque[3];  // N m, on j, the opposite on i
 };
 
@@ -131,14 +131,15 @@ struct LawKernel {
     bool rubs;                // whether the law reads spin, twist and arms
     bool rolls;               // whether the law reads the rolling motion
     bool uses_velocity;       // whether the law reads velocity; a law that rubs reads it too
-    bool at_mid_step = true;  // whether slip is across the normal at the step's middle, not at its end
+    bool at_mid_step =
+        true;  // whether slip is perpendicular to the normal at the step's middle or, if not, at its end
     bool uses_mass, uses_radius;
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
-    // `history` stands in blocks of kBlock contacts, and within a block number by number. It is set to zero
-    // for contacts that do not touch. Chunks hold numbers of number_size. step_one_kind() is for contacts
-    // that are all of one kind, and gives the same bits in less time. (With a large grain among small ones,
-    // nearly all chunks are of one kind, and take a tenth less time.)
+    // `history` is laid out in blocks of kBlock contacts, and within a block number by number. It is set to
+    // zero for contacts that do not touch. Chunks hold numbers of number_size. step_one_kind() is for
+    // contacts that are all of one kind, and gives the same bits in less time. (With a large grain among
+    // small ones, nearly all chunks are of one kind, and take a tenth less time.)
     void (*step)(const LawInput& in, void* history, ForceChunk& out);
     void (*step_one_kind)(const LawInput& in, void* history, ForceChunk& out);
     // Gives forces and energies at the present instant, without a step, from the present velocities. Chunks
@@ -146,8 +147,8 @@ struct LawKernel {
     void (*observe)(const LawInput& in, const void* history, ForceChunk& out, EnergyChunk& energy);
 };
 
-// The one place where laws are chosen at run time. The rolling of `model` is ignored, because
-// rolling_kernel() comes on top.
+// The one place where laws are chosen at run time. It ignores model.rolls, because rolling_kernel() runs in
+// addition.
 const LawKernel& law_kernel(const ContactModel& model);
 // The resistance to rolling. It runs after the law, and uses the normal force that the law has put into
 // `out`.

@@ -43,7 +43,7 @@ struct LinearSpring {
         }
     };
 
-    // Tangential force (N) on j. A normal force that pulls caps it by its size, as in LAMMPS.
+    // Tangential force (N) on j. If the normal force pulls, its magnitude sets the cap, as in LAMMPS.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal& normal, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {

@@ -1,8 +1,8 @@
-// Tangential force beside Hertz' normal one: Mindlin's no-slip stiffness K_t = 8 G* sqrt(R_eff a) with
-// Coulomb's cap and a dashpot (Mindlin 1949, J. Appl. Mech. 16, 259; Di Renzo & Di Maio 2005, Chem. Eng. Sci.
-// 60, 1303). K_t is 2(1 - nu)/(2 - nu) times Hertz' tangent stiffness for equal materials. Where the contact
-// shrinks, its force shrinks with the contact's radius, because otherwise energy would be made (Thornton,
-// Cummins & Cleary 2013, Powder Technol. 233, 30).
+// Tangential force that goes with Hertz' normal force: Mindlin's no-slip stiffness K_t = 8 G* sqrt(R_eff a)
+// with Coulomb's cap and a dashpot (Mindlin 1949, J. Appl. Mech. 16, 259; Di Renzo & Di Maio 2005, Chem. Eng.
+// Sci. 60, 1303). K_t is 2(1 - nu)/(2 - nu) times Hertz' tangent stiffness for equal materials. Where the
+// contact shrinks, its force shrinks with the contact's radius, because otherwise energy would be created
+// (Thornton, Cummins & Cleary 2013, Powder Technol. 233, 30).
 #if defined(GRAINREEL_LAWS_MINDLIN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_MINDLIN_INL
 #undef GRAINREEL_LAWS_MINDLIN_INL
@@ -22,7 +22,7 @@ struct Mindlin {
 
     template <class R>
     struct Parameters {
-        R ratio;     // tangential stiffness over normal tangent stiffness
+        R ratio;     // tangential stiffness divided by normal tangent stiffness
         R friction;  // mu
 
         template <class Each>
@@ -45,7 +45,7 @@ struct Mindlin {
         }
     };
 
-    // Tangential force (N) on j. A normal force that pulls caps it by its size.
+    // Tangential force (N) on j. If the normal force pulls, its magnitude sets the cap.
     template <class R, class Normal>
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal& normal, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {

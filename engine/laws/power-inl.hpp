@@ -14,7 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Constant from which the bits of x, divided by three, are taken to get the bits of about x^(-1/3).
+// Subtracting a third of the bits of x, read as an integer, from this constant gives about the bits of
+// x^(-1/3).
 HWY_INLINE std::uint64_t inverse_cube_root_bits(double) {
     return 0x553ee0ff289dd796;
 }

@@ -45,8 +45,8 @@ struct RollingSpring {
         }
     };
 
-    // Torque (N m) on j. `angle` (rad) is the turn of i against j across k in this step; `normal` and `turn`
-    // are as in Touch.
+    // Torque (N m) on j. `angle` (rad) is the rotation of i relative to j in this step, without its part
+    // about k; `normal` and `turn` are as in Touch.
     template <class R>
     static HWY_INLINE Triple<R> torque(const Parameters<R>& p, History<R>& h, const Triple<R>& normal,
                                        const Triple<R>& turn, const Triple<R>& angle, R effective_radius,

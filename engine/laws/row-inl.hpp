@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Rows hold Numbers: the numbers of L on the way through a law, doubles for observers.
+// `Number` is the type of the numbers in a row: that of L in a step, double for observers.
 template <class L, class Number = NumberOf<L>>
 HWY_INLINE L row_at(const Row& from, int c) {
     return load_as<L>(from.of<Number>() + c);

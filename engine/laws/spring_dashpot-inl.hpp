@@ -29,7 +29,8 @@ struct SpringDashpot {
         R damping;             // 1/s, to be multiplied by the effective mass
         R tangential_damping;  // 1/s, for the tangential law
         R by_root,
-            tangential_by_root;  // kg^(1/2)/s, divided by the root of the effective mass: added to both
+            tangential_by_root;  // kg^(1/2)/s; divided by the root of the effective mass, they are added to
+                                 // the two dampings
         R lowest;                // N, lower bound of the force: 0, or so low that no force reaches it
 
         template <class Each>

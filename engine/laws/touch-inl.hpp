@@ -20,7 +20,7 @@ struct Touch {
     R effective_mass;    // kg; set only for laws that use it
     R effective_radius;  // m; set only for laws that use it
     R closing_speed;     // m/s, k . (v_i - v_j), > 0 when approaching; set only for laws that use velocity
-    Triple<R> slip;      // m, of i over j at the contact during this step; set only for laws that rub
+    Triple<R> slip;      // m, of i relative to j at the contact during this step; set only for laws that rub
     Triple<R>
         turn;  // Cayley's vector, tan(angle / 2) along the axis, of the contact's turn during this step: the
                // turn of k, and the mean turn of the two bodies about k; set only for laws that rub
@@ -34,7 +34,7 @@ struct Energies {
     R stored;    // J, energy that the contact would give back if it were unloaded
     R sideways;  // J, the part of it in tangential and rolling springs
     R latched;   // J, energy that latching would have taken since the bodies met, if they were unloaded now
-    R damping;   // W, into the normal dashpot
+    R damping;   // W, lost in the normal dashpot
     R rubbing;   // W, that slip and rolling put into springs, friction and tangential dashpots
 };
 

@@ -86,7 +86,7 @@ struct WaltonBraunCorrected {
             h.peak = select(loads, peak, h.peak);
         }
         const R whole = before + R(0.5) * spring * dt;  // N s, impulse of the step
-        const R rest = a - residual(p, h);              // m, to the end of the force
+        const R rest = a - residual(p, h);              // m, overlap left until the force ends
         const auto steps = dt > R(0), leaves = (rest + dt * (v - whole * by_mass) < R(0)) & (spring > R(0));
         const R over_the_step = select(steps, whole * by_step, spring);
         if (none(leaves)) return over_the_step;

@@ -25,7 +25,7 @@ struct WaltonBraunSpeed : HardeningSpring<WaltonBraunSpeed> {
     template <class R>
     struct Parameters {
         R loading;    // N/m, K1
-        R unloading;  // N/m, K2 of a contact that was hardly touched
+        R unloading;  // N/m, K2 of a contact whose overlap was always small
         R hardening;  // N/m2, S K1
 
         template <class Each>

@@ -16,8 +16,8 @@ double mean_cube(const SizeSpread& d) {
         case SizeSpread::Kind::normal:
             break;
     }
-    // The variance that is left of a normal distribution cut off at two deviations: 1 - 4 phi(2) / erf(sqrt
-    // 2).
+    // The variance of a normal distribution that is cut off at two deviations, in units of the whole one's: 1
+    // - 4 phi(2) / erf(sqrt 2).
     const double density_at_cut = std::exp(-2.0) / std::sqrt(2 * std::numbers::pi);
     const double variance =
         d.deviation * d.deviation * (1 - 4 * density_at_cut / std::erf(std::numbers::sqrt2));
@@ -93,7 +93,8 @@ double fill_height(const Scene& scene, double solid_fraction) {
 
 namespace {
 
-// Adds the part of each mesh that lies within `margin` (m) of the box.
+// Adds the part of each mesh that lies within `margin` (m) of the box, and the whole of a mesh that is no
+// larger than `largest` (m).
 void take_meshes(const Scene& scene, double margin, double largest, Extent& extent) {
     const Vec3 low = extent.low - margin * Vec3::Ones(), high = extent.high + margin * Vec3::Ones();
     for (const SceneMesh& mesh : scene.meshes) {
@@ -106,7 +107,7 @@ void take_meshes(const Scene& scene, double margin, double largest, Extent& exte
     }
 }
 
-// Adds the circles in which the corners of the box turn.
+// Adds the circles along which the corners of the box turn.
 void take_turned(const BodyTurn& turn, Extent& extent) {
     const Vec3 reach = (Vec3::Ones() - turn.axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
     const Extent rest = extent;
@@ -132,8 +133,8 @@ Extent extent_of_container(const Scene& scene) {
     return extent;
 }
 
-// The box of listed grains and of the ways they would fly undisturbed or thrown back by the first wall, up
-// to five times their own extent. For a start from a file only the size of the grains is known.
+// The box of listed grains and of their flights, undisturbed or thrown back by the first wall, up to five
+// times the grains' own extent. For a start from a file only the size of the grains is known.
 Extent extent_of_grains(const Scene& scene) {
     const Vec3 margin = largest_diameter(scene) * Vec3::Ones();
     if (scene.start.region) return {scene.start.region->low, scene.start.region->high};

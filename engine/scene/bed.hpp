@@ -13,11 +13,11 @@ double solid_volume(const Scene& scene);   // m3
 double mean_diameter(const Scene& scene);  // m
 double total_mass(const Scene& scene);     // kg
 
-// The species of the grains that are glued to walls. They are as heavy as walls, so its density is
-// infinite. Only for scenes with glued grains.
+// The species of the grains that are glued to walls. They count as infinitely heavy, like walls, so its
+// density is infinite. Only for scenes with glued grains.
 Species glued_species(const Scene& scene);
-// The contact of grains of this species with glued grains: that of the two species, except for a stiffness
-// of its own.
+// The contact of grains of this species with glued grains. It is that of the two species, but its stiffness
+// may differ.
 PairContact glued_contact(const Scene& scene, std::size_t species);
 
 // Height (m) above the container's base to which grains fill it at this solid fraction; at most up to its
@@ -28,10 +28,10 @@ double fill_height(const Scene& scene, double solid_fraction);
 // alone when the depth is periodic.
 double bed_width(const Scene& scene);
 
-// The box that the container takes up; in empty space, the box of the grains and their way, and of meshes
-// where they move. Where meshes reach far beyond, only the near part counts: within the size of the
-// container or, where meshes are more than thirty times as large as all that happens to the grains, within
-// three times that.
+// The box around the container, the places to which it turns, and its meshes; in empty space, the box around
+// the grains, their flights and the meshes. Only the near part of a mesh counts: up to the container's size
+// away from the container. In empty space a mesh counts whole, unless it is more than thirty times as large
+// as the box of the grains; then its part within three times that box's size counts.
 struct Extent {
     Vec3 low, high;  // m
     Vec3 size() const { return high - low; }
@@ -43,9 +43,9 @@ struct Extent {
 };
 Extent extent_of(const Scene& scene);
 
-// The tray below an outlet as a container. It is open above, and its floor lies the tray's depth below the
-// floor of the scene's container at rest. It ends where the container's floor comes at its lowest. Only for
-// scenes with a tray.
+// The tray below an outlet as a container. It is open above. Its floor lies below that of the scene's
+// container at rest, by the tray's depth, and its rim lies where the container's floor is at its lowest. Only
+// for scenes with a tray.
 Container tray_container(const Scene& scene);
 
 // Diameters drawn from a species' spread.

@@ -12,7 +12,8 @@ namespace {
 
 using Kind = DriveStage::Kind;
 
-constexpr double hair = 1e-6;  // in periods: a stage that comes later than a whole one by less begins with it
+constexpr double hair = 1e-6;  // in periods: a stage that comes later than the start of a period by less than
+                               // this begins with that period
 constexpr int looks_at_change = 256;
 
 double acceleration_of(double amplitude, double frequency) {
@@ -35,7 +36,7 @@ DriveSchedule::Piece piece_of(std::size_t stage, Kind kind, double frequency, do
 }  // namespace
 
 DriveSchedule::DriveSchedule(const Drive& drive) {
-    // A first stage that is on from the start leaves no time for the drive before it.
+    // If the first stage holds from the start, there is no time for the drive before it.
     const bool at_once = drive.changes() && drive.stages.front().from <= 0;
     add({0, 0, 1 / drive.frequency, 1 / drive.frequency},
         piece_of(0, at_once ? Kind::rest : Kind::vibrate, drive.frequency, at_once ? 0 : drive.amplitude, 0));

@@ -1,8 +1,8 @@
 // What the drive does at which time: its stages one after the other, and the changes between them.
 //
-// A stage begins with the first whole period that starts at its `from` or later, and its change takes whole
-// periods. So each stretch begins at the drive's first phase, and the count of periods has no jump. A
-// period of taps lasts from one tap to the next; at rest the periods of the stage before go on.
+// A stage begins with the first period that starts at its `from` or later, and the change to it takes whole
+// periods. So each stretch of time begins at the drive's first phase, and the count of periods has no jump.
+// With taps, a period lasts from one tap to the next; at rest, the periods of the stage before go on.
 #pragma once
 
 #include <vector>
@@ -30,8 +30,8 @@ struct DriveChange {
     Values at(double u) const;
 };
 
-// The largest place (m), velocity (m/s) and acceleration (m/s2) of a sine with these values, over all
-// phases.
+// The largest displacement (m), velocity (m/s) and acceleration (m/s2) of a sine with these values, at any
+// phase.
 struct Envelope {
     double offset, speed, acceleration;
 };
@@ -44,7 +44,7 @@ class DriveSchedule {
 
     // What the drive does in each stretch of times().
     struct Piece {
-        std::size_t stage = 0;  // the stage that is on or begins, from 1; 0: the drive before them
+        std::size_t stage = 0;  // the stage that holds or begins, from 1; 0: the drive before the first stage
         DriveStage::Kind kind = DriveStage::Kind::vibrate;  // what the stretch does; a change vibrates
         double frequency_before = 0, frequency = 0;         // Hz, of the vibration or of a tap
         double acceleration_before = 0, acceleration = 0;   // m/s2, a (2 pi f)^2
@@ -58,7 +58,7 @@ class DriveSchedule {
     double begins(std::size_t stage) const;
     double settled(std::size_t stage) const;
 
-    // What is on after so many periods. In a change it has the values of that moment.
+    // What the drive does after so many periods. During a change it has the values of that instant.
     struct Now {
         std::size_t stage = 0;
         DriveStage::Kind kind = DriveStage::Kind::vibrate;
@@ -76,7 +76,7 @@ class DriveSchedule {
     std::vector<Piece> pieces_;
 };
 
-// What is on after so many periods, for a drive with stages or without.
+// What a drive, with stages or without, does after so many periods.
 DriveSchedule::Now drive_now(const Drive& drive, double cycles);
 
 // The largest values that the drive reaches in all its stages, changes included.
@@ -87,13 +87,11 @@ struct DrivePeaks {
     double acceleration = 0;  // m/s2
 };
 DrivePeaks drive_peaks(const Drive& drive);
-// Largest acceleration (m/s2) in the change to a stage; 0 where nothing has to change.
+// Largest acceleration (m/s2) in the change to a stage; 0 if nothing has to change.
 double peak_acceleration_of_change(const DriveSchedule& schedule, std::size_t stage);
 
-// The share of its amplitude that a drive has while it grows.
-
-// The share after so many periods: it grows over the ramp, is 0 before the start, and is 1 from the first
-// stage on.
+// The share of its amplitude that a drive has after so many periods: 0 before the start, growing during the
+// ramp, and 1 from the first stage on.
 inline double grown_share(const Drive& drive, double cycles) {
     if (cycles < 0) return 0;
     if (cycles >= drive.ramp || drive_now(drive, cycles).stage > 0) return 1;

@@ -87,8 +87,7 @@ void FreeSpace::set_box(const Scene& scene) {
 }
 
 void FreeSpace::measure() {
-    // These places are costly to test: one in a mesh's room takes sixteen rays, one beside a solid takes a
-    // ray.
+    // These are costly to test: a place in a mesh's room takes sixteen rays, one beside a solid takes one.
     const bool dear = container_.shape == Container::Shape::mesh ||
                       std::any_of(meshes_.begin(), meshes_.end(),
                                   [](const Shared<Surface>& mesh) { return mesh->facts().closed(); });
@@ -130,7 +129,7 @@ bool is_free(const Surface& surface, const Vec3& from, const Vec3& to) {
     return !surface.meets(from, way / length, length);
 }
 
-// The same for a grain of this radius: tested on the axis of the way and at four sides of it.
+// The same for a grain of this radius: tested on the axis of its way and on four lines beside it.
 bool is_free(const Surface& surface, const Vec3& from, const Vec3& to, double radius) {
     if (!is_free(surface, from, to)) return false;
     const Vec3 along = (to - from).normalized();
@@ -140,7 +139,8 @@ bool is_free(const Surface& surface, const Vec3& from, const Vec3& to, double ra
     return true;
 }
 
-// Searches for a leak from place to place, on a grid over the box around a vessel and one step beyond it.
+// Searches for a leak by going from place to place on a grid, in the box around a vessel and one step beyond
+// it.
 class Flood {
   public:
     Flood(const Surface& surface, const EnclosedRoom& room, double radius)
@@ -181,7 +181,7 @@ class Flood {
     static Node node_of(int number) {
         return {number % kWide, number / kWide % kWide, number / kWide / kWide};
     }
-    // Places are off the middle of a step, so that no way lies in a plane of the vessel.
+    // Places are a little off the middle of their cell, so that no way lies in a plane of the vessel.
     Vec3 place_of(const Node& n) const {
         constexpr double off[3] = {0.4873, 0.5171, 0.5067};
         Vec3 place;
@@ -218,7 +218,7 @@ class Flood {
         return found;
     }
 
-    // The first place outside the room, on the way to this one.
+    // The first place outside the room on the way from a seed to this place.
     Vec3 place_left(int number) const {
         int outside = number;
         for (int at = number; at != kSeed; at = from_[static_cast<std::size_t>(at)]) {
@@ -232,7 +232,7 @@ class Flood {
     const EnclosedRoom& room_;
     const double radius_;
     Vec3 low_, high_, step_;
-    std::vector<int> from_;  // by number: the place before, on the way from a seed
+    std::vector<int> from_;  // for each place, the one before it on the way from a seed
 };
 
 bool opens(const Surface& surface, const EnclosedRoom& room, const Vec3& beyond, const Vec3& normal,

@@ -1,5 +1,5 @@
-// The room that a scene has for the grains it packs: that of its container or of the box start.region,
-// before its planes and outside its meshes.
+// The room that a scene has for the grains it packs: that of its container or of the box start.region, on the
+// inner side of its planes and outside its meshes. Also a search for leaks of a vessel.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@ namespace grainreel {
 
 class FreeSpace {
   public:
-    // The room is measured at 100,000 evenly spread places where the scene has planes, meshes beside the
-    // container, or a region: volumes are then good to some 0.1 % of the container's. Closed meshes in a
-    // container are solid; a region may lie inside a mesh.
+    // Where the scene has planes, meshes beside the container, or a region, the room is measured at 100,000
+    // evenly spread places (10,000 where each takes rays): volumes are then good to some 0.1 % of the
+    // container's. Closed meshes in a container are solid; a region may lie inside a mesh.
     explicit FreeSpace(const Scene& scene);
 
     double volume() const { return volume_; }  // m3
@@ -40,16 +40,17 @@ class FreeSpace {
     Vec3 low_{0, 0, 0}, high_{0, 0, 0};
     double volume_ = 0;
     bool measured_ = false;
-    std::vector<double> heights_;  // heights of the places with room, rising; only where the room is measured
+    std::vector<double> heights_;  // m, z of the measured places that are in the room, rising; empty where
+                                   // nothing is measured
 };
 
-// A place (m) where a vessel leaks: a grain of this diameter (m) gets out near it. Empty where none is
-// found. Holes above the rim of an open vessel do not count; a closed vessel must be closed on all sides.
+// A place (m) near which a grain of this diameter (m) gets out of a vessel. Empty if none is found. Holes
+// above the rim of an open vessel do not count; a closed vessel must be closed on all sides.
 //
 // There are two searches. The first walks from the room to the box around the vessel, in steps of a 32nd of
-// its size, and finds every wider hole in walls of any kind. The second looks at each open edge: it finds
-// edges where, a diameter beyond the edge, the room meets the space outside. Sheets in the room, seams
-// whose vertices do not meet, and thick walls disturb neither search.
+// its size, and finds every hole in walls of any kind that is wider than a step. The second looks at each
+// open edge: it finds edges where, a diameter beyond the edge, the room meets the space outside. Sheets in
+// the room, seams whose vertices do not meet, and thick walls disturb neither search.
 std::optional<Vec3> leak_of(const Surface& surface, const EnclosedRoom& room, double diameter);
 
 }  // namespace grainreel

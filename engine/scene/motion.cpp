@@ -33,7 +33,8 @@ Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
     return 2 * (quaternion_of(change) * quaternion_of(unit).conjugate()).vec();
 }
 
-// The mesh stands at rest until the run begins, so a path that begins elsewhere would make it jump.
+// The mesh stands still at its place in the scene until the run begins, so a path that begins elsewhere would
+// make it jump.
 void check_start(const MotionPath& path, const PathRows& rows, const std::filesystem::path& file) {
     constexpr double same = 1e-6;  // as a share of the path's size; rad
     const PathPose start = path.at(0);
@@ -256,7 +257,7 @@ class PathReader {
         Vec3 low = rows.places.front(), high = low;
         for (const Vec3& place : rows.places) low = low.cwiseMin(place), high = high.cwiseMax(place);
         const double size = (high - low).norm();
-        // The speed of the faster neighbour of the steps from `first` to `last`.
+        // The speed of the step before `first` or of the step after `last`, whichever is faster.
         const auto beside = [&](std::size_t first, std::size_t last) {
             return std::max(first > 0 ? speed(first - 1) : 0.0, last + 1 < steps ? speed(last + 1) : 0.0);
         };
@@ -299,8 +300,8 @@ PathRows read_path_rows(const std::filesystem::path& file) {
 
 namespace {
 
-// How far a smooth rise of `over` seconds that starts at `begin` has come at `time` (0 to 1), and the
-// integral of this share over time (s).
+// The share (0 to 1) that a smooth rise of `over` seconds, starting at `begin`, has reached at `time`; and
+// the integral of this share over time (s).
 double share_at(double begin, double over, double time) {
     if (time < begin) return 0;
     return over > 0 ? smooth_step::value(std::min(1.0, (time - begin) / over)) : 1;

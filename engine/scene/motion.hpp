@@ -1,5 +1,5 @@
-// The motion of a body from a file: places and orientations at rising times, joined by a curve whose
-// velocity and acceleration are continuous. Also the steady turn of a body.
+// MotionPath, the motion of a body along a path from a file: places and orientations at rising times, joined
+// by a curve whose velocity and acceleration are continuous. BodyTurn, the steady turn of a body.
 //
 // The file is CSV: a header of names, then rows. Its columns are time_s (or t), x_m, y_m, z_m (or x, y, z)
 // and, if wanted, qw, qx, qy, qz. Places count from the body's place at rest. The quaternion turns the body
@@ -31,14 +31,15 @@ struct CubicPiece {
     V slope(double s) const { return c1 + s * (2 * c2 + 3 * s * c3); }
 };
 
-// One piece between every two points. times rise and are at least 2; there are as many points.
+// Returns one piece between every two neighbouring points. There are at least two times, which rise, and as
+// many points.
 template <class V>
 std::vector<CubicPiece<V>> natural_spline(const std::vector<double>& times, const std::vector<V>& points) {
     const std::size_t last = times.size() - 1;
     const auto width = [&](std::size_t i) { return times[i + 1] - times[i]; };
     const auto rise = [&](std::size_t i) { return V((points[i + 1] - points[i]) / width(i)); };
     // The second derivatives m solve h[i-1] m[i-1] + 2 (h[i-1] + h[i]) m[i] + h[i] m[i+1] = 6 (rise[i] -
-    // rise[i-1]). They are found by elimination; `beyond` has what is left of the row above.
+    // rise[i-1]). They are found by elimination; `beyond` holds what is left above the diagonal.
     std::vector<V> second(times.size(), V::Zero());
     std::vector<double> beyond(times.size(), 0.0);
     for (std::size_t i = 1; i < last; ++i) {
@@ -70,9 +71,9 @@ class MotionPath {
   public:
     // `pivot` (m, at rest) is the mesh's position. Throws UserError with file and line for: values that are
     // not numbers, times that do not rise or begin after 0, fewer than 4 rows, a quaternion that is no
-    // rotation, and jumps. A jump is a step of more than a twentieth of the path's size that is more than
-    // 20 times as fast as those before and after it; a single row that lies so far apart; or a turn of more
-    // than 2 rad from row to row, whose sense would be unclear.
+    // rotation, and jumps. A jump is a step of more than a twentieth of the path's size that is more than 20
+    // times as fast as those before and after it; a single row that lies as far from both its neighbours; or
+    // a turn of more than 2 rad from row to row, whose sense would be unclear.
     static std::shared_ptr<const MotionPath> read(const std::filesystem::path& file,
                                                   const Vec3& pivot = Vec3(0, 0, 0));
 
@@ -80,8 +81,8 @@ class MotionPath {
     const Vec3& pivot() const { return pivot_; }     // m, at rest
     double first() const { return times_.front(); }  // s
     double last() const { return times_.back(); }    // s
-    // Largest speeds at sixteen times between every two rows. No point at a distance r from the pivot is
-    // faster than top_speed() + r * top_spin().
+    // Largest speeds, looked up at sixteen times between every two rows. No point at a distance r from the
+    // pivot is faster than top_speed() + r * top_spin().
     double top_speed() const { return top_speed_; }  // m/s, of the pivot
     double top_spin() const { return top_spin_; }    // rad/s
     bool turns() const { return !turns_.empty(); }

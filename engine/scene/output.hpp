@@ -1,8 +1,8 @@
 // What a run can write, as plain values: columns of measures.csv, fields, and files in formats of other
 // programs.
 //
-// The observers decide which columns there are (engine/measure/observer_list.hpp). The reader of a scene
-// gets the list, because plots and live words name columns.
+// The observers decide which columns there are (engine/measure/observer_list.hpp). The reader of a scene gets
+// the list, because plots and live words (numbers shown in a film) name columns.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct ColumnGroup {
 };
 
 // What can be measured in a scene: all columns that its measures.csv can have, in their order, and the
-// instruments, which a scene asks for by name.
+// instruments, which are measurements that a scene must ask for by name.
 struct Measurable {
     std::vector<MeasureColumn> columns;
     std::vector<std::string> instruments;
@@ -61,12 +61,13 @@ struct FieldOutput {
     enum class Kernel { gaussian, lucy };
     Grid grid = Grid::none;
     Kernel kernel = Kernel::gaussian;
-    double width = 0;             // m, the kernel's standard deviation along one axis
-    double cell = 0;              // m, largest side of a cell
-    int periods = 10;             // a record is a mean over so many periods of the drive; 0 without a drive
-    int samples = 16;             // moments in each period; without a drive, in each record
-    std::optional<double> phase;  // turns; one moment a period at this phase, in place of `samples`
-    double interval = 0;          // s, length of a record without a drive; else 0
+    double width = 0;  // m, the kernel's standard deviation along one axis
+    double cell = 0;   // m, largest side of a cell
+    int periods = 10;  // a record is a mean over so many periods of the drive; 0 without a drive
+    int samples = 16;  // measurements in each period; without a drive, in each record
+    std::optional<double>
+        phase;            // turns; one measurement in each period, at this phase, in place of `samples`
+    double interval = 0;  // s, length of a record without a drive; else 0
 
     bool wanted() const { return grid != Grid::none; }
     bool operator==(const FieldOutput&) const = default;

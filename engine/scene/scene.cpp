@@ -59,7 +59,7 @@ const SceneMesh* Scene::mesh_named(const std::string& mesh) const {
     return found == meshes.end() ? nullptr : &*found;
 }
 
-// A grain comes when its interval is over, so none comes at the beginning.
+// A grain comes at the end of its interval, so none comes at the very beginning.
 std::int64_t Feed::due(double time) const {
     constexpr double most = 4e9;        // grains; more cannot be numbered
     constexpr double rounding = 1e-12;  // as a share of rate times time
@@ -79,7 +79,8 @@ double level_of(double amplitude, double frequency, double gravity) {
     return gravity > 0 ? amplitude * omega * omega / gravity : std::numeric_limits<double>::infinity();
 }
 
-// The largest value of all stages and of the drive before them, unless a stage takes its place at once.
+// The largest value in all stages and in the drive before them, which counts unless a stage replaces it at
+// once.
 template <class Of>
 double largest(const Drive& drive, const Of& of) {
     const bool replaced = drive.changes() && drive.stages.front().from <= 0;

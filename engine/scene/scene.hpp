@@ -1,5 +1,5 @@
-// What one scene file says, after reading: plain values in SI units, defaults filled in. No behaviour.
-// x runs along the hopper's depth, y across its width, z up. The origin is the middle of the floor.
+// What one scene file says, after reading: plain values in SI units, with defaults filled in. x runs along
+// the hopper's depth, y across its width, z up. The origin is the middle of the floor.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Location {
     int column = 0;
 };
 
-// A large value that a scene shares with its copies. Two are equal when their hashes are.
+// A large value that a scene shares with its copies. Two are equal if their hashes are.
 template <class T>
 struct Shared {
     std::shared_ptr<const T> of;
@@ -54,7 +54,7 @@ struct Species {
     std::int64_t fed = 0;    // grains that come during the run
     SizeSpread diameter;
     double density = 0;       // kg/m3; from the mass at the mean diameter when the scene gives a mass
-    std::string colour_text;  // as TOML; the engine keeps it for those who draw; empty: none is given
+    std::string colour_text;  // as TOML; the engine only keeps it for drawing; empty if none is given
     std::int64_t all() const { return count + fed; }
     bool operator==(const Species&) const = default;
 };
@@ -79,11 +79,12 @@ struct PairContact {
     NormalLaw normal = NormalLaw::walton_braun;
     TangentialLaw tangential = TangentialLaw::incremental_slip;  // none without friction
     double restitution = 0.9;                                    // in (0, 1]
-    std::optional<double>
-        restitution_speed;  // m/s at which it holds, falling with speed; empty: at any speed
-    std::vector<RestitutionPoint> restitution_table;  // in its place, by rising speed; empty: not used
-    double friction = 0.5;                            // >= 0, may be infinite
-    double rolling_friction = 0;                      // torque at most this value x effective radius x N
+    std::optional<double> restitution_speed;  // m/s, impact speed at which `restitution` holds; it falls with
+                                              // speed. Empty: it holds at any speed
+    std::vector<RestitutionPoint>
+        restitution_table;                 // in place of `restitution`, by rising speed; empty: not used
+    double friction = 0.5;                 // >= 0, may be infinite
+    double rolling_friction = 0;           // the torque is at most this value x effective radius x N
     std::optional<double> stiffness;       // N/m: K1 or kn; Hertz: Pa, E*; the plan chooses it when empty
     double tangential_ratio = 0.8;         // K0 / K1, or kt / kn; Mindlin: 2 (1 - nu) / (2 - nu)
     double gamma = 1.0 / 3.0;              // exponent of Walton's incremental slip
@@ -99,7 +100,7 @@ struct PairContact {
 struct Contact {
     LeverArms arms = LeverArms::contact_plane;
     std::vector<PairContact> grain;  // species x species, symmetric, row-major
-    std::vector<PairContact> wall;   // one a species
+    std::vector<PairContact> wall;   // one for each species
     std::vector<PairContact> mesh;   // mesh x species, row-major
     bool rubs() const;               // whether any of them has friction
     bool operator==(const Contact&) const = default;
@@ -129,13 +130,13 @@ struct WallGrains {
     std::size_t species = 0;
     std::vector<std::string> faces;  // names of faces of the container at rest: "floor", "left slant"
     double spacing = 0;              // m, between neighbours in the layer
-    double disorder = 0.2;           // over the spacing: the most by which each grain is moved at random
+    double disorder = 0.2;  // the most by which each grain is moved at random, divided by the spacing
     bool operator==(const WallGrains&) const = default;
 };
 
 struct Container {
     enum class Shape { wedge, box, cylinder, mesh, none };
-    Shape shape = Shape::wedge;  // none: empty space, with the sizes of what is looked at
+    Shape shape = Shape::wedge;  // none: empty space; the sizes are then those of the part that is looked at
     // For the shape `mesh`: the vessel's name, and the room that it encloses. Half-width, depth and height
     // are then those of the room, with the height from z = 0 to lid or rim.
     std::string mesh;
@@ -172,28 +173,28 @@ struct AxisRotation {
 struct SceneMesh {
     std::string name;
     std::string file;  // path
-    std::string hash;  // hash of the file, as in load_mesh.hpp; a run writes it into its scene, and it is
-                       // checked when that is read
+    std::string hash;  // of the file, as in load_mesh.hpp; a run writes it into its scene.toml, and reading
+                       // that checks it
     double scale = 1;
     Vec3 position{0, 0, 0};  // m
     AxisRotation rotation;   // before it is moved to its position
-    // Its motion: at most one of these and a path.
+    // Its motion: it has at most one of driven, turn, velocity and a path.
     bool driven = false;  // moves with the drive
     std::optional<BodyTurn> turn;
     Vec3 velocity{0, 0, 0};  // m/s, steady
     std::string path_file, path_hash;
-    Shared<Surface> surface;  // as it stands in the scene at rest
+    Shared<Surface> surface;  // where it is in the scene before anything moves
     Shared<MotionPath> path;
     // Corners (m) of the box in which it stays during the run, apart from the drive's motion. They follow
-    // from the rest.
+    // from the other members.
     Vec3 low{0, 0, 0}, high{0, 0, 0};
     bool moves() const { return driven || turn || !path_file.empty() || !velocity.isZero(0); }
-    // The paths of the files make no difference; their hashes do.
+    // Compares the files by their hashes, not by their paths.
     bool operator==(const SceneMesh& other) const;
 };
 
-// A box in the lab. A grain leaves the run when its centre is in the box or, with `outside`, when it is
-// not.
+// A box that does not move. A grain leaves the run when its centre is in the box or, with `outside`, when it
+// is not.
 struct ExitBox {
     Vec3 low{0, 0, 0}, high{0, 0, 0};  // m
     bool outside = false;
@@ -223,7 +224,7 @@ struct FreeWall {
     bool operator==(const FreeWall&) const = default;
 };
 
-// A stage: from a time of the run on, the drive does something else.
+// A stage of the drive: from a certain time of the run on, the drive does something else.
 struct DriveStage {
     enum class Kind { vibrate, taps, rest };
     Kind kind = Kind::vibrate;
@@ -309,7 +310,7 @@ struct Run {
     int threads = 0;             // 0: as many as the machine gives
     std::optional<double> step;  // s; the plan chooses it when empty
     Accuracy accuracy = Accuracy::standard;
-    double overlap = 0.01;  // wanted largest overlap over the smaller diameter
+    double overlap = 0.01;  // wanted largest overlap, divided by the smaller diameter
     Integrator integrator = Integrator::velocity_verlet;
     Precision precision = Precision::full;
     bool contact_corrections = false;      // for onset, peak and exit (Walton-Braun)
@@ -325,18 +326,18 @@ struct Output {
     bool orientation = false;                 // keep orientations in the trajectory
     bool contacts = false;                    // write contacts.nc beside it
     bool trajectory = true;
-    // Keep the moments of the film's pictures in film_moments.nc. When empty, they are kept if they are
-    // few.
+    // Whether film_moments.nc keeps the states that the film's pictures show. When empty, they are kept if
+    // they are few.
     std::optional<bool> film_moments;
     AlsoFormats also;  // formats of other programs that the run also writes
     // Largest size (bytes) of all checkpoints that are kept along the run; none are kept when empty.
     std::optional<std::int64_t> checkpoints = 64'000'000;
-    std::vector<std::string> instruments;  // names of what is measured beside the usual columns
+    std::vector<std::string> instruments;  // names of what is measured in addition to the usual columns
     FieldOutput fields;
     bool operator==(const Output&) const = default;
 };
 
-// What a film, for instance, needs from a run beside what [output] asks for.
+// What others, such as a film, need from a run in addition to what [output] asks for.
 struct Wishes {
     std::vector<std::string> instruments;  // also measured
     bool orientation = false;              // also kept, in frames and files
@@ -362,10 +363,10 @@ struct Scene {
     // The tables of [film] as TOML. The engine keeps them as they are; render/scene reads them.
     std::string film_text;
 
-    // Filled as far as the reader knew what can be measured.
+    // What can be measured, as far as the reader of the scene was told.
     Measurable measurable;
 
-    // What the reader took in place of what was written, as notes to the user.
+    // Notes to the user about values that the reader took in place of those written.
     std::vector<std::string> notes;
 
     // Where each value was written, by its key path ("species[1].count"), for messages about mistakes that
@@ -382,7 +383,7 @@ struct Scene {
     std::int64_t grains() const;  // number of all grains in the course of the run
     std::int64_t grains_at_start() const;
     bool keeps_orientations() const { return output.orientation || wishes.orientation; }
-    // The instruments of [output] and those that are wished for, each once.
+    // The instruments of [output] and those of `wishes`, each once.
     std::vector<std::string> instruments() const;
     const PairContact& between(std::size_t a, std::size_t b) const {
         return contact.grain[a * species.size() + b];

@@ -32,7 +32,7 @@ std::string advice_for_missing(const std::filesystem::path& file) {
                  : "give the path of a scene file (.toml)";
 }
 
-// Returns whether the file is a pipe. Throws where it is no file that can be read.
+// Returns whether the file is a pipe. Throws if it cannot be read.
 bool check_kind(const std::filesystem::path& file, Pipes pipes) {
     using Type = std::filesystem::file_type;
     std::error_code ignored;
@@ -59,8 +59,7 @@ struct Closing {
     ~Closing() { ::close(file); }
 };
 
-// Waits until something comes through the pipe, or it ends. A signal to stop the program is heeded
-// meanwhile.
+// Waits until something comes through the pipe, or until it ends. A signal to stop the program ends the wait.
 void wait_for(const std::filesystem::path& file, int pipe) {
     pollfd waiting{pipe, POLLIN, 0};
     if (::poll(&waiting, 1, -1) < 0) fail(file, "this is a pipe, and waiting for it was stopped");

@@ -21,12 +21,10 @@ constexpr std::size_t largest_scene_file = 16u << 20;
 // through.
 enum class Pipes { refused, taken };
 
-// Throws UserError when there is no such file, when it is something else (a folder, a device that has no
-// end, a pipe where these are refused), when it is larger than that or cannot be read, and when a signal
-// comes while the program waits for a pipe.
+// Reads the text. Throws UserError when there is no such file, when it is something else (a folder, a device
+// that has no end, a pipe where these are refused), when it is larger than largest_scene_file or cannot be
+// read, and when a signal comes while the program waits for a pipe.
 std::string load_scene_file(const std::filesystem::path& file, Pipes pipes = Pipes::refused);
-
-// From a scene file to a Scene.
 
 class TableReader;
 
@@ -35,10 +33,10 @@ class TableReader;
 // relative start.file becomes absolute, counted from the scene's folder, and so do the files of meshes and
 // paths, which are loaded.
 //
-// Throws UserError at the first mistake: an unknown or useless key, a value of the wrong kind, unit or
-// size, or values that do not go together. `measurable` gives what output.instruments may name
-// (measurable_in() of engine/measure/columns.hpp); without it they may name nothing. [film], which must be
-// a table, and the colours of species are kept as text and are not checked.
+// Throws UserError at the first mistake: an unknown or useless key, a value of the wrong kind, unit or size,
+// or values that do not go together. `measurable` gives what output.instruments may name (measurable_in() of
+// engine/measure/columns.hpp); without it they may name nothing. [film], which must be a table, and the
+// colours of species are kept as text without a check.
 Scene read_scene(const std::filesystem::path& file, const Assignments& sets = {},
                  const MeasurableIn& measurable = nullptr);
 
@@ -55,7 +53,8 @@ struct NamedText {
 // The text of a file, or of the shipped scene of that name. Throws UserError where there is neither.
 NamedText text_of_scene(const std::filesystem::path& file);
 
-// Reads a scene, and lets `further` read what the engine does not know (render/scene/filmed_scene.hpp).
+// Reads a scene, and lets `further` read the tables that the engine does not know
+// (render/scene/filmed_scene.hpp).
 void read_scene_into(Scene& scene, const NamedText& from, const Assignments& sets,
                      const MeasurableIn& measurable, TableReader* further = nullptr);
 
@@ -67,10 +66,9 @@ struct Reasons {
     std::vector<std::string> grain, wall, mesh, glued;
 };
 
-// From a Scene back to a scene file: scene.toml in the run's folder.
-
-// Writes every value as resolved, in SI. read_scene gives the same Scene back, bit by bit. A value with a
-// reason gets it as a comment.
+// Writes a Scene as the text of a scene file, such as scene.toml in the run's folder, with every value as
+// resolved, in SI. read_scene gives the same Scene back, bit by bit. A value with a reason gets it as a
+// comment.
 std::string written_scene(const Scene& scene, const Reasons& reasons = {});
 
 // The files of meshes and paths as a run keeps them, in the folder `meshes` of its own folder.
@@ -82,8 +80,8 @@ struct KeptFile {
     std::string name;        // "meshes/drum.stl", relative to the run's folder
 };
 
-// Lists each file once. A file keeps its name, and gets a number where another has the same. Files that the
-// program ships are not kept.
+// Lists each file once. A file keeps its name, with a number if another file has the same name. Files that
+// the program ships are not kept.
 std::vector<KeptFile> kept_files(const Scene& scene);
 
 // The scene as it is written into its run's folder, with the names of the kept files. Scenes in checkpoints

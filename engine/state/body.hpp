@@ -14,14 +14,14 @@
 
 namespace grainreel {
 
-// Displacement from rest and velocity of everything that the drive moves, both at the same time level.
+// Displacement from rest, and velocity, of everything that the drive moves, at one time.
 struct Pose {
     Vec3 offset{0, 0, 0};    // m
     Vec3 velocity{0, 0, 0};  // m/s
     double time = 0;         // s, since the start of the motion
 };
 
-// Position and motion of a body. At rest its origin is the origin of the scene.
+// Position and motion of a body. "At rest" means before anything moves; a body's origin is then the scene's.
 struct BodyPose {
     Vec3 place{0, 0, 0};                           // m, of the body's origin
     Quaternion rotation = Quaternion::Identity();  // about that origin
@@ -43,7 +43,7 @@ struct BodyPose {
 // The numbers of a scene's bodies: container and floor, whatever the shape of the container, then the planes
 // in their order, then the meshes.
 constexpr std::int32_t kContainerBody = 0, kFloorBody = 1, kFirstPlaneBody = 2;
-// Number of a tray as a body. It stands still and has no pose in files.
+// The tray's number. It stands still and has no pose in files.
 constexpr std::int32_t kTrayBody = -1;
 
 // The motion of a body: with the drive or not, and by a motion of its own on top of it.
@@ -67,7 +67,7 @@ struct Body {
 
 // All bodies of a scene, by number.
 std::vector<Body> bodies_of(const Scene& scene);
-// The bodies of a container that does not turn, its floor and these planes.
+// The bodies of a container that does not turn, of its floor and of these planes.
 std::vector<Body> bodies_of(const Drive& drive, const std::vector<FreeWall>& planes);
 inline std::int32_t first_mesh_body(const Scene& scene) {
     return kFirstPlaneBody + static_cast<std::int32_t>(scene.walls.size());
@@ -93,10 +93,10 @@ class WallMotion {
     // off, z_w = a (sin(wt + phi) - sin phi): the container starts from rest position, though not from rest.
     // The phase comes from the step count, so it does not drift. Before step 0 the walls are at rest.
     Pose at(std::int64_t step) const { return at(step, 0); }
-    // The pose between two steps; `share` is the share of the step that has passed, from 0 to 1.
-    // In a stage z_w = a (sin(p) - sin phi). The last term is there only without a ramp. The phase p goes on
-    // from before; a and f are constant, or change as engine/scene/drive_schedule.hpp says. A tap is z_w =
-    // a (1 - cos wt): the walls go up and down once, from rest to rest.
+    // The pose between two steps; `share` is the share of the step that has passed, from 0 to 1. In a stage
+    // z_w = a (sin(p) - sin phi), with the last term only without a ramp. The phase p goes on from the stage
+    // before; a and f are constant, or change as engine/scene/drive_schedule.hpp says. A tap is z_w = a (1 -
+    // cos wt): the walls go up and down once, from rest to rest.
     Pose at(std::int64_t step, double share) const;
 
   private:
@@ -110,7 +110,8 @@ class WallMotion {
 
     bool moving_ = false;
     double amplitude_ = 0, angular_frequency_ = 0, ramp_ = 0, start_phase_ = 0;
-    std::vector<DriveSchedule::Piece> pieces_;  // parallel to the clock's changes; empty for one stage
+    std::vector<DriveSchedule::Piece>
+        pieces_;  // one for each stretch of the clock's changes; empty for a drive without stages
     Vec3 direction_{0, 0, 1};
     Clock clock_;
 };

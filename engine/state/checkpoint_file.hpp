@@ -1,5 +1,5 @@
-// The file of a checkpoint: name, version and checksum, the scene, the grains, and behind them the state of
-// the step loop. That state is kept as bytes here, so that grains can be read without any contact laws.
+// The file of a checkpoint: name, version and checksum, the scene, the grains, and after them the state of
+// the step loop. Here that state is only bytes, so that grains can be read without any contact laws.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace grainreel {
 
 struct CheckpointHeader {
     std::int64_t step = 0;
-    double start_energy = 0;  // J, energy at the start of the balance
+    double start_energy = 0;  // J, energy at the start of the energy balance
     Vec3 wall_offset{0, 0, 0}, wall_velocity{0, 0, 0};
 };
 

@@ -15,13 +15,14 @@ namespace grainreel {
 struct Face {
     enum class Kind { plane, cylinder };
     Kind kind = Kind::plane;
-    std::string name;      // "floor", "left slant", ... for messages
+    std::string name;      // "floor", "left slant", ... used in messages
     Vec3 point{0, 0, 0};   // m, on the plane; on the axis of a cylinder (vertical)
     Vec3 normal{0, 0, 1};  // unit, into the container; unused by a cylinder
     double radius = 0;     // m, of a cylinder
     Body body;             // the body that the face belongs to
 
-    // A plate that ends: a grain touches it at its nearest point, which may lie on an edge, from either side.
+    // Whether the face is a plate that ends. A grain touches such a plate, from either side, at its nearest
+    // point, which may lie on an edge.
     bool ends = false;
     Vec3 along{0, 0, 0};  // unit, in the face and across its lower edge; zero if it has no such edge
     Vec3 edge{0, 0, 0};   // m, a point of the lower edge
@@ -95,12 +96,12 @@ std::vector<Face> tray_faces(const Scene& scene);
 // Every face stays under its number, so contacts and their histories go on. A contact that began on the floor
 // goes on at the floor's edge.
 
-// `faces` are those of container_faces(), perhaps with others behind them, which stay as they are.
+// `faces` are those of container_faces(), perhaps with others after them, which stay as they are.
 void open_outlet(const Container& container, std::vector<Face>& faces);
 
 // The names of a scene's walls in the columns of measures and files: container and planes, in the order of
-// the surroundings' faces, then the meshes. Each is a part of a column's name
-// ("left_slant"). Each name comes once: the second of two walls with the same name is "NAME_2".
+// the surroundings' faces, then the meshes. Each is a part of a column's name ("left_slant"). No name comes
+// twice: the second of two walls with the same name is "NAME_2".
 std::vector<std::string> face_names(const Scene& scene);
 
 }  // namespace grainreel

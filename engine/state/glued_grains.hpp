@@ -31,7 +31,7 @@ struct GluedGrains {
 
 // The glued grains of the scene's container; none without container.wall_grains. Their centres lie in the
 // face, in a triangular lattice, and each is moved at random in the face (Stream::wall_grains). No glued
-// grain reaches into an outlet. `faces` are those of container_faces(), perhaps with others behind them.
+// grain reaches into an outlet. `faces` are those of container_faces(), perhaps with others after them.
 GluedGrains glue_grains(const Scene& scene, const std::vector<Face>& faces);
 
 }  // namespace grainreel

@@ -34,9 +34,9 @@ void Grains::set_radius(std::size_t i, double radius, double density) {
 
 namespace {
 
-// Sets values[i] = values[order[i]], but only the bytes [offset, offset + size) of each value. Each member
-// copies its part into its part of the room in the new order. When all members have done so, it copies the
-// part back.
+// Sets values[i] = values[order[i]], but only the bytes [offset, offset + size) of each value. Each member of
+// the team copies its part, in the new order, into the memory `room`. When all members have done so, it
+// copies its part back.
 template <std::size_t offset, std::size_t size, class Value>
 void reorder_bytes(Value* values, const std::vector<std::int32_t>& order, LargeArray<Load>& room,
                    const TeamMember& me) {

@@ -11,8 +11,8 @@
 
 namespace grainreel {
 
-// Records have 32 or 64 bytes. The contact pass so needs one aligned load per grain for each kind of access.
-// Motion and load have the same layout, number by number, for the integration.
+// Records have 32 or 64 bytes, so that the contact pass needs one aligned load per grain for each kind of
+// record. Motion and load have the same layout, number by number, for the integration.
 struct alignas(32) Place {
     Vec3 position;  // m
     double radius;  // m
@@ -20,7 +20,7 @@ struct alignas(32) Place {
 struct alignas(64) Motion {
     Vec3 velocity;           // m/s
     double inverse_mass;     // 1/kg
-    Vec3 spin;               // rad/s; at rest and unread in scenes without friction
+    Vec3 spin;               // rad/s; zero and not read in scenes without friction
     double inverse_inertia;  // 1/(kg m2)
 };
 

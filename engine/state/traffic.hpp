@@ -1,4 +1,5 @@
-// Grains that leave a run and grains that enter it: where they leave, who has left, and the account of both.
+// Grains that leave a run and grains that enter it: where they leave, which have left, and an account of
+// both.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +58,7 @@ struct Traffic {
     double energy_in = 0,
            energy_out = 0;      // J, as in Departure; energy stored at an outlet's gate counts as gone out
     double work_out = 0;        // J, work that moving walls had done on grains that have left
-    std::int64_t next_id = 0;   // above all ids so far, once a grain has come or left
+    std::int64_t next_id = 0;   // larger than all ids so far; 0 until a grain has come or left
     std::int64_t openings = 0;  // number of outlets that have opened
 
     bool any() const { return came != 0 || left != 0 || next_id != 0 || openings != 0; }

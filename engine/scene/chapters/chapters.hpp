@@ -1,5 +1,6 @@
-// The chapters of a scene. Each adds its keys to the list of all keys, reads them and writes them back. The
-// chapters of [film] are in render/scene/keys. Internal to the reader and the writer.
+// The chapters of a scene file. A chapter is the code for one table, such as [drive], or for a few that
+// belong together: it adds their keys to the list of all keys, reads them and writes them back. The chapters
+// of [film] are in render/scene/keys. Internal to the reader and the writer of scenes.
 #pragma once
 
 #include <cstddef>
@@ -82,10 +83,10 @@ void list_fields(keys::Keys& all);
 void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains
 void write_fields(SceneText& out, const Scene& scene);
 
-// Finds the box that each mesh moves in, when all else has been read.
+// Finds the box in which each mesh moves, after all else has been read.
 void measure_meshes(Scene& scene);
 
-// Then gives empty space the size of what happens in it.
+// After that, gives empty space the size of what happens in it.
 void size_empty_space(Scene& scene);
 
 // Checks what can be wrong between keys that are right by themselves. Throws UserError.

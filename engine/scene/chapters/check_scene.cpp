@@ -24,13 +24,13 @@ namespace grainreel {
 
 namespace {
 
-// The largest solid share of the container that spheres growing in layers reach without jamming. Random
+// The largest share of the container's volume that spheres growing in layers fill without jamming. Random
 // packings of equal spheres end at 0.64, and one that can still be sheared ends near 0.55.
 constexpr double most_solid = 0.55;
 constexpr double closest_packing = 0.64;  // as a share of equal spheres at random
 
-// Shortest period over the largest diameter. From two on, no grain touches two images of another; the other
-// half diameter is for neighbour lists, which may reach that far beyond contact.
+// Shortest period, in largest diameters. From two on, no grain touches two images of another; the half
+// diameter more is for neighbour lists, which may reach that far beyond contact.
 constexpr double shortest_period = 2.5;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
@@ -169,7 +169,7 @@ void check_room(const Scene& scene) {
                         room, 100 * most_solid));
 }
 
-// The grains of all feeds must find room, unless grains leave.
+// The grains of all feeds must find room, unless the scene has exits.
 void check_feeds(const Scene& scene) {
     if (scene.feeds.empty() || scene.container.shape == Container::Shape::none || !scene.exits.empty())
         return;
@@ -224,13 +224,13 @@ void check_scene(const Scene& scene) {
     check_wall_grains(scene);
 }
 
-// Checks of meshes, exits and turning containers that are right by themselves.
+// The same for values about meshes, exits and turning containers.
 
 namespace {
 
 using Shape = Container::Shape;
 
-// Faces of containers and trays, for any container. A mesh of such a name would share their columns.
+// Names of the faces that containers and trays can have. A mesh of such a name would share their columns.
 constexpr std::array<std::string_view, 10> kFaces{
     "wall", "floor", "lid", "left wall", "right wall", "left slant", "right slant", "back", "front", "tray"};
 
@@ -279,7 +279,7 @@ void check_paths(const Scene& scene) {
     }
 }
 
-// Refuses what cannot stand beside meshes.
+// Refuses what cannot go together with meshes.
 void check_company(const Scene& scene) {
     const Container& c = scene.container;
     if (c.periodic_depth && !scene.meshes.empty())
@@ -345,7 +345,8 @@ void check_meshes(const Scene& scene) {
 }
 
 std::vector<std::string> doubts_of_meshes(const Scene& scene) {
-    constexpr double too_large = 3000, too_small = 0.5;  // over the largest and the smallest grain
+    constexpr double too_large = 3000,
+                     too_small = 0.5;  // in diameters of the largest and of the smallest grain
     std::vector<std::string> doubts;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const SceneMesh& mesh = scene.meshes[m];

@@ -39,8 +39,8 @@ void check_laws(const Document& document, const PairContact& pair, const std::st
                       "with the overlap; write friction_law = \"mindlin\" or \"none\"");
 }
 
-// A table that says how restitution is found replaces what the tables before it said: a damping, one value,
-// or values by speed.
+// A table that gives the restitution in one way (by a damping, one value, or values by speed) replaces what
+// the tables before it said in another way.
 void take_back_restitution(const Document& document, const std::string& table, PairText& pair) {
     const auto says = [&](const char* name) { return document.has(table + "." + name); };
     const auto refuse = [&](const char* name, const char* reason) {
@@ -111,8 +111,8 @@ PairContact resolved(const PairText& text, const Scene& scene) {
     return pair;
 }
 
-// The two that an exception is about. A number is the index of a species; the number of species means
-// "wall", and the meshes follow in their order.
+// The two partners of an exception, [[contact.pair]]. A number is the index of a species; the number of
+// species stands for "wall", and the numbers after it for the meshes in their order.
 struct Partners {
     std::size_t one = 0, other = 0;
 };
@@ -203,8 +203,8 @@ void read_exception(Document& document, const Scene& scene, const std::string& t
     contact.grain[b * count + a] = contact.grain[a * count + b];
 }
 
-// An exception for "wall" holds for meshes too, wherever it stands in the file. An exception for a mesh is
-// applied after it.
+// An exception for "wall" holds for meshes too, wherever it stands in the file, because exceptions for meshes
+// are applied after it.
 void read_exceptions(Document& document, const Scene& scene, ContactText& contact) {
     const std::size_t count = scene.species.size();
     std::vector<std::pair<std::string, Partners>> of_meshes;

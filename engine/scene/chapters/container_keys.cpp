@@ -28,7 +28,7 @@ const ChoiceWords<Shape> shape_words{{"wedge", Shape::wedge},
                                      {"none", Shape::none}};
 const ChoiceWords<bool> top_words{{"lid", true}, {"open", false}};
 
-// Says why keys about the container mean nothing without a container, or where its shape comes from a mesh.
+// Says why keys about the container mean nothing if there is no container, or if its shape comes from a mesh.
 const char* without_container(const C& container) {
     if (container.shape == Shape::mesh) return "the mesh that 'mesh' names says the container's whole shape";
     return container.shape == Shape::none ? "there is no container" : nullptr;

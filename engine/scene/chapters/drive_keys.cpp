@@ -230,8 +230,8 @@ void check_order(const Scene& scene) {
                         first, grown));
 }
 
-// Checks that each change is over when the next stage begins, and that a tap or a period is left of each
-// stage.
+// Checks that the change to each stage is over before the next stage begins, and that then at least a tap or
+// a period of the stage is left.
 void check_lengths(const Scene& scene) {
     const std::vector<DriveStage>& stages = scene.drive.stages;
     const DriveSchedule schedule(scene.drive);

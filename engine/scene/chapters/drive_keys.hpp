@@ -19,14 +19,14 @@ std::size_t shorten_stages(Scene& scene);
 // Throws UserError where stages do not fit each other, the ramp or the run.
 void check_stages(const Scene& scene);
 
-// A run that the command line ends earlier than its scene does leaves out what would begin only after its
-// end.
+// If the command line ends a run earlier than its scene does, what would begin only after that end is left
+// out.
 
 // Whether `run.duration` comes from the command line.
 bool ends_early(const Document& document);
 
-// Leaves out stages of the drive, feeds and an outlet that come too late. The run's keys have been read;
-// the film's come later, and the film's reader leaves out its own parts.
+// Leaves out stages of the drive, feeds and an outlet that come too late. The run's keys must have been read.
+// The film's keys are read later, and their reader leaves out its own parts.
 void shorten(const Document& document, Scene& scene);
 
 // Adds "2 captions", say, to the scene's one note about what is left out. Does nothing for a count of 0.

@@ -124,7 +124,7 @@ std::shared_ptr<const EnclosedRoom> room_of(const std::shared_ptr<const Surface>
 
 namespace {
 
-constexpr int kMoments = 64;  // a motion is looked at in so many moments
+constexpr int kMoments = 64;  // number of times at which a motion is looked at
 
 // All vertices or, where they are many, the corners of the box around them.
 std::vector<Vec3> points_of(const Surface& surface) {
@@ -137,7 +137,7 @@ std::vector<Vec3> points_of(const Surface& surface) {
     return corners;
 }
 
-// Adds the circles in which the points of a turning mesh move.
+// Adds the circles along which the points of a turning mesh move.
 void take_circles(const SceneMesh& mesh, Extent& extent) {
     const Vec3 &axis = mesh.turn->axis, &through = mesh.turn->through;
     const Vec3 reach = (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();

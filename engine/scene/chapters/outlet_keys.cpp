@@ -16,7 +16,7 @@ namespace {
 using namespace keys;
 using Shape = Outlet::Shape;
 
-// The key of the size of a slot or of a hole, across.
+// The key of a slot's width or a hole's diameter.
 BoundKey<Outlet> size(const char* name, Shape shape, const char* about) {
     return bound_by<Outlet>(
         quantity(name, Dimension::length, positive, note("one of the two"), about),

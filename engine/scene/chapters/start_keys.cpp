@@ -243,7 +243,7 @@ namespace {
 
 using namespace keys;
 
-constexpr double default_box = 3;  // its height over the largest diameter, below the container's top
+constexpr double default_box = 3;  // its height in largest diameters
 
 BoundKey<Feed> fed_species_key() {
     return bound_by<Feed>(
@@ -287,7 +287,7 @@ void settle_rate(Document& document, const std::string& path, Feed& feed) {
     feed.rate = static_cast<double>(*feed.count) / (*feed.until - feed.from);
 }
 
-// The default box is as wide as the container, below its top.
+// The default box is as wide as the container and lies just below its top.
 void settle_box(Document& document, const Scene& scene, const std::string& path, Feed& feed) {
     const Container& c = scene.container;
     const bool low = document.has(path + ".low"), high = document.has(path + ".high");

@@ -1,5 +1,5 @@
 // A key bound to the member of a struct. One entry gives its name and text, how it is read and written, its
-// value when the scene says nothing, and beside which other keys it means nothing.
+// value when the scene says nothing, and when other keys make it useless.
 //
 //   quantity("zoom", &Camera::zoom, Dimension::number, magnification, initial(), "Over the automatic
 //   framing.")
@@ -58,7 +58,7 @@ struct BoundKey {
     Read read;
     Write write;                                     // value as TOML; empty: not written
     std::function<void(const T& from, T& to)> copy;  // copies this one member
-    Useless useless;  // why the key means nothing beside the values of others; null: it has a meaning
+    Useless useless;  // why the key means nothing, given the values of others; null if it has a meaning
     Usual usual;      // sets the member when the scene says nothing, from the values of others
     std::function<bool(const T&)> unwritten;
     int turn = 0, line = 0;  // order of reading and of writing; keys with the same number go as listed

@@ -137,8 +137,7 @@ std::string Document::written_value(const toml::node& node) const {
     return excerpt(value);
 }
 
-// A number without a unit is in turns, and a whole number of turns means nothing: who writes 90 means
-// degrees.
+// A phase without a unit is in turns. Whole turns would mean nothing, so 90 is surely meant in degrees.
 void Document::check_bare_phase(const std::string& path, const toml::node& node) const {
     const double turns = node.value<double>().value_or(0);
     if (std::isfinite(turns) && std::abs(turns) > 1)
@@ -150,8 +149,8 @@ void Document::check_bare_phase(const std::string& path, const toml::node& node)
 
 namespace {
 
-// Moves a value that is beyond a bound only by the rounding of a unit to the bound: a quarter of a turn is
-// 90 degrees.
+// Moves a value that is beyond a bound only by the rounding of a unit (90 degrees as a quarter of a turn) to
+// that bound.
 double snapped(double value, const Range& range) {
     constexpr double rounding = 1e-12;
     for (const double bound : {range.low, range.high})

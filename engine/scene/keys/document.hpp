@@ -1,5 +1,5 @@
-// A TOML file for the reader: values by key path ("species[1].count"), checked against the list of keys;
-// every message has a place. Internal to the reader.
+// A TOML file as the reader of scenes sees it: values by key path ("species[1].count"), checked against the
+// list of keys. Every message names its place in the file. Internal to the reader.
 #pragma once
 
 #include <toml++/toml.h>
@@ -27,16 +27,16 @@ class Document {
     Document(std::string_view text, std::string file, const std::vector<Key>& keys = scene_keys());
 
     // Applies one assignment from the command line. A key that excludes others (g_level and amplitude)
-    // removes them; so does a key to which others belong (the colour's map belongs to the quantity it
-    // shows). [] and {} remove a list of tables and a table. Throws UserError when the place does not exist
-    // or the text is not UTF-8.
+    // removes them. A key whose value changes removes the keys that belong to the old value (as a colour map
+    // belongs to the quantity it shows). [] and {} remove a list of tables and a table. Throws UserError when
+    // the place does not exist or the text is not UTF-8.
     void set(const Assignment& assignment);
 
     // Takes a table out of the document and returns it as TOML, ready to stand in a scene file; empty where
     // there is none. Throws UserError when the key is no table.
     std::string take_out(const std::string& table);
-    // Throws at the first key that is not in the list, that is a table and should be a value, or a value
-    // and should be a table.
+    // Throws at the first key that is not in the list, or that is a table and should be a value, or the other
+    // way round.
     void check_keys() const;
     // Throws at the first key that nothing has read.
     void check_all_read() const;

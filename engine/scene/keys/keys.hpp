@@ -1,5 +1,5 @@
-// Keys: what a key is, how lists of keys are made and searched, paths and words of keys, and assignments
-// from the command line. The reader, the search for the nearest key and the table in
+// Keys of a scene file: what a key is, how lists of keys are made and searched, paths of keys, the words of
+// choices, and assignments from the command line. The reader, the search for the nearest key and the table in
 // docs/reference/scenes.md use one list, scene_keys(). Another kind of file (a study) has its own list. New
 // keys are added in the chapters, not here.
 #pragma once
@@ -19,7 +19,7 @@ namespace grainreel {
 
 enum class KeyKind {
     quantity,      // a number in SI or a string with a unit
-    integer,       //
+    integer,       // a whole number
     flag,          // true or false
     text,          // any words
     choice,        // one of `choices`
@@ -38,8 +38,8 @@ enum class KeyKind {
     value_list,    // anything, several times
 };
 
-// The largest number of characters of a text. Drawing them takes time on every picture, and a picture holds
-// far fewer.
+// The largest number of characters of a text. Drawing characters takes time in every picture, and a picture
+// has room for far fewer.
 constexpr std::size_t kMostLetters = 1000;
 
 // The allowed numbers, ends included unless `open`.
@@ -69,7 +69,7 @@ struct Key {
     bool decides = true;        // decides the future of a run, so a run that goes on must have the same value
     bool often_chosen = false;  // often chosen by the plan, for reasons that other keys give
 
-    std::string example() const;  // a right value, as a scene would write it
+    std::string example() const;  // a valid value, as a scene would write it
     Range bounds() const;         // the part of the range within the dimension's bounds
 };
 

@@ -26,7 +26,7 @@ const ShippedScene* shipped_scene(std::string_view name);
 // The scene of this name, or the only one whose name contains it: "brazil-nut" is teaching_brazil_nut.
 const ShippedScene* shipped_scene_like(std::string_view words);
 
-// The name that somebody meant who mistyped one. Empty when none is near.
+// The name of a shipped scene that is nearest to a mistyped one. Empty when none is near.
 std::optional<std::string> nearest_shipped_scene(std::string_view name);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// Values as a scene file has them, and the text of a scene file made from them.
+// Writes values as TOML, and puts the text of a scene file together from them.
 #pragma once
 
 #include <cstdint>
@@ -59,9 +59,9 @@ class SceneText {
     std::map<std::string, std::string> remarks_;
 };
 
-// Carries comments over to a scene file that is written again. Both texts come from the scene's writer,
-// with one key a line. A comment above a key in `before` is put above the same key in `text` if its value
-// is the same and it has no comment yet.
+// Carries comments over to a scene file that is written again. Both texts must come from the writer of
+// scenes, which writes one key on a line. A comment above a key in `before` is put above the same key in
+// `text` if its value is the same and it has no comment yet.
 std::string with_comments_of(std::string_view before, std::string text);
 
 }  // namespace grainreel

@@ -24,8 +24,8 @@ struct FreeUnit {
 };
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 
-// The table of units that udunits installs beside itself. Its location is compiled into the library, or
-// given by UDUNITS2_XML_PATH. udunits keeps global state, so every use takes one lock.
+// The table of units that udunits installs beside itself. Its location is compiled into the library, or given
+// by UDUNITS2_XML_PATH. udunits keeps global state, so every use takes units_lock.
 class UnitSystem {
   public:
     UnitSystem() {

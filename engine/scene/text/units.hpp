@@ -1,4 +1,4 @@
-// Quantities with units, "2 mm" or "25 Hz", over the udunits2 library.
+// Quantities with units, such as "2 mm" or "25 Hz", read with the udunits2 library; and sizes of files.
 #pragma once
 
 #include <array>
