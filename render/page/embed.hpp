@@ -19,7 +19,8 @@ namespace grainreel {
 // ends and tabs are replaced by U+FFFD.
 std::string html_text(std::string_view text);
 
-// Makes JSON fit for a <script> element: < is written as \u003c, so that nothing in it can end the element.
+// Makes JSON safe inside a <script> element: < is written as \u003c, so that nothing in it can end the
+// element.
 std::string json_in_html(std::string json);
 
 // A relative link to a file of that name: percent-encoded, never a scheme or a path.
@@ -46,14 +47,15 @@ struct PageFiles {
     std::string_view page, body, variant, bed, charts, fields, live, style;
     std::string_view script_before, mesh_script, script_after;
 
-    // One script; only a page of a scene with meshes needs the part that draws them.
+    // The whole script of a page. Only scenes with meshes need the part that draws meshes.
     std::string script(bool meshes) const {
         return fmt::format("{}{}{}", script_before, meshes ? mesh_script : "", script_after);
     }
 };
 const PageFiles& page_files();
 
-// Functions that make a page call this with the share that is done. Returning false stops them.
+// The functions that make a page call this with the share of the work that is done. If it returns false, they
+// stop.
 using PageProgress = std::function<bool(double)>;
 
 // Thrown when progress returned false; write_report() catches it.

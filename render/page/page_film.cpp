@@ -146,7 +146,7 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
     };
     const std::uintmax_t kept = fs::file_size(folder / kPageCopy, error);
     try {
-        // A copy that was too large would be as large when made again.
+        // If the run's copy is too large, a new one would be as large, so none is made.
         if (error || kept == 0)
             film.bytes = smaller_copy(scene, folder / name, picture_taken);
         else if (kept <= most_bytes)
@@ -183,7 +183,7 @@ std::vector<std::uint8_t> page_poster(const fs::path& folder) {
 
 namespace {
 
-// The times of the film's frames as planned, with those that hold a caption.
+// The times of the film's frames as planned, including frames that are repeated while a caption is held.
 std::vector<double> planned_times(const FilmedScene& scene, double first) {
     const Plan plan = plan_with_film(scene);
     std::vector<double> times;
@@ -195,7 +195,7 @@ std::vector<double> planned_times(const FilmedScene& scene, double first) {
     return times;
 }
 
-// Whether the run may have left out frames.
+// Whether the run may have left out locked frames, because its bed repeats itself only every few periods.
 bool may_lack_frames(const FilmedScene& scene) {
     return scene.drive.present && scene.film.periods == 0 &&
            std::any_of(scene.film.segments.begin(), scene.film.segments.end(),

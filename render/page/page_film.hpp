@@ -19,7 +19,7 @@ struct PageFilm {
     std::string type;                 // "video/mp4"
     std::string file;                 // name in the run's folder: "movie.mp4"; empty without a film
     bool whole_in_folder = false;     // whether the file is the whole film and plays
-    std::string note;  // a sentence for the page when it shows something else than that file, or nothing
+    std::string note;  // a sentence for the page if it shows something other than that file, or no film
 };
 
 // The run's own film when browsers play it and it is small enough. Otherwise a copy in H.264 of 720 lines at
@@ -41,10 +41,10 @@ struct FilmTimes {
 // The times in the run's own table (film_times.csv), if its number of frames is right and its times rise.
 std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, std::int64_t frames);
 
-// The times without that table: they are made from the scene, as the run made them. They are known only when
-// the number of frames agrees: a film may leave out locked frames when the run finds that the bed repeats
-// itself only every other period. frames: number of the film's frames in run.json. first: time in s at which
-// the run began. whole: whether the run was complete.
+// The times without that table, computed from the scene as the run did. They are known only if the number of
+// frames agrees, since a film leaves out locked frames where the run finds that the bed repeats itself only
+// every other period. frames: number of the film's frames in run.json. first: time in s at which the run
+// began. whole: whether the run was complete.
 FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole);
 
 // A JPEG, at most 960 pixels wide, of a frame from this decoder. Empty when none can be made. Throws

@@ -89,7 +89,7 @@ constexpr std::size_t most_plain_bytes = 20'000'000;  // bytes of the page's fie
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double steps = 254;
 
-// The name as FieldsWriter uses it in a species' variable.
+// The name of a species as it stands in the names of its variables in fields.nc (FieldsWriter).
 std::string in_variable(const std::string& name) {
     std::string text = name;
     for (char& c : text)
@@ -173,7 +173,7 @@ Values combined(const Values& a, const Values& b, double (*of)(double, double)) 
     return result;
 }
 
-// The pressure: a third of the trace of both stresses.
+// The pressure: a third of the trace of the total stress, kinetic and contact stress together.
 Values pressure(const FieldsFile& file, std::size_t record) {
     Values sum(file.cells(), 0.0);
     for (const char* part : {"kinetic_stress_xx", "kinetic_stress_yy", "kinetic_stress_zz",

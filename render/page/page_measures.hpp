@@ -20,7 +20,7 @@ struct PageColumn {
 struct PageMeasures {
     std::vector<PageColumn> columns;   // all of measures.csv, in its order
     std::vector<std::size_t> charted;  // those of them that have a chart at first
-    std::vector<std::size_t> rows;     // rows that the page has at once, evenly spread
+    std::vector<std::size_t> rows;     // the rows that charts show as the page opens, evenly spread
     std::size_t time = 0;              // index of the column of time
 };
 
@@ -33,11 +33,12 @@ constexpr std::size_t kMostRowsAtOnce = 2000;
 // values change. Without a column of time nothing is charted.
 PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table);
 
-// The fields of a run as a page has them: the plane that the film looks at, a byte a cell and quantity.
+// The fields of a run as a page has them: in the plane that the film looks at, one byte for each cell and
+// quantity.
 //
 // The bytes, before they are packed, are for Ny cells across and Nz in height (y fastest), Q quantities and R
 // records:
-//   Ny Nz bytes, the share of each cell that is inside the container, of 255;
+//   Ny Nz bytes, the share of each cell that is inside the container, 255 for all of it;
 //   then for each record and quantity Ny Nz bytes: 0 to 254 from the quantity's lowest value to its highest,
 //   255 where there is none.
 // render/page/html/fields.js reads them.

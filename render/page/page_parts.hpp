@@ -17,13 +17,13 @@ namespace grainreel {
 // A sentence that says what the run is.
 std::string lead_html(const FilmedScene& scene);
 
-// How a run ended that did not come to its end. until: the time in s that it reached. Empty for a run that
-// came to its end.
+// For a run that was not completed: how it ended. until: the time in s that it reached. Empty for a complete
+// run.
 std::string end_html(const FilmedScene& scene, const RunFacts& facts, double until);
 
 // The film's element and the words about it. poster: a JPEG, or empty. why_not_tied: why the film does not
-// move together with charts and bed; empty when it does. n: ending of the ids of elements. beside: whether
-// the page lies beside the film's file.
+// move together with charts and bed; empty when it does. n: ending of the ids of elements, since a page may
+// show several runs. beside: whether the page lies beside the film's file.
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
                       const std::string& why_not_tied, const std::string& n = "", bool beside = true);
 

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 using Texts = std::vector<std::pair<std::string_view, std::string>>;
 
 constexpr std::size_t most_film_bytes = 12'000'000;  // bytes of the films of all runs together
-constexpr double films_share =
-    0.7;  // share of the progress for films: making a film smaller takes most of the time
+constexpr double films_share = 0.7;  // share of the progress: making a film smaller takes most of the time
 
 class Page {
   public:
@@ -67,7 +66,7 @@ class Page {
             taken += part.taken();
             done += each;
         }
-        // Bytes before base64. Even with no room the page gets one moment.
+        // Bytes before base64, for each run. Even if no room is left, the page gets one moment of a run.
         const std::size_t room =
             taken >= kMostPageBytes ? 1 : (kMostPageBytes - taken) / parts_.size() / 4 * 3;
         done = 0;
@@ -134,14 +133,14 @@ class Page {
              {"blobs", beds + late}});
     }
 
-    // A line with the folder, when the run's name says something else.
+    // A line with the folder's name, if the run has another name.
     static std::string folder_line(const RunPart& part) {
         const std::string folder = part.folder().filename().string();
         return part.name() == folder ? ""
                                      : fmt::format("<p class=\"faint\">Folder {}</p>\n", html_text(folder));
     }
 
-    // The common title of all runs, "Brazil nut: ", when their names say what differs.
+    // The title that all runs share, "Brazil nut: ", if their names only tell what differs.
     std::string common_title() const {
         const std::string& title = parts_.front().scene().title;
         const bool common =

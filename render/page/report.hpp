@@ -15,7 +15,7 @@
 
 namespace grainreel {
 
-// The plan of the run's scene, and the same in words, as `grainreel check` prints it.
+// The plan of a run's scene, also in words as `grainreel check` prints it.
 struct PlannedScene {
     Plan plan;
     std::vector<std::pair<std::string, std::string>> lines;  // lines with a name and a text

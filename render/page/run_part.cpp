@@ -231,7 +231,7 @@ std::string RunPart::no_moments() const {
     return "The run kept no moment of its grains";
 }
 
-// Lines about missing files that the scene or other files mention.
+// Lines about files that are missing, although the scene or other files say that they were written.
 std::vector<std::string> RunPart::lacking_files() const {
     std::vector<std::string> lines;
     const auto check = [&](const char* name, bool expected, const char* lost) {

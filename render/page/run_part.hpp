@@ -44,7 +44,7 @@ class RunPart {
     // on_page_of_its_own: whether the page has links to the files beside it, with their names.
     std::string chapters(const std::filesystem::path& page, bool on_page_of_its_own) const;
     std::string facts() const;     // JSON
-    std::string bed_blob() const;  // the blobs, in their order at the page's end
+    std::string bed_blob() const;  // packed data in elements at the page's end: the bed, then all others
     std::string late_blobs() const;
     std::vector<std::string> news() const;  // lines that the user should see
 

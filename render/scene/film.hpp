@@ -1,5 +1,6 @@
-// What a scene file says of its film: plain values in SI units, with defaults filled in, and colours by name.
-// A new key is a member here and an entry in keys/. Nearly all of render includes this header: keep it light.
+// The film that a scene file asks for: plain values in SI units, with defaults filled in, and colours by
+// name. A new key is a member here and an entry in keys/. Nearly all of render includes this header: keep it
+// light.
 #pragma once
 
 #include <algorithm>
@@ -163,7 +164,7 @@ struct GrainCondition {
     bool operator==(const GrainCondition&) const = default;
 };
 
-// What the film says with colours and marks, beyond which species a grain is.
+// What the film shows by colours, marks, plots and words, besides the species of the grains.
 struct FilmShows {
     GrainColouring colour;
     std::vector<std::size_t> hidden;        // species that are not drawn
@@ -176,7 +177,7 @@ struct FilmShows {
     FilmArrows arrows;
     FilmStreamlines streamlines;
     FilmTrails trails;
-    bool force_chains = false;  // lines between grains that touch, as wide as their forces are large
+    bool force_chains = false;  // lines between grains that touch, wider for larger forces
     FilmWallForces wall_forces;
     bool outflow = false;  // how much has flowed out through the outlet
     bool operator==(const FilmShows&) const = default;
@@ -198,8 +199,8 @@ struct WordKinds {
     bool operator==(const WordKinds&) const = default;
 };
 
-// These say what the film needs of a frame beyond the state of the grains: Frame::displacement,
-// Frame::measures, Frame::touches.
+// The functions needs_*() tell which parts of a frame the film needs besides the state of the grains:
+// Frame::displacement, Frame::measures, Frame::touches.
 inline bool shows_value(const FilmShows& look, GrainValue value) {
     return look.colour.by == value || look.highlight_if.of == value;
 }
@@ -272,8 +273,8 @@ struct CameraKey {
     bool operator==(const CameraKey&) const = default;
 };
 
-// What the automatic framing shows: all of the container, the bed at rest, or what the grains reach in the
-// course of the film. The part of the container above that is cut off.
+// How much the automatic framing shows: all of the container, the bed at rest, or as high as the grains get
+// in the course of the film. What the container has above that is cut off.
 enum class CameraFrame { container, bed, reach };
 
 struct Camera {
@@ -334,8 +335,7 @@ struct Film {
 // whose colours the colour-blind can tell apart too.
 std::optional<Colour> parse_colour(std::string_view text);
 
-// The first of the palette's eight colours, from orange on, that is taken least often. It is a free colour
-// while there is one.
+// The palette's colour, from orange on, that is taken least often: a free one as long as there is one.
 Colour default_colour(const std::vector<Colour>& taken);
 
 // "#rrggbb".

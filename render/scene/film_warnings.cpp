@@ -1,5 +1,5 @@
-// Warnings that the film adds to the warnings of the plan. They need the engine's plan, so this is a file of
-// its own: programs that only draw do not link it.
+// Warnings that the film adds to those of the plan. They need the engine's plan, so they have a file of their
+// own, which programs that only draw do not link.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// What the engine is told of a film, which is its text, colours and wishes; and the reader of [film] and of
-// the colours of species, which works beside the engine's reader and checks the film against the scene.
+// Tells the engine of a film: its text, its colours, and its wishes (what the engine shall measure and keep
+// for it). Also the reader of [film] and of the colours of species, which works beside the engine's reader
+// and checks the film against the scene.
 #include "render/scene/filmed_scene.hpp"
 
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ std::string resolved_scene(const FilmedScene& scene, const Plan& plan) {
     return resolved_scene(static_cast<const Scene&>(told), plan);
 }
 
-// From here on scene and film are read.
+// From here on: reading a scene with its film.
 
 namespace {
 

@@ -24,12 +24,12 @@ inline bool shows_wear(const FilmedScene& scene) {
     return scene.film.look.walls.coloured() && !scene.meshes.empty();
 }
 
-// Brings what the engine keeps of the film (Scene::film_text, the species' colours as text, Scene::wishes) in
-// line with the film. The reader does this. Whoever changes the film of a scene before it is run must do it
-// again.
+// Sets what the engine keeps of the film (Scene::film_text, the species' colours as text, Scene::wishes) by
+// the film as it is now. The reader does this; code that changes the film of a scene before it is run must do
+// it again.
 void tell_engine(FilmedScene& scene);
 
-// The plan of a scene, with the warnings that the film and its colours give.
+// The plan of a scene, with warnings about the film and its colours.
 Plan plan_with_film(const FilmedScene& scene);
 Plan with_film_warnings(const FilmedScene& scene, Plan plan);
 
@@ -39,9 +39,9 @@ std::string resolved_scene(const FilmedScene& scene, const Plan& plan);
 // All keys of a scene file: the engine's keys and the keys of [film].
 const std::vector<Key>& filmed_scene_keys();
 
-// These two read a scene file into a scene with its film. The engine's reader does most of it; the keys of
-// [film] are in keys/. They read as read_scene() of engine/scene/scene_file.hpp does, and also [film] and the
-// species' colours. measurable: columns that plots and live words may name.
+// These two read a scene with its film: all that read_scene() of engine/scene/scene_file.hpp reads, and
+// besides [film] (whose keys are in keys/) and the species' colours. measurable: columns that plots and live
+// words may name.
 FilmedScene read_filmed_scene(const std::filesystem::path& file, const Assignments& sets = {},
                               const MeasurableIn& measurable = nullptr);
 FilmedScene read_filmed_scene_text(std::string_view text, const std::filesystem::path& file,

@@ -1,7 +1,7 @@
 // Words of the user's own with values that change from frame to frame:
 //   "mixing {lacey}\nkinetic energy {kinetic:mJ}"
-// A value is a column of measures.csv, named with or without its unit. After a colon stands the unit to show
-// it in; without one it is shown in SI. It has three significant digits. "{{" is a brace.
+// A value is a column of measures.csv, named with or without its unit, and has three significant digits.
+// After a colon stands the unit in which it is shown; without one that is SI. "{{" stands for a brace.
 #pragma once
 
 #include <optional>

@@ -20,8 +20,8 @@ const std::vector<Purpose>& purposes() {
          .preset = "fast",
          .max_size = {},
          .sheet = {0, 0}},
-        // A film that every publisher takes: IOP takes H.264 up to 10 MB, Elsevier up to 720 lines and from
-        // 15 frames/s.
+        // A film that all publishers accept: IOP accepts H.264 up to 10 MB, Elsevier up to 720 lines and at
+        // least 15 frames/s.
         {.name = "journal",
          .width = 1280,
          .height = 720,

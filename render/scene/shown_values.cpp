@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-// The solid fraction of a bed between walls that are not far apart, with its corners and its rough surface.
+// The solid fraction of a bed between near walls, over its whole volume with corners and rough surface.
 constexpr double packing = 0.5;
 
 // m/s: the speed of the drive. Without a drive it is the speed of the fastest listed grain, or of a fall
@@ -32,12 +32,12 @@ double drop_below(const Scene& scene) {
     return c.tray ? c.tray->depth : c.outlet ? c.outlet->exit_depth : 0.0;
 }
 
-// The speed that 99 of 100 grains stay below in the course of a film, over the drive's speed a w. In a deep
-// bed it is 1.3 to 1.6 (six beds of 5 to 14 layers, restitution 0.5 to 0.8, Gamma 2.5 to 5). Few layers of
-// grains that lose little gather speed from blow to blow, until <v2> = (1 + e) / (1 - e) (a w)2 / 2 for a
-// single ball, and with e to the power of 2 n - 1 for n layers (as in the plan). There the measured speeds
-// are 2.0 for 1.8 layers with e = 0.8, 2.4 for a ball with e = 0.7, and 2.4 for a gas with e = 0.85. The
-// straight line below is above all of these.
+// The speed that 99 of 100 grains stay below in the course of a film, divided by the drive's speed a ω. In a
+// deep bed it is 1.3 to 1.6 (six beds of 5 to 14 layers, restitution 0.5 to 0.8, Gamma 2.5 to 5). A few
+// layers of grains that lose little energy gain speed from blow to blow, until <v²> = (1 + e) / (1 - e) (a
+// ω)² / 2 for a single ball; for n layers e^(2 n - 1) stands in place of e (as in the plan). In such cases
+// the measured values are 2.0 for 1.8 layers with e = 0.8, 2.4 for a ball with e = 0.7, and 2.4 for a gas
+// with e = 0.85. The straight line below is above all of these.
 double thrown_faster(const Scene& scene) {
     constexpr double deep = 1.8, slope = 0.75, liveliest = 0.98;
     double restitution = 0;
@@ -68,8 +68,8 @@ double mass_of(const Species& species) {
 }
 
 // J: the energy that 99 of 100 grains stay below, if speeds are normally distributed and 1 grain in 100 is
-// faster than `speed`. Then the share of a species with more energy is 0.01 to the power of the energy over
-// that of a grain with this speed.
+// faster than `speed`. The share of a species with more than the energy E is then 0.01^(E / E0), where E0 is
+// the energy of one of its grains at this speed.
 double top_energy(const Scene& scene, double speed) {
     constexpr double rare = 0.01;
     const double all = std::max(1.0, static_cast<double>(scene.grains()));
@@ -133,8 +133,8 @@ double top_force(const Scene& scene) {
 
 std::array<double, 2> usual_range(GrainValue value, const Scene& scene) {
     const double speed = top_speed(scene);
-    // A locked film looks at a bed that flies. In five beds 99 of 100 grains came less far than four
-    // amplitudes.
+    // A film locked to a phase may show the bed in flight. In five beds 99 of 100 grains came less far than
+    // four amplitudes.
     const double way = std::max(smallest_diameter(scene), 4 * scene.drive.largest_amplitude());
     switch (value) {
         case GrainValue::speed:
@@ -162,7 +162,7 @@ std::array<double, 2> usual_range(GrainValue value, const Scene& scene) {
 }
 
 double widest_chain_force(const Scene& scene) {
-    return 4 * force_scale(scene);  // the bed comes down hard
+    return 4 * force_scale(scene);  // more than the scale, since the bed comes down hard
 }
 
 double usual_flow_speed(const Scene& scene, bool period) {
@@ -249,7 +249,7 @@ double wall_friction(const Scene& scene) {
 std::array<double, 2> usual_range(FilmWalls::Colour colour, const Scene& scene) {
     const double pressure = weight_pressure(scene);
     if (colour == FilmWalls::Colour::pressure) return {1e-2 * pressure, 10 * pressure};
-    constexpr double slip = 0.3;  // share of that speed: grains go along with a wall most of the time
+    constexpr double slip = 0.3;  // share of the rubbing speed: grains mostly go along with a wall
     const double wear = slip * wall_friction(scene) * pressure * rubbing_speed(scene) * scene.run.duration;
     return {1e-3 * wear, wear};
 }

@@ -1,4 +1,4 @@
-// The quantities that pictures show of grains and walls, with their words, units and usual ranges, and the
+// The quantities of grains and walls that pictures show, with their words, units and usual ranges. Also the
 // words that scenes use for other choices of their film.
 #pragma once
 
@@ -61,15 +61,15 @@ inline Dimension dimension_of(GrainValue value) {
     return Dimension::number;
 }
 
-// Whether values have two signs, and so want a diverging map and a range that is even on both sides.
+// Whether values have both signs, so that they need a diverging colour map and a range symmetric about 0.
 inline bool is_signed(GrainValue value) {
     return value == GrainValue::vertical_velocity || value == GrainValue::rise;
 }
 
-// The ends of the range of colours where the scene gives none. They hold for the whole film and follow from
-// the scene alone, so that a colour means the same in every frame, while the run goes on and when it is drawn
-// again. They are estimated such that 99 of 100 grains lie between them in the course of the film. {0, 0}
-// when the scene gives no scale.
+// The range of colours where the scene gives none. It is the same for the whole film and follows from the
+// scene alone, so that a colour means the same in every frame, both during the run and when it is drawn
+// again. It is estimated such that 99 of 100 grains lie in it in the course of the film. {0, 0} if nothing in
+// the scene sets a scale.
 std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
 // N: from this force on, the line of a contact has its full width.
 double widest_chain_force(const Scene& scene);
@@ -88,9 +88,9 @@ inline Dimension dimension_of(FilmWalls::Colour colour) {
     return colour == FilmWalls::Colour::wear ? Dimension::stiffness : Dimension::pressure;  // J/m2 is N/m
 }
 
-// Pa or J/m2: the ends of the range of walls' colours where the scene gives none, from the scene alone as
-// above. They span three powers of ten around the pressure under the bed's weight, or up to the work of
-// rubbing under it at the speed of the fastest mesh. {0, 0} when the scene gives no scale.
+// Pa or J/m2: the range of the walls' colours where the scene gives none, from the scene alone as above. It
+// spans three powers of ten: around the pressure under the bed's weight, or below the work of rubbing under
+// that pressure at the speed of the fastest mesh. {0, 0} if nothing in the scene sets a scale.
 std::array<double, 2> usual_range(FilmWalls::Colour colour, const Scene& scene);
 
 // The unit of the walls' colour bar.

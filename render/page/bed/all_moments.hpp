@@ -1,5 +1,5 @@
 // All moments of a run that the page may show, and the film's colours of its grains. The moments are those of
-// trajectory.nc, those of the film's pictures, and its key moments.
+// trajectory.nc, those of the film's pictures, and the run's key moments (engine/run/driver/agenda.hpp).
 #pragma once
 
 #include <cstdint>

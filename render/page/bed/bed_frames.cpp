@@ -183,7 +183,7 @@ class BedWriter {
         before = number;
     }
 
-    // Counts the contacts of grains that push something.
+    // Counts the contacts of each grain that carry a force.
     void count_contacts(const std::vector<Touch>& touches, std::uint8_t* counts) const {
         const auto count = [&](std::int32_t id) {
             const auto found = slot_.find(id);
@@ -241,7 +241,7 @@ BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes, const Page
             return static_cast<std::size_t>(fits * static_cast<double>(count));
         };
         wanted = std::max<std::size_t>(1, less(wanted));
-        // Some key moments are dropped when all of them would take more than half of the bytes.
+        // If all key moments would take more than half of the bytes, some are dropped.
         if (2 * keys.size() * static_cast<std::size_t>(a_moment) > most_bytes)
             keys = those_of(keys, less(keys.size()));
     }

@@ -84,7 +84,7 @@ struct BedContacts {
 constexpr std::size_t kMostGrainsOnPage = 100000;
 
 // The page's frames: as many evenly spread moments of the run as fit into `most_bytes` packed bytes, with the
-// first and the last, and the key moments besides; at least one. When there are more grains than
+// first, the last and the key moments among them; at least one moment. If there are more grains than
 // kMostGrainsOnPage, the page has those that lie nearest to the plane x = 0 when they are first seen. Throws
 // DamagedFrame.
 BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes,

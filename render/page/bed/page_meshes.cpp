@@ -41,7 +41,8 @@ std::vector<Shape> shapes_of(const FilmedScene& scene) {
     return shapes;
 }
 
-// Triangles for each mesh: small meshes keep all of theirs, large ones share the rest.
+// The number of triangles that each mesh may have: small meshes keep all of theirs, large ones share the
+// rest.
 std::vector<std::size_t> shares(const std::vector<Shape>& shapes, std::size_t most) {
     std::vector<std::size_t> order(shapes.size()), share(shapes.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -99,7 +100,8 @@ void append_vertices(std::vector<std::uint8_t>& bytes, const std::vector<Vec3>& 
     }
 }
 
-// The edges of the whole mesh that have not shrunk to a point. When they are too many, only the longest.
+// The feature edges of the whole mesh that thinning has not shrunk to a point. Of too many, the longest are
+// kept.
 std::vector<Edge> edges_of(const MeshShape& shape, const ThinnedMesh& thin, std::size_t most) {
     std::vector<Edge> edges;
     for (const MeshShape::Edge& edge : shape.edges) {

@@ -6,9 +6,8 @@
 //   before (from 0 at first), in 65535ths of the mesh's box;
 //   the three corners of triangles, each as T low, T middle and T high bytes of a zigzag difference from the
 //   triangle before; the two ends of edges in the same way, E bytes each.
-// The first triangles are solid wherever they are seen from, the `glass` ones behind them glass. The `sided`
-// last ones are solid on the side of their normal and glass on the other one.
-// render/page/html/meshes.js reads them.
+// The first triangles are solid from both sides, the next `glass` ones are glass, and the last `sided` ones
+// are solid on the side of their normal and glass on the other side. render/page/html/meshes.js reads them.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +45,7 @@ constexpr std::size_t kMostTrianglesOnPage = 60000;
 PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes,
                        std::size_t most_triangles = kMostTrianglesOnPage);
 
-// Makes the box hold the meshes at these moments.
+// Enlarges the box so that it holds the meshes at these moments.
 void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& moments);
 
 // Fewer triangles of the same shape: the vertices in a cell of a cubic grid become one, their mean, and

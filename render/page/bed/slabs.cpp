@@ -18,8 +18,8 @@ std::vector<Vec3> lifted(std::vector<Vec3> corners, double by) {
     return corners;
 }
 
-// Adds the floor. A floor with an outlet is replaced by the floor with its hole when the outlet opens.
-// opened: pieces of the floor around the open outlet.
+// Adds the floor. If it has an outlet, the whole floor gives way to a floor with a hole when the outlet
+// opens. opened: the pieces of the floor around that hole.
 void add_floor(std::vector<Slab>& slabs, const Container& container, const std::vector<Vec3>& whole,
                const Pieces& opened) {
     const double thickness = floor_thickness * drawn_thickness(container);

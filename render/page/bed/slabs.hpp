@@ -18,7 +18,7 @@ struct Slab {
     std::vector<Vec3> inner;      // corners of the side towards the grains, in order around it
     std::vector<Vec3> outer;      // the other side of its thickness, corner by corner; empty for a pane
     std::vector<int> seams = {};  // sides of `inner`, by their first corner, that go on in the next piece
-    std::optional<double> from, until;  // s, from when until when it is there, if that changes
+    std::optional<double> from, until;  // s: when it comes and goes, if it does
 };
 
 // Slabs of container, floor and planes, with the thickness that they have in the film.

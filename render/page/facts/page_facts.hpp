@@ -31,8 +31,9 @@ struct PageFacts {
 // The facts for main.js, which explains the members. NaN becomes null.
 std::string facts_json(const PageFacts& facts);
 
-// The facts for live.js: what is known of a run before it has measured anything; the newest moments of its
-// bed; the rows of its measures, with all columns.
+// The facts for live.js. live_facts_json(): what is known of a run before it has measured anything;
+// bed_facts_json(): the newest moments of its bed; all_measures_json(): rows of its measures, with all
+// columns.
 std::string live_facts_json(const FilmedScene& scene);
 std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes);
 std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);

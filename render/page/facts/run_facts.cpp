@@ -108,7 +108,7 @@ RunFacts run_facts(const std::filesystem::path& folder) {
 
 namespace {
 
-// A source, as docs/reference/theory.md names it.
+// A source with its key in docs/reference/theory.md and its BibTeX entry.
 struct Source {
     const char* key;
     const char* entry;

@@ -20,7 +20,7 @@ struct RunFacts {
     std::string error;                                       // error of a run that failed
     std::vector<std::pair<std::string, std::string>> lines;  // name and text of its provenance
     std::string version, commit;                             // version and commit of the program that ran it
-    std::string finished;                                    // UTC, ISO 8601; or when it started
+    std::string finished;                                    // UTC, ISO 8601; if unknown, when it started
     std::string state_hash;
     std::optional<std::int64_t> film_frames;
     std::int64_t trajectory_frames = 0;

@@ -41,8 +41,7 @@ std::string path_of(const std::string& key) {
     return path;
 }
 
-// Whether a key describes the run itself. Keys that say how it is shown, or that follow from other keys, do
-// not.
+// Whether a key describes the run itself; false for keys that say how it is shown or that follow from others.
 bool tells(const std::string& key) {
     for (const char* other : {"film.", "output.", "title", "run.threads"})
         if (key.starts_with(other)) return false;

@@ -1,4 +1,4 @@
-// Finds names for the runs of a page, and tells in what their scenes differ.
+// Finds names for the runs of a page, and the keys in which their scenes differ.
 #pragma once
 
 #include <filesystem>

@@ -51,8 +51,8 @@ std::uintmax_t size_of(const fs::path& file) {
     return error ? 0 : size;
 }
 
-// The moments that are read: the first one, the one before the last, and the last. Colours by start height
-// and by rise need these.
+// The moments that are read: the first, the last but one and the last. Colours by start height need the first
+// one, colours by rise the last two.
 std::vector<std::size_t> shown_of(std::size_t moments) {
     std::vector<std::size_t> shown = {0};
     for (const std::size_t from_end : {2u, 1u})
@@ -127,7 +127,7 @@ void LiveRun::read_measures_again() {
     begin_ = table->values(measures.time, 0, 1).front();
     time_ = table->values(measures.time, rows_ - 1, rows_).front();
     if (!seen_.empty() && time_ < seen_.back().simulated)
-        seen_.clear();  // this is another run with the same folder
+        seen_.clear();  // time went back: another run has the folder now
     seen_.push_back({time_, Steady::now()});
     while (seen_.size() > 2 && seen_.back().at - seen_[1].at > looked_back) seen_.pop_front();
     measures.rows = spread_rows(rows_, most_rows);
@@ -273,7 +273,8 @@ std::string waiting_page(const std::string& title) {
 
 namespace {
 
-// The packets from the last key frame on. Reading the others without decoding them takes almost no time.
+// The packets from the last key frame on. All packets before are read too, but not decoded, which takes
+// almost no time.
 std::vector<PacketPtr> last_packets(AVFormatContext& film, int stream) {
     std::vector<PacketPtr> packets;
     while (true) {

@@ -1,5 +1,5 @@
-// Reads from a run's folder how the run is now, for the live page. Nothing in the folder is changed, and the
-// program that computes the run need not know of it.
+// Reads the present state of a run from its folder, for the live page. Nothing in the folder is changed, and
+// the program that computes the run need not know of it.
 #pragma once
 
 #include <chrono>
@@ -41,10 +41,10 @@ class LiveRun {
     // The newest parts. May be called on any thread.
     LiveSnapshot now() const;
 
-    // From the next refresh() on visitors are told that there is nothing more to come.
+    // From the next refresh() on, visitors are told that nothing more will come.
     void say_farewell() { last_ = true; }
 
-    // The state that the last refresh() found.
+    // What the last refresh() found.
     bool is_gone() const { return gone_; }  // its folder is gone
     bool is_over() const { return over_; }  // no program works on it any more
     std::string title() const;

@@ -25,7 +25,7 @@ namespace {
 
 constexpr unsigned most_connections = 256;
 constexpr unsigned longest_silence = 20;          // s until a silent connection is closed
-constexpr std::size_t most_header_bytes = 16384;  // bytes of a request's headers, also in memory
+constexpr std::size_t most_header_bytes = 16384;  // memory of a connection, which holds a request's headers
 // An answer stays in memory until its visitor has received it, which may take long. So the number of large
 // answers at one time is limited.
 constexpr std::size_t large_answer = 65536;  // bytes from which an answer is large

@@ -25,10 +25,10 @@ using Seconds = std::chrono::duration<double>;
 constexpr auto look_interval = std::chrono::milliseconds(100);
 constexpr Seconds refresh_interval{0.5};
 constexpr double refresh_share = 0.1;  // largest share of the time that reading the run may take
-constexpr Seconds visitor_stays{5};    // time after a visitor's last request until he counts as gone
-constexpr Seconds farewell{
-    3};  // time without a request after which all visitors know that the run is over ......
-constexpr Seconds longest_farewell{15};  // ... and the longest time that is waited for them
+constexpr Seconds visitor_stays{5};    // time after the last request of a visitor until he counts as gone
+// When the run is over: if there was no request for so long, all visitors know it ...
+constexpr Seconds farewell{3};
+constexpr Seconds longest_farewell{15};  // ... and the server stops after this time in any case
 constexpr int priority = 10;             // nice value, of 19: programs that compute go first
 
 constexpr const char* html = "text/html; charset=utf-8";

@@ -34,15 +34,14 @@ struct WatchTask {
 // over. Returns the exit status: 0; 1 when the folder is gone; 128 + the signal's number.
 int watch_run(WatchTask request, const Planner& planner, RunListener& listener);
 
-// Decides who may look: by the host name in the request, and, when other machines can reach the page, by a
-// key.
+// Decides who may look: by the host name in the request and, if other machines can reach the page, by a key.
 class Visitors {
   public:
     // host: the name under which visitors ask for the page. keyed: whether a key is needed.
     Visitors(std::string host, int port, bool keyed);
 
     // Whether a Host header names this page. A request with another name comes from a foreign page whose name
-    // was made to lead here.
+    // was made to resolve to this machine (DNS rebinding).
     bool knows_host(std::string_view header) const;
 
     bool keyed() const { return keyed_; }

@@ -32,7 +32,7 @@ const char* without_orbit(const Camera& camera) {
     return camera.orbit == 0 ? "without 'orbit' nothing turns" : nullptr;
 }
 
-// The upward direction: against gravity where that is level, as in a drum that lies; else z.
+// The upward direction: against gravity if gravity is horizontal, as in a drum that lies; otherwise z.
 Vec3 usual_up(const Scene& scene) {
     constexpr double kLevel = 0.1;
     const double gravity = scene.gravity.norm();

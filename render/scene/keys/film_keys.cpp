@@ -1,5 +1,5 @@
-// The keys of [film] itself, about the picture and the file, and the rules of each file format. Keys that
-// only show more have files of their own (film_keys.hpp).
+// The keys of [film] itself, about the picture and the file, and the rules of each file format. The keys of
+// what else a film shows have files of their own (film_keys.hpp).
 #include "render/scene/keys/film_keys.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ using namespace keys;
 
 constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
 constexpr std::int64_t most_tiles = 12;  // columns or rows of a contact sheet
-constexpr int capped_quality = 18;  // a film under a cap is as good as the cap lets it be, up to this crf
+constexpr int capped_quality = 18;       // crf, the best that a film gets which is kept below a size (a cap)
 
 // Whether a film in this format can be kept below a size.
 bool can_be_capped(FilmFormat format) {
@@ -69,7 +69,7 @@ void check_transparent(const Document& document, const Film& film) {
                         word_of(film.format, film_format_words)));
 }
 
-// A scene that names a size of its own keeps it. The note says so to a user who asked for the purpose.
+// A scene that names a size of its own keeps it, and a note tells this to a user who asked for a purpose.
 void tell_what_stays(const Document& document, FilmedScene& scene) {
     const Purpose* purpose = find_purpose(scene.film.purpose);
     if (purpose == nullptr) return;
@@ -271,8 +271,8 @@ const KeyTable<Film>& scenery_table() {
                "Words beside the picture, on plates over it, or none; automatic: plates with a "
                "zoom, position or target of your own."),
         word_kinds_key(),
-        // It is not written where it follows from the camera, since a finished run may be drawn again with
-        // another camera.
+        // The key is not written where its value follows from the camera, since a finished run may be drawn
+        // again with another camera.
         flag("axes", &Film::axes, note("true where the camera moves"),
              "Arrows along x, y and z as the camera sees them.")
             .usually([](Film& film, const Scene&) { film.axes = film.camera.moves(); })
@@ -301,8 +301,8 @@ void list_film(Keys& all) {
     list_shows(all);
 }
 
-// The style sets the default of the background, and the purpose the defaults of the picture, so both are read
-// first.
+// Style and purpose are read first, because the style sets the default of the background and the purpose sets
+// the defaults of the picture.
 void read_film(Document& document, FilmedScene& scene) {
     Film& film = scene.film;
     read_look(document, scene);

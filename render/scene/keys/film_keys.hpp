@@ -31,8 +31,8 @@ void list_film_walls(keys::Keys& all);
 void read_film_walls(Document& document, FilmedScene& scene);
 void write_film_walls(SceneText& out, const FilmedScene& scene);
 
-// list_marks and write_marks are for the keys that hide and ring grains, write_text for `text`. The functions
-// of "shows" also call the functions of colours, plots, arrows and trails.
+// *_marks() are for the keys that hide and ring grains, write_text() for `text`. The functions *_shows() call
+// these and the functions of colours, plots, arrows and trails.
 void list_marks(keys::Keys& all);
 void list_shows(keys::Keys& all);
 void read_shows(Document& document, FilmedScene& scene);
@@ -75,8 +75,7 @@ void list_film(keys::Keys& all);
 void read_film(Document& document, FilmedScene& scene);  // after all tables of the engine
 void write_film(SceneText& out, const FilmedScene& scene);
 
-// From here on are the means for keys whose values are lists of species by name or of grains by id
-// (shows_keys.cpp).
+// From here on: keys whose values are lists of species by name or of grains by id (shows_keys.cpp).
 
 // The indices of the species that the list at `path` names; empty without a list. Throws UserError for a name
 // that no species has.

@@ -91,7 +91,7 @@ std::vector<FilmSegment> default_segments(const FilmedScene& scene) {
 }
 
 // The durations of segments must fit in the run. If the command line makes the run shorter, they are
-// shortened too: to half of the run when a segment takes the rest, otherwise to all of it.
+// shortened too: to half of the run in all if some segment takes the rest, otherwise to all of the run.
 void fit_segments(Document& document, FilmedScene& scene) {
     double given = 0;
     std::size_t open = 0;
