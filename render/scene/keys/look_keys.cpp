@@ -24,8 +24,8 @@ BoundKey<FilmLook> style_key() {
     return style.read_at(-1);
 }
 
-// A kind of light that comes with a style unless the scene says otherwise. It is written only where the scene
-// does, so that a written scene can be given another style.
+// The key of a kind of light, whose default comes from the style. The key is written only where the scene
+// gives it, so that a written scene can be given another style.
 BoundKey<FilmLook> light(const char* name, bool FilmLook::*member, const char* about) {
     return flag(name, member, note("true; false with flat"), about)
         .usually([member](FilmLook& look, const Scene&) { look.*member = FilmLook::of(look.style).*member; })
@@ -139,8 +139,8 @@ std::string range_text(const FilmWalls& walls, const Scene&) {
     return walls.fixed ? toml_list({as_toml(walls.range[0]), as_toml(walls.range[1])}) : "";
 }
 
-// Colours change with every record of fields.nc. Where the scene neither keeps fields nor says how long
-// records are, they become as short as a film needs them.
+// The colours of walls change with every record of fields.nc. If the scene neither keeps fields nor says how
+// long records are, they are made as short as a film needs them.
 void shorten_records(const Document& document, double duration, FieldOutput& fields) {
     constexpr double records = 100;
     if (fields.wanted()) return;
@@ -156,17 +156,16 @@ const KeyTable<FilmWalls>& walls_table() {
     static const KeyTable<FilmWalls> table{
         choice(
             "colour", &FilmWalls::colour, wall_colour_words, initial(),
-            "Colours of meshes: plain, or by what the grains do to each triangle: the mean normal force over "
-            "its area, or the work of rubbing over its area (instrument wear). As the last record of "
-            "fields.nc "
-            "has it, and records are a hundredth of the run or a period of the drive where nothing else is "
-            "said.")
+            "Colours of meshes: plain, or by what the grains do to each triangle: the mean normal force "
+            "divided by its area, or the work of rubbing divided by its area (instrument wear). The colours"
+            " are those of the last record of fields.nc. A record is a hundredth of the run or a period of "
+            "the drive unless the scene says otherwise.")
             .owns({"range"})
             .unwritten_if([](const FilmWalls& walls) { return !walls.coloured(); }),
         bound_by<FilmWalls>(
             entry("range", KeyKind::interval, note("three powers of ten, from bed and motion"),
-                  "Of that, [\"10 Pa\", \"10 kPa\"] or [\"1 J/m2\", \"1 kJ/m2\"]: the colours' ends, for the "
-                  "whole film. Colours go by powers of ten, or, where it begins at 0, evenly."),
+                  "The ends of the colours for the whole film, [\"10 Pa\", \"10 kPa\"] or [\"1 J/m2\", \"1 "
+                  "kJ/m2\"]. Colours go by powers of ten, or, if the range begins at 0, evenly."),
             read_range, range_text)
             .useless_for(of_plain_walls),
         quantity("edge_angle", &FilmWalls::edge_angle, Dimension::degrees, {0, 180, false, false}, initial(),

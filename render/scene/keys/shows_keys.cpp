@@ -60,7 +60,8 @@ void read_scale(Document& document, const Scene&, const std::string& path, C& co
     colour.logarithmic = word == "logarithmic";
 }
 
-// The usual range begins at 0, which has no logarithm. It then spans three powers of ten below its upper end.
+// The usual range begins at 0, which has no logarithm, so a logarithmic scale spans three powers of ten below
+// the upper end.
 void make_logarithmic(const Document& document, C& colour) {
     constexpr double powers = 1e-3;
     if (is_signed(colour.by))
@@ -116,7 +117,8 @@ const KeyTable<C>& colour_table() {
                 if (is_signed(colour.by)) colour.map = ColourMap::vik;
             }),
         bound_by<C>(entry("range", KeyKind::interval, note("from the drive and the bed"),
-                          "Of the quantity, [\"0 m/s\", \"0.5 m/s\"]: the map's ends, for the whole film."),
+                          "The ends of the map for the whole film, in units of the quantity, [\"0 m/s\", "
+                          "\"0.5 m/s\"]."),
                     read_range, range_text)
             .useless_for(by_species),
         bound_by<C>(
@@ -215,7 +217,7 @@ void read_wall_force_scale(Document& document, const Scene& scene, const std::st
 
 void read_outflow(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
     const bool leave = scene.container.outlet.has_value() && !scene.container.tray;
-    shows.outflow = leave;  // an exit may be there for strays alone
+    shows.outflow = leave;  // not for exits, which may be there for strays alone
     keys::read_value(document, path, shows.outflow);
     const bool left_out = ends_early(document) && document.is_table("container.outlet");
     if (left_out && !scene.container.outlet) shows.outflow = false;
@@ -321,7 +323,7 @@ void write_shows(SceneText& out, const FilmedScene& scene) {
     write_arrows_and_trails(out, scene);
 }
 
-// From here on lists of species by name and of grains by id are read and written.
+// From here on: reading and writing lists of species by name and of grains by id.
 
 namespace {
 
