@@ -1,5 +1,5 @@
 /// @file
-/// A contact of one moment.
+/// A contact at one moment.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct Contact {
     double overlap = 0;          ///< m.
     double normal_force = 0;     ///< N, on second along the normal, on first against it; < 0: they attract.
     Vector tangential_force{};   ///< N, on second; the opposite acts on first.
-    double stored_energy = 0;    ///< J, that unloading would give back.
-    std::int32_t triangle = -1;  ///< Of a mesh: which is touched; else -1.
+    double stored_energy = 0;    ///< J, the energy that unloading would give back.
+    std::int32_t triangle = -1;  ///< The triangle of the mesh that is touched; -1 if it is no mesh.
 };
 
 }  // namespace grainreel::v1

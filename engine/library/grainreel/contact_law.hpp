@@ -8,18 +8,18 @@
 
 namespace grainreel::v1 {
 
-/// What a law is told of a contact, once a step.
+/// What a law is told about a contact, once a step.
 struct Touch {
     double overlap = 0;        ///< m, > 0.
     Vector normal{};           ///< Unit, from the first body to the second; a wall is always the second.
     double closing_speed = 0;  ///< m/s, > 0 while the bodies approach; estimated for the time of the force.
-    Vector slip_velocity{};    ///< m/s, of the first surface against the second, across the normal.
-    Vector slip{};             ///< m, that the first surface slipped over the second in this step.
+    Vector slip_velocity{};    ///< m/s, of the first surface relative to the second, without its normal part.
+    Vector slip{};             ///< m, by which the first surface slipped over the second in this step.
     double step = 0;           ///< s, since the last call for this contact.
 
-    double effective_mass = 0;    ///< kg: m1 m2 / (m1 + m2); of a wall the grain's mass.
-    double effective_radius = 0;  ///< m: r1 r2 / (r1 + r2); of a wall the grain's radius.
-    double stiffness = 0;         ///< N/m, as the scene or its plan has it for this pair (ContactNumbers).
+    double effective_mass = 0;    ///< kg: m1 m2 / (m1 + m2); at a wall the grain's mass.
+    double effective_radius = 0;  ///< m: r1 r2 / (r1 + r2); at a wall the grain's radius.
+    double stiffness = 0;         ///< N/m, of this pair, from the scene or its plan (ContactNumbers).
     double restitution = 1;       ///< As the scene has it for this pair.
     double friction = 0;          ///< As the scene has it for this pair.
 };
@@ -30,38 +30,40 @@ struct ContactForce {
     Vector tangential{};  ///< N, on the second body; the opposite acts on the first. Across the normal.
 };
 
-/// What a law keeps of a contact from step to step. All is zero when the contact begins, and forgotten when
-/// the overlap ends.
+/// What a law keeps about a contact from step to step. All numbers are zero when the contact begins, and they
+/// are lost when the overlap ends.
 struct ContactMemory {
     std::span<double> numbers;  ///< As many as ContactLaw::numbers() says.
     /// As many as ContactLaw::vectors() says. They turn with the contact, and change sign when the two bodies
-    /// change places, so a tangential spring is one of them.
+    /// change places. So a tangential spring can be kept as one of them.
     std::span<Vector> vectors;
 };
 
-/// A law between two grains, or a grain and a wall: derive from it, and give it to SimulationOptions::laws.
+/// A law between two grains, or a grain and a wall. Derive your law from this class, and give it to
+/// SimulationOptions::laws.
 ///
-/// The scene's own law still decides the time step: say a stiffness that is like yours (contact.stiffness),
-/// and run.step if that is not enough. Calls are slower than the laws of the program, which take several
-/// contacts at once: docs/guide/library.md has the figure. Numbers are doubles whatever run.precision says,
-/// and a resistance to rolling that the scene has comes on top.
+/// The scene's own law still decides the time step. So give the scene a stiffness that is like yours
+/// (contact.stiffness), and run.step if that is not enough. Your law is slower than the laws of the program,
+/// which compute several contacts at once: docs/guide/library.md has the figure. Numbers are doubles whatever
+/// run.precision says. If the scene has a resistance to rolling, it is added.
 class ContactLaw {
   public:
     virtual ~ContactLaw();
 
-    /// How many numbers it keeps of a contact; at most 16.
+    /// How many numbers it keeps about a contact; at most 16.
     virtual int numbers() const { return 0; }
-    /// How many vectors it keeps of a contact; at most 4.
+    /// How many vectors it keeps about a contact; at most 4.
     virtual int vectors() const { return 0; }
 
-    /// The force at the end of a step. It is called from several threads at once, and must depend on nothing
-    /// but its arguments if runs are to be alike. To see forces as they stand, without a step, it is called
-    /// with slip and step zero and a copy of the memory. What it throws comes out of Simulation::advance(),
-    /// some steps later.
+    /// The force at the end of a step. The function is called from several threads at once. If runs are to be
+    /// alike, its result must depend on nothing but its arguments. To read the present forces without a step,
+    /// the program calls it with slip and step zero and a copy of the memory. An exception that it throws
+    /// comes out of Simulation::advance(), some steps later.
     virtual ContactForce force(const Touch& touch, ContactMemory memory) const = 0;
 
-    /// J, that the contact would give back if it were unloaded now. By itself it is NaN, not known: measures
-    /// of energy are then NaN too, and nobody watches whether the run gains energy out of nothing.
+    /// J, the energy that the contact would give back if it were unloaded now. Without an override it is NaN,
+    /// which means unknown: measures of energy are then NaN too, and the program cannot check whether the run
+    /// gains energy out of nothing.
     virtual double stored_energy(const Touch& touch, ContactMemory memory) const;
 };
 

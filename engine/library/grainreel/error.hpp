@@ -1,5 +1,5 @@
 /// @file
-/// What goes wrong, as an exception.
+/// The exception for everything that goes wrong.
 #pragma once
 
 #include <stdexcept>
@@ -11,31 +11,31 @@ namespace grainreel::v1 {
 
 /// The one exception of this library. what() is the whole line for a user:
 /// "scene.toml:12:5: what is wrong; what to do". Exceptions that your own functions throw come through as
-/// they are. The library never ends the process, but for a bug of its own, which fails a check.
+/// they are. The library never ends the process, unless a bug of its own fails a check.
 class [[gnu::visibility("default")]] Error : public std::runtime_error {
   public:
-    /// Who can help.
+    /// What kind of error it is.
     enum class Kind {
-        mistake,  ///< What was given is wrong: a scene, a file, a setting, an argument.
-        failure   ///< What was given is right, and the run failed: it became unstable, the disk is full.
+        mistake,  ///< The input is wrong: a scene, a file, a setting, an argument.
+        failure   ///< The input is right, but the run failed: it became unstable, or the disk is full.
     };
 
-    /// An error of one's own, as a reader of one's own throws it. Where the message begins with a place,
+    /// An error of your own, for example from your reader. If the message begins with a place,
     /// "file:line:column: ", that place is taken from it.
     explicit Error(const std::string& message, Kind kind = Kind::mistake);
 
     Kind kind() const noexcept {
         return kind_;
-    }  ///< Who can help.
+    }  ///< What kind of error it is.
     const std::string& file() const noexcept {
         return file_;
-    }  ///< The file it is about; empty: none is named.
+    }  ///< The file that the error is about; empty: none is named.
     int line() const noexcept {
         return line_;
-    }  ///< Its line, from 1; 0: none is named.
+    }  ///< The line in that file, from 1; 0: none is named.
     int column() const noexcept {
         return column_;
-    }  ///< Its column, from 1; 0: none is named.
+    }  ///< The column in that line, from 1; 0: none is named.
 
   private:
     Kind kind_;

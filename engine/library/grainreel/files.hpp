@@ -1,5 +1,6 @@
 /// @file
-/// Frames on disk: read from any file that the program knows, or by a reader of one's own; and written.
+/// Frames on disk: reading them from any file that the program knows, or by a reader of your own, and writing
+/// them.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +17,21 @@
 
 namespace grainreel::v1 {
 
-/// What a file of another program does not say. docs/guide/other-programs.md has the meaning of each.
+/// What a file of another program does not say. docs/guide/other-programs.md explains each option.
 struct ReadOptions {
-    std::map<std::string, std::string> columns{};  ///< The file's column for a meaning: {"radius", "c_rad"}.
+    std::map<std::string, std::string> columns{};  ///< Which column means what: {"radius", "c_rad"}.
     std::optional<double> radius{};                ///< m, of all grains.
     std::optional<double> time_step{};             ///< s, of one step of the file.
     std::string units{};              ///< "lj", "si", "cgs", "micro"; empty: as the file says, else SI.
     std::optional<double> density{};  ///< kg/m3.
 };
 
-/// A file or a run's folder with frames, of any kind that can be read. Its moments come by rising time.
+/// A file, or the folder of a run, with frames in any format that can be read. The frames come by rising
+/// time.
 class FrameFile {
   public:
-    /// Readers of one's own are asked first, then those of the program, each by the file's content. Throws
-    /// Error where none takes it, or it is damaged.
+    /// Your own readers are asked first whether they read the file, then those of the program; each looks at
+    /// its content. Throws Error where none reads it, or where it is damaged.
     explicit FrameFile(const std::filesystem::path& file, const ReadOptions& options = {});
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;             ///< Moves.
@@ -38,13 +40,13 @@ class FrameFile {
     std::size_t size() const;                ///< How many frames, at least 1.
     double time(std::size_t index) const;    ///< s, of a frame; NaN where that is not known.
     std::size_t nearest(double time) const;  ///< The frame whose time is nearest, s.
-    /// A frame. Throws Error where there is none of that number, and where it is damaged.
+    /// A frame. Throws Error where there is no frame of that number, and where it is damaged.
     Frame frame(std::size_t index) const;
     World world() const;          ///< Species and walls of triangles, as far as the file knows them.
     bool has_velocities() const;  ///< Whether it knows velocities; else they are zero.
-    std::vector<std::string> news() const;  ///< What one should know of it (damage, guesses), a line each.
+    std::vector<std::string> news() const;  ///< What you should know about it (damage, guesses), a line each.
 
-    /// Writes all frames in another format, as FrameWriter has them; the file must not be there.
+    /// Writes all frames in another format, one that FrameWriter knows. The file must not exist yet.
     void write(const std::filesystem::path& file, const std::string& format) const;
 
     /// Internal.
@@ -56,7 +58,7 @@ class FrameFile {
     std::unique_ptr<Impl> impl_;
 };
 
-/// What lies under a name, and how it begins.
+/// A file or a folder, and how the file begins.
 struct FileHead {
     std::filesystem::path path{};  ///< As it was given.
     bool folder = false;           ///< Whether it is a folder.
@@ -64,31 +66,32 @@ struct FileHead {
     std::string bytes{};           ///< The first 65536 of them.
 };
 
-/// Frames that a reader of one's own has opened.
+/// Frames that your own reader has opened.
 class FrameSource {
   public:
     virtual ~FrameSource();
-    /// Species and walls. Names for the species must be there for all numbers that frames have.
+    /// Species and walls. There must be a name for each number of a species that frames have.
     virtual World world() const = 0;
-    /// s, of each frame, rising; NaN where it is not known. At least one.
+    /// The time of each frame, in s, rising; NaN where it is not known. There must be at least one frame.
     virtual std::vector<double> times() const = 0;
-    /// One of them; its time and step need not be set. The library checks lengths, numbers and species.
+    /// A frame; its time and step need not be set. The library checks lengths, numbers and species.
     virtual Frame frame(std::size_t index) const = 0;
     /// Whether velocities are known.
     virtual bool has_velocities() const { return true; }
 };
 
-/// Reads one format. What its functions throw comes through; throw Error with the file's name for damage.
+/// Reads one format. Exceptions of its functions come through as they are. If a file is damaged, throw Error
+/// with the file's name.
 class FrameReader {
   public:
     virtual ~FrameReader();
     virtual std::string name() const = 0;                ///< "tipsy"
     virtual std::string about() const = 0;               ///< "a snapshot of Tipsy", for messages.
-    virtual bool takes(const FileHead& head) const = 0;  ///< Decide by the content.
+    virtual bool takes(const FileHead& head) const = 0;  ///< Whether it reads this file, by the content.
     virtual std::unique_ptr<FrameSource> open(const std::filesystem::path& file) const = 0;  ///< Reads it.
 };
 
-/// From now on FrameFile asks it, before all others. Another one of that name takes its place.
+/// From now on FrameFile asks this reader before all others. A later reader of the same name replaces it.
 void add_reader(std::shared_ptr<const FrameReader> reader);
 
 /// Names of the formats that can be written: "lammps_dump", "xyz", "vtk", ...
@@ -97,13 +100,13 @@ std::vector<std::string> written_formats();
 /// Writes frames one by one.
 class FrameWriter {
   public:
-    /// Throws Error where the format is none of written_formats(), or the file cannot be made or is there.
+    /// Throws Error where the format is none of written_formats(), or the file cannot be made or exists.
     FrameWriter(const std::filesystem::path& file, const std::string& format, const World& world);
     ~FrameWriter();                                  ///< Without close() the file may be unfinished.
     FrameWriter(FrameWriter&&) noexcept;             ///< Moves.
     FrameWriter& operator=(FrameWriter&&) noexcept;  ///< Moves.
 
-    /// By rising time. Throws Error where the frame is no frame (Frame), or the disk is full.
+    /// Write frames by rising time. Throws Error where the frame is not as Frame says, or the disk is full.
     void write(const Frame& frame);
     /// Finishes the file. Throws Error where that fails.
     void close();

@@ -12,13 +12,14 @@ namespace grainreel::v1 {
 
 /// Where a body (container, floor, plane, mesh) is and how it moves.
 struct Pose {
-    Vector place{};       ///< m, of the body's origin; at rest it is that of the scene.
+    Vector place{};       ///< m, of the body's origin, which at rest is the origin of the scene.
     Rotation rotation{};  ///< About that origin.
     Vector velocity{};    ///< m/s, of the origin.
     Vector spin{};        ///< rad/s.
 };
 
-/// The grains of one moment as arrays with one entry a grain, by rising id, and the poses of the bodies.
+/// The grains of one moment, as arrays with one entry for each grain by rising id, and the poses of the
+/// bodies.
 struct Frame {
     std::int64_t step = 0;  ///< Steps since the drive started.
     double time = 0;        ///< s since the drive started; NaN where a file does not tell.
@@ -32,8 +33,8 @@ struct Frame {
     std::vector<Vector> spin{};           ///< rad/s.
     std::vector<Rotation> orientation{};  ///< Empty unless the scene keeps orientations.
 
-    /// Container and floor, then the planes of the scene, then its meshes. In a frame of one's own: empty, or
-    /// the poses of the walls of its World, behind two for container and floor. A body without one is at
+    /// Container and floor, then the planes of the scene, then its meshes. A frame that you make has none, or
+    /// two for container and floor and then those of the walls of its World. A body without a pose is at
     /// rest.
     std::vector<Pose> bodies{};
 

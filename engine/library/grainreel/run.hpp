@@ -16,8 +16,9 @@ struct RunOptions {
     /// for. Empty: nothing is written.
     std::filesystem::path folder{};
     int threads = 0;   ///< As SimulationOptions::threads.
-    double every = 0;  ///< s between the frames that are looked at; 0: none.
-    /// Sees each of them, on the calling thread; false ends the run there in good order.
+    double every = 0;  ///< s between the frames that `look` gets; 0: none.
+    /// Is called with each of these frames, on the calling thread. If it returns false, the run ends there,
+    /// and its files are completed.
     std::function<bool(const Frame&)> look{};
 };
 
@@ -27,8 +28,9 @@ struct RunEnd {
     bool complete = false;  ///< False when `look` ended it.
 };
 
-/// Packs, runs to the end of run.duration and writes the files. The folder is one of the program's: it draws,
-/// inspects, compares and resumes it. Throws Error; what was written until then stays.
+/// Packs the grains, runs to the end of run.duration and writes the files. The folder is like one that the
+/// program makes: the program can draw, inspect, compare and resume it. Throws Error; what was written until
+/// then stays.
 RunEnd run(const Scene& scene, const RunOptions& options = {});
 
 }  // namespace grainreel::v1

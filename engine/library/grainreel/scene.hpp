@@ -1,5 +1,6 @@
 /// @file
-/// What is to be run: a scene file, read and planned.
+/// What is to be run: a scene that was read, with the step and the stiffness that were chosen for it (its
+/// plan).
 #pragma once
 
 #include <cstdint>
@@ -15,15 +16,15 @@ namespace grainreel::v1 {
 
 /// The numbers of one kind of contact, as the plan chose them or the scene said them.
 struct ContactNumbers {
-    double stiffness = 0;       ///< N/m while loading; of Hertz' law at the allowed overlap.
-    double restitution = 1;     ///< At the speed of impact that is expected.
-    double friction = 0;        ///< Coefficient.
+    double stiffness = 0;       ///< N/m while loading; for Hertz' law at the allowed overlap.
+    double restitution = 1;     ///< At the expected speed of impact.
+    double friction = 0;        ///< Coulomb's coefficient.
     double effective_mass = 0;  ///< kg, of the lightest pair.
-    double contact_time = 0;    ///< s, of a free impact.
+    double contact_time = 0;    ///< s, how long a free impact lasts.
 };
 
-/// A scene that can be run as it stands. It never changes, and copies share it. The keys of scene files:
-/// docs/reference/scenes.md of the program.
+/// A scene that can be run as it is. It never changes, and its copies share it. The keys of scene files are
+/// in docs/reference/scenes.md of the program.
 class Scene {
   public:
     /// Reads a scene file, or a scene that is shipped with the program where there is no such file
@@ -34,23 +35,22 @@ class Scene {
     static Scene from_text(std::string_view text, const std::filesystem::path& file = "scene.toml",
                            const std::vector<std::string>& settings = {});
 
-    std::string name() const;                  ///< The file's stem.
-    std::string title() const;                 ///< As the scene says; may be empty.
-    std::vector<std::string> species() const;  ///< Names; a grain's species is a place in this list.
-    std::int64_t grains() const;               ///< At the start, and all that ever come.
-    double duration() const;                   ///< s, from the start of the drive.
-    double step() const;                       ///< s, of one time step.
-    std::int64_t steps() const;                ///< Of the whole duration.
-    double period() const;                     ///< s, of the drive; 0 without one.
-    std::vector<std::string> walls() const;    ///< Names, by the numbers that contacts give walls.
-    std::vector<std::string> warnings()
-        const;  ///< What will run, but perhaps not as one wishes; a line each.
+    std::string name() const;                   ///< The file's stem.
+    std::string title() const;                  ///< As the scene says; may be empty.
+    std::vector<std::string> species() const;   ///< Names; a grain's species is a place in this list.
+    std::int64_t grains() const;                ///< Those at the start and all that come later.
+    double duration() const;                    ///< s, from the start of the drive.
+    double step() const;                        ///< s, of one time step.
+    std::int64_t steps() const;                 ///< Steps in the whole duration.
+    double period() const;                      ///< s, of the drive; 0 without one.
+    std::vector<std::string> walls() const;     ///< Names, in the order of the numbers in contacts.
+    std::vector<std::string> warnings() const;  ///< What can be run but is perhaps a mistake; a line each.
 
     /// The contact between two species, or with an empty name for `second` between a species and the walls.
     /// Throws Error where there is no such species.
     ContactNumbers contact(const std::string& first, const std::string& second = "") const;
 
-    /// The scene as TOML with everything filled in that was left to the program.
+    /// The scene as TOML, with all values that the program chose.
     std::string resolved() const;
 
     /// Internal.

@@ -16,7 +16,7 @@
 
 namespace grainreel::v1 {
 
-/// Which contacts have a law of one's own.
+/// Which contacts have a law of your own.
 struct LawChoice {
     std::shared_ptr<const ContactLaw> law;  ///< Not null.
     std::string first{};                    ///< Name of a species; empty: any.
@@ -25,11 +25,11 @@ struct LawChoice {
 
 /// How a simulation is set up.
 struct SimulationOptions {
-    int threads = 0;                ///< 0: as the scene says, or as many as are of use. No bit depends on it.
-    std::vector<LawChoice> laws{};  ///< Of two for one pair the later wins.
+    int threads = 0;                ///< 0: as the scene says, or as many as are useful. Results are the same.
+    std::vector<LawChoice> laws{};  ///< If two are for one pair, the later one counts.
 };
 
-/// A grain that is put in while the run goes on.
+/// A grain that is added while the run goes on.
 struct NewGrain {
     std::int32_t species = 0;  ///< Place in Scene::species().
     double radius = 0;         ///< m.
@@ -41,8 +41,8 @@ struct NewGrain {
 
 /// One number of measures.csv.
 struct Measure {
-    std::string column{};  ///< Its name there, as docs/reference/scenes.md lists them.
-    double value = 0;      ///< In the unit of that list; NaN where there is none.
+    std::string column{};  ///< The name of its column, from the list in docs/reference/scenes.md.
+    double value = 0;      ///< In the unit of that list; NaN where there is no value.
 };
 
 /// A direction of a field's grid.
@@ -56,12 +56,12 @@ struct FieldAxis {
 struct Field {
     std::string name{};             ///< "solid_fraction".
     std::string unit{};             ///< "1".
-    std::vector<FieldAxis> axes{};  ///< That of the last one runs fastest in `values`.
-    std::vector<double> values{};   ///< A cell each; NaN where there is none.
+    std::vector<FieldAxis> axes{};  ///< The place along the last axis changes fastest in `values`.
+    std::vector<double> values{};   ///< One for each cell; NaN where there is no value.
 };
 
-/// A scene that is run: the grains are packed and settle, then the drive begins at time 0. Can be moved, not
-/// copied. Not to be used by two threads at once.
+/// A scene that is run: the grains are packed and settle, then the drive begins at time 0. It can be moved
+/// but not copied. Two threads must not use it at once.
 class Simulation {
   public:
     /// Throws Error where the grains do not fit the scene, or a law is chosen for a species that is not
@@ -75,39 +75,39 @@ class Simulation {
     Simulation(Simulation&&) noexcept;             ///< Moves.
     Simulation& operator=(Simulation&&) noexcept;  ///< Moves.
 
-    /// Places the grains and lets them settle, if the scene does that; advance() does so too. `watcher` is
-    /// told the share that is done of the stage at work, and stops it by false; then false is returned.
+    /// Places the grains and lets them settle, if the scene says so; advance() does this too. `watcher` gets
+    /// the share of the present stage that is done. If it returns false, packing stops and returns false.
     bool pack(const std::function<bool(double)>& watcher = nullptr);
 
-    /// Runs up to a time (s since the drive began), to the step nearest to it; returns the time reached. A
-    /// time that is past does nothing. Beyond the scene's duration the drive goes on. Throws Error (failure)
-    /// when the run stopped being healthy: overlaps too deep, energy out of nothing, a grain out of its
+    /// Runs to the step nearest to a time (s since the drive began), and returns the time reached. It does
+    /// nothing for a time that is past. Beyond the scene's duration the drive goes on. Throws Error (failure)
+    /// when something is wrong with the run: overlaps too deep, energy out of nothing, a grain out of its
     /// container.
     double advance(double time);
-    /// Runs so many steps, at least 0.
+    /// Runs that number of steps, at least 0.
     void advance_steps(std::int64_t steps);
 
     double time() const;         ///< s since the drive began.
     std::int64_t step() const;   ///< Steps since the drive began.
     bool finished() const;       ///< Whether the scene's duration is reached.
-    const Scene& scene() const;  ///< What is run.
+    const Scene& scene() const;  ///< The scene that is run.
 
     Frame frame() const;                    ///< Every grain and body now.
     std::vector<Contact> contacts() const;  ///< All that touch now, by rising `first`, then `second`.
     std::vector<Measure> measures()
         const;  ///< All columns of measures.csv. Those of instruments too, if asked for.
-    /// One of them. Throws Error where the scene has no such column.
+    /// The value of one column. Throws Error where the scene has no such column.
     double measure(const std::string& column) const;
     std::vector<Field> fields() const;  ///< Means on grids now; empty where the scene asks for none.
-    std::uint64_t state_hash() const;   ///< Of every bit that decides the future.
+    std::uint64_t state_hash() const;   ///< A hash of every bit on which the next steps depend.
 
-    /// Puts grains in; they must touch nothing. Returns the id of the first. Throws Error where one does not
+    /// Adds grains; they must touch nothing. Returns the id of the first. Throws Error where one does not
     /// fit.
     std::int32_t insert(const std::vector<NewGrain>& grains);
-    /// Takes grains out, by id. Throws Error where there is no such grain.
+    /// Removes grains, by id. Throws Error where there is no such grain.
     void remove(const std::vector<std::int32_t>& ids);
 
-    /// Everything that is needed to go on with the same bits. Throws Error where it cannot be written.
+    /// Writes everything that is needed to go on with the same bits. Throws Error where it cannot be written.
     void save_checkpoint(const std::filesystem::path& file) const;
 
   private:

@@ -1,6 +1,6 @@
 /// @file
-/// Vectors and rotations as plain numbers. They have no arithmetic of their own: take Eigen's or your own for
-/// that, and copy the numbers.
+/// Vectors and rotations as plain numbers. They have no arithmetic of their own: copy the numbers, and use
+/// Eigen or code of your own.
 #pragma once
 
 #include "grainreel/version.hpp"

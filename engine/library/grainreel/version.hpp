@@ -1,8 +1,9 @@
 /// @file
 /// The version of the library, and its namespace.
 ///
-/// All names live in grainreel::v1, and grainreel has them by a using directive: write grainreel::Scene. The
-/// number after v is that of the major version. Within one major version programs need no change.
+/// All names are in grainreel::v1, and a using directive makes them available in grainreel: write
+/// grainreel::Scene. The number after v is the major version. Within one major version programs need no
+/// change.
 #pragma once
 
 #include <string>

@@ -23,33 +23,33 @@ struct Picture {
     /// by it). width * height * 4 bytes.
     std::vector<std::uint8_t> rgba{};
 
-    /// Writes a PNG, under another name first, so that a file with the name is whole. Throws Error where it
-    /// cannot be written.
+    /// Writes a PNG. It is written under another name first, so a file of this name is never incomplete.
+    /// Throws Error where it cannot be written.
     void write_png(const std::filesystem::path& file) const;
 };
 
-/// Draws frames, without a screen: it makes an OpenGL context by OSMesa, which is opened when it is needed.
-/// Use one on the thread that made it; several threads may have one each. Can be moved, not copied.
+/// Draws frames without a screen, with an OpenGL context by OSMesa, which is loaded when it is needed. Use a
+/// painter on the thread that made it; several threads may have one each. It can be moved but not copied.
 ///
-/// `settings` are keys of [film], "film.size=640x480", "film.camera.azimuth=40", "film.words=none",
-/// and colours, "species.big.colour=#2a6fb0"; docs/reference/scenes.md has all of them.
+/// `settings` are values for keys of [film], "film.size=640x480", "film.camera.azimuth=40",
+/// "film.words=none", and colours, "species.big.colour=#2a6fb0". docs/reference/scenes.md has all keys.
 class Painter {
   public:
-    /// With the walls and the film of a scene; its frames come from Simulation, run() or a file. The camera
-    /// has all of the container in the picture. Throws Error where a setting is wrong, or no context is to be
-    /// had.
+    /// Takes the walls and the film of a scene; its frames come from Simulation, run() or a file. The picture
+    /// contains all of the container. Throws Error where a setting is wrong, or no OpenGL context can be
+    /// made.
     explicit Painter(const Scene& scene, const std::vector<std::string>& settings = {});
-    /// With walls of one's own. The camera has the walls and the grains of `first` in the picture.
+    /// Takes walls of your own. The picture contains the walls and the grains of `first`.
     Painter(const World& world, const Frame& first, const std::vector<std::string>& settings = {});
-    /// As a file's frames are to be drawn: with the walls of its scene or its world, framed for its last
-    /// frame.
+    /// For the frames of a file: takes the walls of its scene or its world. The picture contains all that its
+    /// last frame has.
     explicit Painter(const FrameFile& file, const std::vector<std::string>& settings = {});
     ~Painter();
     Painter(Painter&&) noexcept;             ///< Moves.
     Painter& operator=(Painter&&) noexcept;  ///< Moves.
 
-    /// Draws a frame; `words` stand in its caption. Throws Error where it is no frame, or has a species that
-    /// the scene or world has not.
+    /// Draws a frame, with `words` in its caption. Throws Error where the frame is not as Frame says, or has
+    /// a species that the scene or world does not have.
     Picture draw(const Frame& frame, const std::string& words = "");
 
   private:
