@@ -27,7 +27,7 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
     check_meshes();
 }
 
-// Runs until step `from` + `count`, and lets grains leave where they may.
+// Runs until step `from` + `count`, and lets grains leave.
 void StepLoop::run(std::int64_t from, std::int64_t count, double step, double drag) {
     const std::int64_t to = from + count;
     while (from < to && grains_.size() > 0) {
@@ -50,10 +50,11 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
 }
 
 // One thread's part of the steps `from` to `to`. It stops earlier where a grain may leave. A thread reads and
-// writes its own grains only. Of other threads' grains it reads copies, which exchange() brings.
+// writes only its own grains. Of other threads' grains it reads copies, which exchange() brings.
 //
-// A step ends with half a kick by its forces. It is made together with the half kick that begins the next
-// step, in move(). In most integrators a step has one stage, that is, one evaluation of forces.
+// A kick is a change of velocity by the forces. The half kick that ends a step is made in move(), together
+// with the half kick that begins the next step. In most integrators a step has one stage, that is, one
+// evaluation of forces.
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
     const FlushDenormals flush;
     Member& mine = members_[member];
@@ -227,8 +228,8 @@ void StepLoop::visit_contacts(std::int64_t at_step,
     for (std::size_t g = 0; g < rules_.groups.size(); ++g) {
         late.clear();
         for (int m = 0; m < team_.size(); ++m) view_contacts(in, g, lists_.contacts(m), visit, keep);
-        // Threads own stretches of the grains, so the contacts that come in order do so on any number of
-        // threads.
+        // Each thread owns a stretch of the grains, so visiting the threads in turn gives the ordered
+        // contacts the same order on any number of threads.
         std::sort(late.begin(), late.end(), [](const ContactView& a, const ContactView& b) {
             if (a.first != b.first) return a.first < b.first;
             if (a.second != b.second) return a.second > b.second;
@@ -260,12 +261,13 @@ bool StepLoop::is_traffic_sound() const {
 }
 
 void StepLoop::take_histories(const HistoryOf& history_of) {
-    constexpr std::int64_t kBefore = -1;  // walls stand as restart() had them
+    constexpr std::int64_t kBefore = -1;  // walls are where restart() had them
     lists_.take_histories(history_of);
     sum_loads_anew(std::vector<bool>(grains_.size(), true), kBefore);
 }
 
-// Faults that end a run within the step loop. Threads note them, and go on to the end of the next step.
+// Faults that end a run within the step loop. Threads note them and stop together at the end of the next
+// step.
 
 namespace {
 

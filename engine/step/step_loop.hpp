@@ -1,5 +1,6 @@
-// The step loop: kicks and drifts of the grains, lists, contacts, on a team of threads. It sets the order in
-// which a step does its work. The parts have files of their own:
+// The step loop: the order in which a step does its work, on a team of threads. A step kicks the grains
+// (changes velocities by forces), lets them drift (move), keeps the neighbour lists up to date, and computes
+// contacts. The parts have files of their own:
 //   motion/scheme.hpp             when forces are evaluated, and the kicks and drifts between two evaluations
 //   lists/list_life.hpp           how long lists last
 //   lists/bed_lists.hpp           the lists
@@ -39,17 +40,17 @@ class StepLoop {
     // faces have changed.
     void restart();
 
-    // Call this after a restart(). Contacts that touch take up histories, and the forces are set to those
-    // that follow from the histories. history_of gets a group of contacts, the indices of the two bodies (as
-    // in ContactTable) and the numbers of the history to fill in. It returns whether there is a history for
+    // Call this after a restart(). Gives histories to contacts that touch, and sets the forces to those that
+    // follow from the histories. history_of gets a group of contacts, the indices of the two bodies (as in
+    // ContactTable) and the numbers of the history to fill in. It returns whether there is a history for
     // them. It must answer the same on every thread.
     using HistoryOf =
         std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
     void take_histories(const HistoryOf& history_of);
 
-    // Runs `count` steps of `step` seconds from absolute step `from` (which sets the walls' phase).
-    // drag: 1/s, slows every grain's velocity and spin; 0 for none (settling and growing only).
-    // Grains in an exit at the end of a step leave then, and the others go on without them.
+    // Runs `count` steps of `step` seconds from step number `from`, which determines where the walls are.
+    // drag: 1/s, slows every grain's velocity and spin; 0 for none (settling and growing only). Grains in an
+    // exit at the end of a step leave then, and the others go on without them.
     void run(std::int64_t from, std::int64_t count, double step, double drag);
 
     // Takes grains out between two runs. `step` is the step that has been reached. Ids that no grain has are
@@ -82,10 +83,11 @@ class StepLoop {
     // Writes lists and histories, bit by bit, for checkpoints and hashes. The grains are not written here;
     // their owner saves them.
     void save(std::ostream& out) const;
-    // Reads what save() wrote. The grains must be in order already. The reading fails where the loop could
-    // not have written what is read; no index is trusted.
+    // Reads what save() wrote. The grains must be in order already. Reading fails for anything that the loop
+    // cannot have written; no index is trusted.
     void load(Bytes& in, std::int64_t at_step);
-    // Whether no step has been made since restart(). save() does not write this.
+    // Whether no step has been made since restart(). save() does not write this; a checkpoint keeps it
+    // separately.
     bool is_fresh() const { return fresh_; }
     void set_fresh(bool fresh) { fresh_ = fresh; }
     // Whether grains carry derivatives along from step to step.
@@ -102,7 +104,7 @@ class StepLoop {
     std::size_t listed_pairs() const { return lists_.listed_pairs(); }
 
   private:
-    // The message of a thread to the others in each evaluation.
+    // The message of a thread to the others in each evaluation of forces.
     struct alignas(64) Told {
         Vec3 fastest{0, 0,
                      0};  // m/s, largest velocity components of its grains relative to the bed's free flight
@@ -117,7 +119,7 @@ class StepLoop {
         ChunkMemory memory;
         Vanguard ahead;  // its grains that begin the next step early
         CostClock clock;
-        Vec3 fastest{0, 0, 0};  // m/s, largest components, for the next message
+        Vec3 fastest{0, 0, 0};  // m/s, largest velocity components of its grains, for the next message
         Told told[2];           // messages of this evaluation and the one before, which others may still read
         int box = 0;            // which of the two messages, and of the two boxes of its halo, is in use
         std::int64_t reached = 0;  // the step that a run ended at

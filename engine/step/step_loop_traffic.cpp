@@ -1,6 +1,6 @@
-// Grains leave and enter, and walls change, between two steps. Grains that stay keep their order, their
-// forces and their histories, so that nothing depends on the threads. A grain that has lost a contact in this
-// way begins its next step with the forces of those contacts that it keeps.
+// Lets grains leave and enter, and lets walls change, between two steps. Grains that stay keep their order,
+// their forces and their histories, so that nothing depends on the threads. A grain that has lost a contact
+// in this way begins its next step with the forces of those contacts that it keeps.
 
 #include <algorithm>
 #include <utility>
@@ -58,16 +58,16 @@ bool StepLoop::in_exit(std::int32_t i) const {
 
 // Whether the run must stop at the end of this step because a grain of this member may leave then.
 //
-// Where the scheme still moves grains after the forces, the run stops if a grain comes near an exit. How near
-// depends on the grain alone, and not on the threads, because these schemes round differently where a run
-// stops. A grain moves by at most a step's way and what the forces of a step add. That is far less than a
+// If the scheme still moves grains after the forces, the run stops when a grain comes near an exit. How near
+// depends only on the grain, not on the threads, because these schemes round differently where a run stops. A
+// grain moves by at most the way of a step and what the forces of a step add to it. That is far less than a
 // hundredth of its radius, since a contact lasts many steps.
 bool StepLoop::may_leave(int member, double step) const {
     constexpr double kPushed = 0.01;  // as a share of a radius
     if (around_.exits.empty()) return false;
     const bool moves = scheme_.moves_after_forces();
-    // Successive grains lie near each other, so a grain is mostly outside of the half-space that the grain
-    // before it was outside of. That half-space is looked at first.
+    // Successive grains lie near each other, so a grain is mostly outside the same half-space as the grain
+    // before it. That half-space is looked at first.
     for (const Exit& exit : around_.exits) {
         if (exit.sides.empty()) continue;
         Exit::HalfSpace far = exit.sides.front();
@@ -156,7 +156,7 @@ void StepLoop::sum_loads_anew(const std::vector<bool>& of, std::int64_t step) {
     });
 }
 
-// Contacts with parts of faces that vanish lose their stored energy. It counts as energy that has left.
+// Contacts with parts of faces that vanish lose their stored energy, which counts as energy that has left.
 void StepLoop::open_faces(const std::function<void()>& change, std::int64_t step) {
     std::vector<bool> at_a_wall(grains_.size(), false);
     const auto stored = [&] {
@@ -205,7 +205,7 @@ void StepLoop::add(const NewGrain& grain) {
     traffic_.energy_in += departure_of(grains_, grains_.size() - 1, around_.gravity, 0).energy;
 }
 
-// Sums of the forces on the walls, where an observer asks for them.
+// The functions below sum the forces on the walls, if an observer asks for them.
 
 namespace {
 

@@ -28,8 +28,8 @@ std::vector<MeshWall> mesh_walls(const Scene& scene) {
     return walls;
 }
 
-// Adds the exits of a box. Where all inside the box leaves, it is one exit; where all around it leaves,
-// there is one exit beyond each of its sides.
+// Adds the exits of a box. If grains inside the box leave, it is one exit; if those outside it leave, there
+// is one exit beyond each of its sides.
 void add_exits(const ExitBox& box, std::vector<Exit>& exits) {
     Exit inside;
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
 // The surroundings that a scene gives its grains: faces, glued grains, meshes, gravity and exits. They are
-// made of a scene and its plan. The step loop reads them and never changes them.
+// made from a scene and its plan. The step loop reads them and never changes them.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace grainreel {
 
-// A mesh in the run. Where faces and meshes are numbered together, the meshes come behind the faces.
+// A mesh in the run. Where faces and meshes are numbered together, the meshes come after the faces.
 struct MeshWall {
     std::string name;
     std::shared_ptr<const Surface> surface;
@@ -30,9 +30,10 @@ struct Surroundings {
     GluedGrains glued;  // glued to these faces
     std::vector<MeshWall> meshes;
     WallMotion motion;
-    Vec3 gravity{0, 0, 0};    // m/s2
-    double period = 0;        // m, of x; 0 for none
-    double skin = 0;          // m, reach of the first neighbour lists; later ones follow the motion
+    Vec3 gravity{0, 0, 0};  // m/s2
+    double period = 0;      // m, of x; 0 for none
+    double skin =
+        0;  // m, how far beyond contact the first neighbour lists reach; later ones adapt to the motion
     std::vector<Exit> exits;  // regions in which grains leave; may change between two runs
 };
 

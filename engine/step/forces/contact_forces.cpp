@@ -34,7 +34,7 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
 }  // namespace
 
 // Contacts go through geometry, law and loads a chunk at a time, so that a chunk stays in the cache. Contacts
-// at walls come before contacts of pairs. Within a law, the contacts that began since the last refresh come
+// at walls come before contacts of pairs. In each group, the contacts that began since the last refresh come
 // first.
 void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
                         Vanguard& vanguard, CostClock& clock) {
@@ -68,8 +68,8 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
             add_loads(in, group, chunk, rounded, sorted, memory, grains);
             clock.lap(group.of_pairs ? Cost::gather : Cost::walls);
 
-            // The sorted contacts of the first group come last. Grains before the next contact have all
-            // their forces.
+            // The sorted contacts of the first group come last of all. So grains below the first grain of the
+            // next contact already have all their forces.
             if (g != 0 || !sorted || c + count == table.sorted()) return;
             advance(vanguard, grains, table.first()[c + count]);
             clock.lap(Cost::integrate);
@@ -81,13 +81,13 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
 
 namespace {
 
-// Keeps the fault of the earliest step, and within a step the fault of the grain with the lowest id. Faults
-// of this step have no step number yet.
+// Keeps the fault of the earliest step, and within a step the fault of the grain with the lowest id. A fault
+// of this step has no step number yet (it is below 0).
 void note(const MeshFault& fault, std::optional<MeshFault>& first) {
     if (!first || (first->step < 0 && fault.grain < first->grain)) first = fault;
 }
 
-// Rows and histories hold a block's numbers in the same way.
+// This works because rows and histories hold a block's numbers in the same order.
 template <class Number>
 void remember(const ContactGroup& group, const MeshTouch* touch, const ChunkMemory& memory, std::int32_t c,
               int count, Histories& histories) {
@@ -145,7 +145,7 @@ void remember_patches(const ContactGroup& group, const MeshTouch* touch, const C
 
 namespace {
 
-// The candidates [from, to) of a group; `from` is a multiple of kChunk.
+// Makes contacts of those candidates [from, to) of a group that touch; `from` is a multiple of kChunk.
 void admit_all(const ForceInput& in, std::size_t g, ThreadContacts& contacts, std::int32_t from,
                std::int32_t to) {
     const ContactGroup& group = in.rules.groups[g];
@@ -157,7 +157,7 @@ void admit_all(const ForceInput& in, std::size_t g, ThreadContacts& contacts, st
     }
 }
 
-// Lists those candidates of one stretch that are closer than `gap` (m).
+// Lists those candidates of one stretch of the list that are closer than `gap` (m).
 void list_soon(const ForceInput& in, const ContactTable& table, const FoundPairs& candidates, SoonList& soon,
                double gap) {
     soon.begin(in.times.moved, gap);
@@ -187,10 +187,11 @@ void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts, c
     }
 }
 
-// This serves the pairs of a small bed. A large bed looks at all candidates, which brings their places to the
-// cache, where contacts need them soon after. (With lists, contacts took 1.15 times as long there.)
+// For the pairs of a small bed, a step tests only the candidates that may touch soon. In a large bed it tests
+// all, because this brings their places to the cache, where contacts need them soon after. (With lists of
+// near candidates, contacts took 1.15 times as long there.)
 //
-// kShare is a compromise. A small gap holds few pairs; a large gap makes a list last longer.
+// kShare is a compromise: a small gap lets in few pairs, and a large gap makes a list last longer.
 void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts) {
     constexpr double kShare = 1.0 / 10;
     contacts.soon[g].each(kShare * contacts.skin, [&](SoonList& soon, double gap) {
@@ -215,7 +216,7 @@ void add_new_contacts(const ForceInput& in, std::size_t g, ThreadContacts& conta
 
 namespace {
 
-// Number of the wall that a second body is, or belongs to.
+// Number of the wall that the second body is, or to which it belongs.
 std::int32_t wall_of(const ForceInput& in, const ContactGroup& group, std::int32_t second) {
     if (group.of_mesh) return static_cast<std::int32_t>(in.walls.faces.size()) + mesh_of(second);
     return group.of_glued ? in.glued.face[second] : second;
@@ -253,7 +254,7 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     return v;
 }
 
-// Shows the contacts of a chunk that touch and whose first body is an own grain.
+// Shows the contacts of a chunk that touch and whose first body is one of the thread's own grains.
 template <class See>
 void see_chunk(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, const void* history,
                std::int32_t first_own, ChunkMemory& memory, const See& see) {
@@ -284,8 +285,7 @@ void see_alone(const ForceInput& in, const ContactGroup& group, std::int32_t one
               first_own, memory, see);
 }
 
-// Grains may have moved since the forces were computed, so some candidates may touch that are no contacts
-// yet.
+// Grains may have moved since the forces were computed, so candidates that are not contacts yet may touch.
 template <class See>
 void see_candidates(const ForceInput& in, std::size_t g, const ThreadContacts& contacts, ChunkMemory& memory,
                     const See& see) {

@@ -19,13 +19,13 @@ namespace grainreel {
 
 // Grains that begin their next step while other grains still wait for forces.
 //
-// These grains are still in the cache, so the bed passes through memory once a step, not twice. No contact
+// They are still in the cache then, so that each step reads the bed from memory once, not twice. No contact
 // that is still to be computed may need such a grain, and no other thread may read it.
 //
 // What this gains: a rising bed of a million grains is some 1.07 times as fast, and a bed of 10,000 grains on
 // two threads 1.02 to 1.03 times. A bed on one thread that fits into the cache gains nothing and would take
-// up to 1.6 % more instructions, so its grains do not go ahead (docs/notes/performance.md, "Three devices of
-// the step").
+// up to 1.6 % more instructions, so its grains do not begin early (docs/notes/performance.md, "Three devices
+// of the step").
 struct Vanguard {
     std::int32_t next = 0,
                  end = 0;  // the grains [next, end) may begin their next step; the range may be empty
@@ -44,14 +44,13 @@ inline void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
 }
 
 // Adds the forces of walls, then the forces of pairs, to the loads of the thread's own grains. Adds the work
-// of moving walls to the grains' accounts. `grains` are those of `in`. Grains of `vanguard` begin their next
+// of moving walls to Grains::wall_work. `grains` are those of `in`. Grains of `vanguard` begin their next
 // step as soon as their loads are complete.
 void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
                         Vanguard& vanguard, CostClock& clock);
 
-// This takes the place of add_new_contacts() for a group of contacts with meshes. It finds the patches that
-// grains touch, begins their contacts at the end of the table, and sets MeshLists::touch. It notes the first
-// fault.
+// What add_new_contacts() is for other groups, for contacts with meshes: finds the patches that grains touch,
+// begins their contacts at the end of the table, and sets MeshLists::touch. It also notes the first fault.
 void find_patches(const ForceInput& in, std::size_t group, ThreadContacts& contacts, PatchMatcher& matcher);
 
 // Stores the patches in the histories of the chunk that begins at contact c. Call it after the chunk's law.
@@ -77,7 +76,7 @@ inline std::uint64_t which_touch(const ForceInput& in, const ContactGroup& group
 
 // Shows observers every touching contact of a group whose first body is one of the thread's own grains.
 // Contacts that began since the last refresh go to `late`. The others go to `in_order`, by rising first and
-// second body. Which contacts are late does not depend on the threads.
+// second body. Which contacts go to `late` does not depend on the threads.
 void view_contacts(const ForceInput& in, std::size_t group, const ThreadContacts& contacts,
                    const std::function<void(const ContactView&)>& in_order,
                    const std::function<void(const ContactView&)>& late);

@@ -10,7 +10,7 @@ namespace grainreel {
 
 namespace {
 
-// The kind of each contact of a chunk, and of the copies that fill it.
+// The kind of each contact of a chunk, and of the copies that fill its last block.
 const std::int32_t* kinds_of(const ForceInput& in, const ContactGroup& group, const Chunk& chunk,
                              std::int32_t* kind) {
     static constexpr std::int32_t kOne[kChunk] = {};
@@ -26,7 +26,7 @@ const std::int32_t* kinds_of(const ForceInput& in, const ContactGroup& group, co
     return kind;
 }
 
-// The geometry of each contact.
+// Computes the geometry of each contact.
 void touch(const ForceInput& in, const ContactGroup& group, const GeometryInput& geometry,
            const MeshTouch* mesh, ChunkMemory& memory) {
     if (group.of_pairs) return touch_pairs(geometry, in.rules.period, memory.touch);
@@ -66,7 +66,7 @@ LawInput law_input(const ForceInput& in, const ContactGroup& group, const Chunk&
 
 namespace {
 
-constexpr double kSameNormal = 0.86602540378443865;  // cos 30 degrees: a contact turns by less in a step
+constexpr double kSameNormal = 0.86602540378443865;  // cos 30 degrees; a contact turns by less in a step
 
 int count_of(const std::vector<Patch>& patches) {
     return static_cast<int>(std::min<std::size_t>(patches.size(), kMostPatches));
@@ -114,7 +114,7 @@ const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
     const Place& grain = in.grains.place[near.grain];
     const WallPose& pose = in.walls.pose_of_mesh(near.mesh);
     const Vec3 centre = pose.at_rest(grain.position);
-    // A triangle comes nearer by no more than the grain has moved in the body's frame.
+    // A triangle has come nearer by no more than the grain has moved in the body's frame.
     const double gone = (centre - near.centre).norm(), reach = grain.radius + gone;
     const NearTriangle* triangle = lists.triangles.data() + near.first;
     const NearTriangle* const end = triangle + near.count;
@@ -143,7 +143,7 @@ const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
 }
 
 // Handles the case of most grains at rest on a mesh: one plane is within reach, and the only contact goes on.
-// The result is the same as in the general way. Returns false in all other cases.
+// The result is that of the general way. Returns false in all other cases.
 bool PatchMatcher::find_lone(const ContactGroup& group, const MeshNear& near, const MeshLists& lists,
                              const ContactTable& table, const Asked& asked) {
     if (!(asked.gone < near.stays)) return false;
@@ -205,9 +205,9 @@ void PatchMatcher::find_owners() {
     }
 }
 
-// A centre has come through the surface if it now lies on the other side, and nearer to the surface than it
-// can have come in any other way. Such a grain ends the run. While grains settle or grow, it is pushed back,
-// as by a plane.
+// A grain's centre has come through the surface if it now lies on the other side, so near that it cannot have
+// come there in any other way. Such a grain ends the run. While grains settle or grow, it is pushed back, as
+// by a plane.
 void PatchMatcher::look_for_crossings(const ForceInput& in, const MeshNear& near, const WallPose& pose) {
     using Kind = MeshFault::Kind;
     constexpr double kOpposite = -0.5, kDeep = 0.5;  // cosine; of the radius

@@ -20,12 +20,12 @@
 
 namespace grainreel {
 
-// Times that belong to the forces of one step. For observers all are zero: the forces as they stand.
+// Times that belong to the forces of one step. Observers, who get the forces at one instant, have zeros here.
 struct ForceTimes {
     double since = 0;  // s, time since the last forces
     double ahead = 0;  // steps, from the time of the known velocity to the time of these forces
     double acts = 0;   // s, how long these forces will act
-    double turns = 0;  // s: `since`, or 0 where positions and velocities belong to one time
+    double turns = 0;  // s: `since`, or 0 where positions and velocities belong to the same time
     double moved = 0;  // m; no grain has moved farther since the last refresh
     bool drags =
         false;  // true while grains settle or grow: a grain whose centre comes through a mesh is pushed back
@@ -43,9 +43,9 @@ struct ForceInput {
 // Which patch of a mesh goes on with which contact of the step before.
 //
 // A contact goes on with the patch that has its triangle. If the normal has jumped, it goes on with the patch
-// whose normal is nearest to its own. Where two contacts would go on with one patch, the contact with the
-// larger force does. The patches that are left over become new contacts, and each takes the lowest free
-// number. The result depends on the grain alone, not on the threads or on the order of the table.
+// whose normal is nearest to its own. If two contacts would go on with one patch, the contact with the larger
+// force does. Patches that are left over become new contacts, each with the lowest free number. The result
+// depends on the grain alone, not on the threads or on the order of the table.
 
 // A patch that a grain touches now.
 struct MatchedPatch {
@@ -77,7 +77,8 @@ class PatchMatcher {
         const WallPose& pose;
         Vec3 centre;  // m
         double radius, gone,
-            reach;  // m; gone: way since the refresh; reach: for triangles as they were listed then
+            reach;  // m; gone: its way since the lists were refreshed; reach: to be compared with the
+                    // distances listed then
     };
     bool find_lone(const ContactGroup& group, const MeshNear& near, const MeshLists& lists,
                    const ContactTable& table, const Asked& asked);
@@ -97,11 +98,11 @@ class PatchMatcher {
     std::optional<MeshFault> fault_;
 };
 
-// Some contacts, at most kChunk, that stand side by side in arrays.
+// At most kChunk contacts, which lie side by side in arrays.
 struct Chunk {
     const std::int32_t *first, *second;  // the two bodies; at a wall: grain and face
     const std::int32_t *first_at,
-        *second_at;  // where to read the bodies; for other threads' grains the copies
+        *second_at;  // where to read the bodies; for grains of other threads, their copies
     int count;
     const MeshTouch* mesh = nullptr;  // where the contacts touch; for contacts with meshes only
 };
@@ -112,7 +113,7 @@ struct ChunkMemory {
     ForceChunk force;
     RollingChunk rolling;
     std::int32_t kind[kChunk] = {};  // kinds of the chunk's contacts, where the group has several kinds
-    std::int32_t face[kChunk] = {};  // faces on which the glued grains stand
+    std::int32_t face[kChunk] = {};  // faces to which the glued grains belong
     Ahead ahead;
     PatchMatcher matcher;
 };
@@ -129,7 +130,7 @@ inline bool are_of_one_kind(const ContactGroup& group, const LawInput& in) {
     return others == 0;
 }
 
-// Resistance to rolling is the second law of a chunk. In each block of the history its numbers stand behind
+// Resistance to rolling is the second law of a chunk. In each block of the history its numbers come after
 // those of the first law.
 inline LawInput for_rolling(const ContactGroup& group, LawInput in) {
     in.parameters = &group.rolling_parameters;

@@ -1,4 +1,5 @@
-// Takes registers of forces apart, to add them to the loads of grains one after the other.
+// Splits registers of forces into the forces of single contacts, which are added to the loads of grains one
+// after the other.
 #if defined(GRAINREEL_STEP_LOADS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_LOADS_INL
 #undef GRAINREEL_STEP_LOADS_INL
@@ -19,9 +20,9 @@ HWY_INLINE double* numbers(Load& one) {
     return reinterpret_cast<double*>(&one);
 }
 
-// Force and torque on one body of each contact, contact by contact. Without friction there is the force
-// alone. Both stay in registers. Storing them in one shape and loading them in another would make the
-// processor wait.
+// Force and torque on one body of each contact, contact by contact. Without friction there is only the force.
+// Both stay in registers, because the processor would wait if they were stored in one shape and loaded in
+// another.
 template <bool rubs>
 HWY_INLINE auto by_contact(const Triple<Lanes>& force, const Triple<Lanes>& torque) {
     const auto four = [](const Triple<Lanes>& t) HWY_ATTR {

@@ -40,9 +40,10 @@ HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
     return p;
 }
 
-// In a register of sorted contacts, all second bodies are served before all first bodies. This changes no
-// sum, because a grain's contacts as second body come before those as first body anyway. Successive loads
-// then lie apart in memory, which is 1.3 times as fast as first and second in turn.
+// In a register of sorted contacts, the loads of all second bodies are added before those of all first
+// bodies. This changes no sum, because a grain's contacts as second body come before those as first body
+// anyway. Successive additions then go to places far apart in memory, which is 1.3 times as fast as adding to
+// first and second bodies in turn.
 template <class L, bool rubs, bool sorted>
 HWY_INLINE void add_each(const ChunkOfContacts& chunk, Load* loads) {
     for (int c = 0; c < chunk.count; c += L::count) {
@@ -95,7 +96,7 @@ HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, do
     }
 }
 
-// Notes the forces on the faces. What the walls do to their grains does not depend on it.
+// Tallies the forces on the faces. The forces on the grains do not depend on this.
 template <class L>
 void note(const WallForces& in, int c, const Triple<L>& force) {
     const ChunkOfContacts& chunk = in.contacts;

@@ -18,7 +18,7 @@ struct ChunkOfContacts {
     bool rubs;
     const RollingChunk* rolling;  // nullptr: no resistance to rolling
     bool rounded;                 // rows hold floats
-    bool sorted = false;          // by rising first body; each first body is lower than its second
+    bool sorted = false;  // by rising first body, each of which has a lower index than its second body
 };
 
 // Adds the forces of pairs to the loads of their grains. Each grain sums its forces in the contacts' order.

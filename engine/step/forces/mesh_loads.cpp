@@ -96,7 +96,7 @@ namespace grainreel {
 
 HWY_EXPORT(add_to_meshes);
 
-// A tally needs each force by itself, so the contacts are then taken one by one.
+// If the forces on walls are tallied, each force is needed by itself, so the contacts are taken one by one.
 void add_at_meshes(const WallForces& forces) {
     if (forces.walls.tally) return add_at_points(forces, true);
     HWY_DYNAMIC_DISPATCH(add_to_meshes)(forces);

@@ -1,4 +1,5 @@
-// Adds the forces at single contacts to the sums of the walls and meshes that feel them.
+// Adds the forces of single contacts with meshes and turning faces to the loads of their grains, and tallies
+// them for the walls.
 #include "engine/step/forces/loads.hpp"
 
 #include "engine/step/lists/contact_rules.hpp"

@@ -46,8 +46,8 @@ std::uint64_t touching_walls(const Grains& grains, const std::int32_t* first, co
 void touch_pairs(const GeometryInput& in, double period, TouchChunk& out);
 void touch_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
-// Contacts of grains with grains that are glued to walls. Scenes without glued grains have no such contacts,
-// and the kernels of pairs and of walls know nothing of them.
+// Contacts of grains with grains that are glued to walls. The kernels of pairs and of walls know nothing of
+// them.
 
 // Glued grains, and the state of the walls that carry them. `period` is the period of x in m, or 0.
 struct GluedState {
@@ -59,8 +59,8 @@ struct GluedState {
 // Finds the faces of `count` glued grains and of the copies that fill their last block.
 void find_faces(const GluedGrains& glued, const std::int32_t* second, int count, std::int32_t* face);
 
-// These are touching_walls() and touch_walls() for glued grains. `second` holds numbers of glued grains, and
-// `face` the result of find_faces().
+// Do what touching_walls() and touch_walls() do, for glued grains. `second` holds numbers of glued grains,
+// and `face` the result of find_faces().
 std::uint64_t touching_glued(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                              int count, const GluedState& state);
 void touch_glued(const GeometryInput& in, const GluedState& state, const std::int32_t* face, TouchChunk& out);
@@ -69,7 +69,7 @@ void touch_glued(const GeometryInput& in, const GluedState& state, const std::in
 // In scenes without such walls, touch_walls() in wall_geometry.cpp does the work; it calls these functions
 // where a wall ends.
 
-// These are touching_walls() and touch_walls() for walls that end.
+// Do what touching_walls() and touch_walls() do, for walls that end.
 std::uint64_t touching_plates(const Grains& grains, const std::int32_t* first, const std::int32_t* second,
                               int count, const WallState& walls);
 void touch_plates(const GeometryInput& in, const WallState& walls, TouchChunk& out);

@@ -10,7 +10,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// A grain at a glued grain: two spheres, of which the second moves with its wall.
+// A grain and a glued grain: two spheres, of which the second moves with its wall.
 struct AtGlued {
     Triple<Lanes> apart;  // from the grain's centre to that of the glued grain
     Lanes distance, radius, other_radius;
@@ -37,7 +37,7 @@ std::uint64_t glued_that_touch(const Grains& grains, const std::int32_t* i, cons
     return touching;
 }
 
-// Computes what the sweeps of pair_geometry.cpp compute, with a second body that does not spin.
+// Computes what the sweeps of pair_geometry.cpp compute, for a second body that does not spin.
 template <class Number>
 void glued_chunk(const GeometryInput& in, const GluedState& state, const std::int32_t* face,
                  TouchChunk& out) {

@@ -1,5 +1,5 @@
 // The geometry of contacts between a grain and a mesh. PatchMatcher (forces/law_input.hpp) says where they
-// touch. The numbers are those of touch_point() to the bit: nothing is fused.
+// touch. The results are those of touch_point() to the bit, because nothing is fused.
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/geometry/wall_point.hpp"
 
@@ -27,7 +27,7 @@ HWY_INLINE Triple<Lanes> as_held(const Triple<Lanes>& t) {
     return {as_held<Number>(t.x), as_held<Number>(t.y), as_held<Number>(t.z)};
 }
 
-// The vector turn_of() of wall_point.cpp, for a register of contacts.
+// turn_of() of wall_point.cpp, for a register of contacts.
 HWY_INLINE Triple<Lanes> turn_between(const Triple<Lanes>& before, const Triple<Lanes>& k, Lanes twist) {
     const Triple<Lanes> across = plain_cross(before, k), b = k * twist;
     const Lanes whole = Lanes(1.0) + plain_dot(before, k);

@@ -42,8 +42,8 @@ std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const st
     return touching;
 }
 
-// A chunk passes through sweeps: places, distances, radii, velocities, spins. The law decides which of them
-// are needed. (One sweep for all of them was no faster.)
+// Each chunk goes through several sweeps: places, distances, radii, velocities, spins. The law decides which
+// of them are needed. (One sweep for all of them was no faster.)
 //
 // The first sweep sets the overlaps, and finds out which contacts touch. It leaves other numbers in some rows
 // until a later sweep replaces them: `normal` holds the vector between the centres, `inverse_distance` holds
@@ -70,7 +70,7 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
 
 // The first sweep where rows hold floats. It takes no root and sets no radii; later sweeps do that. R is the
 // sum of the radii, and d is the distance. The difference R^2 - d^2 = (R - d)(R + d) is small. It is computed
-// in doubles and then rounded, so that the overlap keeps all its digits. d itself may be rounded before.
+// in doubles and then rounded, so that the overlap keeps all its digits. d itself may be rounded at once.
 // Until the next sweep, `overlap` holds this difference and `inverse_distance` holds R.
 void sweep_rounded_places(const GeometryInput& in, const Places& at, double period, TouchChunk& out) {
     const double* place = numbers(in.grains->place);
@@ -109,7 +109,7 @@ void sweep_distances(const GeometryInput& in, TouchChunk& out) {
     }
 }
 
-// The array of velocities and spins whose numbers fit the registers L.
+// The array of velocities and spins whose numbers have the type of L.
 template <class L>
 HWY_INLINE const NumberOf<L>* velocities(const Grains& grains) {
     if constexpr (std::is_same_v<L, Lanes>)

@@ -9,7 +9,7 @@ namespace grainreel {
 
 namespace {
 
-// Relative difference below which two squared distances count as the distance of one point.
+// Relative difference below which two squared distances count as distances from one point.
 constexpr double kSame = 1e-10;
 bool is_nearer(double one, double other) {
     return one < other * (1 - kSame);
@@ -40,7 +40,8 @@ void Patches::begin(const Surface& surface, const Vec3& centre, double radius) {
     patches_.clear();
 }
 
-// On a face the distance from the plane is taken. It is exact, and it changes evenly as the grain moves.
+// Where the nearest point is on the face, the distance from the plane is taken, which is exact and changes
+// evenly as the grain moves.
 void Patches::add(std::int32_t triangle) {
     NearestPoint nearest = surface_->nearest(triangle, centre_);
     const double plane = surface_->normal(triangle).dot(centre_ - surface_->corner(triangle, 0));
@@ -124,8 +125,8 @@ void Patches::join_over_edges(int t) {
 }
 
 // The nearer triangle decides on which side the centre lies, because the centre may see the other triangle
-// from its edge. Where both have the same nearest point, the triangle decides from whose plane the centre is
-// farther away.
+// only edge-on. If both have the same nearest point, the triangle from whose plane the centre is farther away
+// decides.
 bool Patches::is_one_patch_over(int t, int edge, int other) const {
     using Turn = Neighbour::Turn;
     const Touching &one = touching_[t], &two = touching_[other];
@@ -145,8 +146,8 @@ bool Patches::is_one_patch_over(int t, int edge, int other) const {
     return (seen->turn == Turn::convex) == (side >= 0);
 }
 
-// Whether the distance to the surface has a minimum at a triangle's nearest point. All triangles that are as
-// near, because they meet there, are joined with it.
+// Whether the distance to the surface has a minimum at a triangle's nearest point. All triangles that meet in
+// this point, and so are as near, are joined with it.
 bool Patches::is_minimum(int t) {
     const Feature feature = touching_[t].nearest.feature;
     if (feature == Feature::face || touching_.size() == 1) return true;

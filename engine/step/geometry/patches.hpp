@@ -1,5 +1,5 @@
-// Where a grain touches a mesh. There is one contact for each connected patch of surface within its reach,
-// however the surface is cut into triangles.
+// Where a grain touches a mesh. There is one contact for each connected patch of the surface within the
+// grain's reach, however the surface is cut into triangles.
 //
 // A triangle touches when its nearest point is closer to the grain's centre than the radius. Touching
 // triangles belong to one patch if they meet in their nearest point, or in an edge that is flat, smooth or
@@ -20,11 +20,11 @@
 namespace grainreel {
 
 struct Patch {
-    std::int32_t triangle;  // that has the nearest point; of equals a face before an edge before a corner,
-                            // and then the lowest
+    std::int32_t triangle;  // the triangle that has the nearest point; among equals a face comes before an
+                            // edge and an edge before a corner, then the lowest number counts
     Vec3 at;                // m, the nearest point
     Vec3 normal;            // unit, from the centre to it
-    double distance;  // m, of the centre; 0 where the centre lies in the surface, and `normal` is that of
+    double distance;  // m, of the centre; 0 if the centre lies in the surface, and `normal` is then that of
                       // the triangle
 };
 

@@ -10,8 +10,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// A grain at a wall that may end. The nearest point of the wall is the centre less v = A u + B s; see
-// distance_to_plate() (engine/state/container_faces.hpp).
+// A grain at a wall that may end. The nearest point of the wall is the grain's centre minus v = A u + B s;
+// see distance_to_plate() (engine/state/container_faces.hpp).
 //
 // Where s < 0 the grain touches the edge, and v turns as the grain moves in the plane of A and B. About a
 // round wall or gap, v also goes round with the grain: by `round_share` of the grain's way along A x B.
@@ -93,7 +93,7 @@ void plates_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& o
         if (in.wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? at.distance : at.radius;
             const Triple<Lanes> rate = triple(load_bundles(motion + 4, 8, i));
-            // Only this part of the motion across k turns v.
+            // Of the motion perpendicular to k, only this part turns v.
             const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
             const Lanes along_edge = at.around.dot(velocity);
             const Triple<Lanes> upright = velocity.less(k, closing).less(at.around, along_edge);

@@ -1,4 +1,4 @@
-// Geometry that contacts of pairs and of walls share: how surfaces move, and how contacts turn.
+// Geometry that contacts of pairs and of walls have in common: how surfaces move, and how contacts turn.
 #if defined(GRAINREEL_STEP_TURN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_TURN_INL
 #undef GRAINREEL_STEP_TURN_INL
@@ -12,11 +12,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Velocity of i's surface against j's surface, from the velocity of the centres and the spins times arms.
+// Velocity of i's surface relative to j's, from the velocity of the centres and the spins times arms.
 // Velocity and spins belong to the middle of the step, but the normal k belongs to its end. The normal of the
-// middle is k + change. So the velocity is computed with k + change, and its normal part is then laid along
-// k. Without this, a pair that turns as one body would slip by its angle of turn in every step (Vyas et al.,
-// Comput. Phys. Commun. 310, 109524: time levels).
+// middle is k + change. So the velocity is computed with k + change, and its normal part is then turned to
+// lie along k. Without this, a pair that turns as one body would slip by its angle of turn in every step
+// (Vyas et al., Comput. Phys. Commun. 310, 109524: time levels).
 template <class L>
 HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spins, const Triple<L>& k,
                                  const Triple<L>& change) {
@@ -26,9 +26,8 @@ HWY_INLINE Triple<L> of_surfaces(const Triple<L>& velocity, const Triple<L>& spi
 // Cayley's vector of a contact's turn during a step. The turn has two parts. The first part takes the old
 // normal to k; the old normal is k + 2 `back`, scaled to unit length. Its vector a is taken as tan(angle) / 2
 // along the axis, which makes the angle wrong by its cube / 4. The second part is a turn about k, by the
-// angle 2 `twist`; its vector is b. Both parts together are a + b + b x a.
-// (The old normal is not stored. It follows from the velocities, because the displacement between two forces
-// is the velocity times the step.)
+// angle 2 `twist`; its vector is b. Both parts together are a + b + b x a. (The old normal is not stored. It
+// is found from the velocities, because the displacement between two forces is the velocity times the step.)
 template <class L>
 HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist) {
     return back.cross(k).plus(k + back, twist);

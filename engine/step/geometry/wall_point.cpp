@@ -21,7 +21,7 @@ std::size_t number_size(const GeometryInput& in) {
     return in.rounded ? sizeof(float) : sizeof(double);
 }
 
-// Rounds a vector as the rows do. Two normals that are alike in the rows have no turn between them.
+// Rounds a vector as the rows do. So there is no turn between two normals that are equal in the rows.
 Vec3 as_held(const GeometryInput& in, const Vec3& v) {
     return in.rounded ? Vec3(v.cast<float>().cast<double>()) : v;
 }

@@ -1,6 +1,6 @@
 // Contacts of grains with points of walls that move in different ways: with meshes, and with faces of bodies
-// that turn. They are computed one by one, in doubles. Walls whose points all move alike take the vector code
-// of wall_geometry.cpp.
+// that turn. They are computed one by one, in doubles. Walls whose points all move alike are computed by the
+// vector code of wall_geometry.cpp.
 //
 // The time levels are those of turn-inl.hpp: overlap and normal belong to the step's end, velocities and turn
 // to the whole step. The wall's velocity is the displacement of its material point in the step, divided by
@@ -22,15 +22,16 @@ struct WallPoint {
     Vec3 spin{0, 0, 0};           // rad/s, of the wall, mean over the step
 };
 
-// Fills the rows of contact c that `in` asks for, and sets its bit where it touches. Before the first contact
-// of a chunk, `touching` must be 0. set_apart() is for a contact that does not touch.
+// Fills the rows of contact c that `in` asks for, and sets its bit in `touching` if it touches. Before the
+// first contact of a chunk, `touching` must be 0. set_apart() is for a contact that does not touch.
 void touch_point(const GeometryInput& in, int c, const WallPoint& point, TouchChunk& out);
 void set_apart(const GeometryInput& in, int c, TouchChunk& out);
 
 // Does what touch_walls() does, where the body of a face turns. No face may end.
 void touch_turning_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
-// A place at which a grain touches a mesh, as found in this step. Registers load it four numbers at a time.
+// A place at which a grain touches a mesh, as found in this step. The vector code loads it four numbers at a
+// time.
 struct alignas(64) MeshTouch {
     static constexpr double kApart = 1e300;
 

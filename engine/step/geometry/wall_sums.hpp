@@ -1,10 +1,10 @@
 // The force and moment of the grains on each face and mesh, and their pressure by height, summed over all
 // steps.
 //
-// The sums are the same bits at any number of threads, in whatever order contacts are computed, and however a
-// run is cut into pieces, because they are sums of whole numbers. A force is rounded once, to a multiple of a
-// quantum; that rounding is unbiased and below 1e-14 of what a wall's spring would give over a grain's
-// radius.
+// The sums are sums of whole numbers. So they have the same bits for any number of threads, in whatever order
+// contacts are computed, and however a run is cut into pieces. A force is rounded once, to a multiple of a
+// quantum; this rounding is unbiased and below 1e-14 of the force of a wall's spring at an overlap of a
+// grain's radius.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,8 @@ struct WallScale {
     double period = 0;  // m, of x; 0 for none
 };
 
-// Sums over the evaluations of the forces. Each evaluation counts by the share of a step for which its forces
-// act.
+// Sums over the evaluations of the forces. Each evaluation is weighted by the share of a step for which its
+// forces act.
 struct FaceSums {
     std::array<WideInt, 3> force{}, moment{};            // sums of all evaluations before the last
     std::array<WideInt, 3> last_force{}, last_moment{};  // those of the last evaluation
@@ -40,7 +40,7 @@ struct FaceSums {
 
 struct WallSums {
     WallScale scale;
-    double felt = 0;              // share of the last forces that the grains have felt
+    double felt = 0;              // share of the last forces that has acted on the grains
     std::vector<FaceSums> faces;  // faces, then meshes, in the order of the surroundings
     std::vector<WideInt>
         slices;  // normal forces by height, face after face, with those of the last evaluation
@@ -106,7 +106,7 @@ class WallTally {
     }
 
     const WallScale& scale() const { return scale_; }
-    // Adds this thread's counts to those of all.
+    // Adds this thread's counts to the sums of all threads.
     void add_to(WallSums& all) const;
     // Begins with the sums of an earlier tally instead of zeros.
     void take(const WallSums& before);
@@ -120,8 +120,8 @@ class WallTally {
         per_moment_ = per_force_ / scale_.length;
         per_slice_ = scale_.slice > 0 ? 1 / scale_.slice : 0;
     }
-    // Two thousand contacts at the bound kMost still fit. The bound is 16 times the force on a grain that is
-    // in the wall up to its centre, and such a grain stops the run.
+    // The sum of two thousand contacts at the bound kMost still fits. The bound is 16 times the force on a
+    // grain that is in the wall up to its centre, and such a grain stops the run.
     static std::int64_t count(double x) {
         constexpr double kMost = 0x1p52;
         return std::llrint(std::clamp(x, -kMost, kMost));

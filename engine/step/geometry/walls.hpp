@@ -19,11 +19,12 @@ struct alignas(64) FaceRecord {
 
 // The ends of a face; see Face. A face that does not end has no edge, no gap and two_sided = 0.
 struct alignas(64) FaceEnd {
-    Vec3 along;           // unit, across the lower edge; zero for none
-    double level;         // m, along . a point of the edge
-    double out_x, out_y;  // 1 where this coordinate counts for the distance from the axis or from the gap
-    double gap;           // m
-    double two_sided;     // 1 for a face that ends
+    Vec3 along;    // unit, across the lower edge; zero for none
+    double level;  // m, along . a point of the edge
+    double out_x,
+        out_y;         // 1 if this coordinate counts for the distance from the axis or from the gap, else 0
+    double gap;        // m
+    double two_sided;  // 1 for a face that ends
 };
 
 // The velocity of every point of the face. Where a body turns, its points differ, and WallPose gives their
@@ -43,21 +44,22 @@ inline Vec3 moment_point(const Face& face) {
 // A wall whose points move in different ways, over one step.
 struct WallPose {
     BodyPose now;
-    Eigen::Matrix3d turned;       // now, from rest
+    Eigen::Matrix3d turned;       // the rotation from rest to now
     Vec3 moved{0, 0, 0};          // m/s, mean velocity of the body's origin
-    Eigen::Matrix3d rate;         // 1/s, mean, by which `turned` grows
+    Eigen::Matrix3d rate;         // 1/s, mean rate of change of `turned`
     Vec3 spin{0, 0, 0};           // rad/s, mean over the step
     Vec3 point{0, 0, 0};          // m, now, about which the moment counts; on the axis for a face that turns
     Vec3 point_before{0, 0, 0};   // m, point of the face a step ago
     Vec3 normal_before{0, 0, 0};  // normal of the face a step ago
-    bool slides = false;  // true if it is not turned and does not turn, so that all its points move alike
+    bool slides =
+        false;  // true if the wall has not turned and does not turn, so that all its points move alike
 
     // Sets the pose of a wall that moves from `before` to `now` within `step` seconds. `rest_point` (m) is
     // `point` at rest.
     void set(const Body& body, const Vec3& rest_point, const Pose& before, const Pose& now, double step);
     // Velocity (m/s) of a point given in the body's frame: its displacement in the step, divided by the step.
     Vec3 mean_velocity(const Vec3& at_rest) const { return slides ? moved : Vec3(moved + rate * at_rest); }
-    // at_rest() takes a place (m) from the scene to the body's frame.
+    // Takes a place (m) from the scene to the body's frame.
     Vec3 at_rest(const Vec3& place) const {
         const Vec3 from = place - now.place;
         return slides ? unturned(from) : Vec3(turned.transpose() * from);
@@ -74,12 +76,11 @@ struct WallPose {
 struct WallState {
     std::vector<FaceRecord> faces;  // at the step's end
     std::vector<FaceMotion> motion;
-    std::vector<FaceEnd> ends;  // empty where no face ends
-    std::vector<WallPose>
-        poses;               // poses of all faces, then those of all meshes; empty where nothing needs them
-    bool any_round = false;  // whether a cylinder is among the faces
-    bool turning = false;    // whether the body of a face turns
-    WallTally* tally = nullptr;  // sums the forces on the walls; nullptr if nobody asks for them
+    std::vector<FaceEnd> ends;    // empty where no face ends
+    std::vector<WallPose> poses;  // poses of all faces, then those of all meshes; empty if nothing needs them
+    bool any_round = false;       // whether a cylinder is among the faces
+    bool turning = false;         // whether the body of a face turns
+    WallTally* tally = nullptr;   // sums the forces on the walls; nullptr if nobody asks for them
 
     // Sets walls that move from `before` to `now` within `step` seconds. If `step` is 0, the velocity is that
     // of `now`.

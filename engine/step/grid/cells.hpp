@@ -1,7 +1,7 @@
 // Space is divided into boxes (the zones of the original program), so that a search for neighbours looks only
-// at boxes close by. Each octave of radii has a grid of its own, with boxes as wide as its grains. So a large
-// grain among small ones costs as much as the space that it covers, and the small ones cost no more because
-// of it.
+// at boxes close by. Each octave of radii (a factor of two) has a grid of its own, with boxes as wide as its
+// grains. So a large grain among small ones costs as much as the space that it covers, and the small ones
+// cost no more because of it.
 #pragma once
 
 #include <algorithm>

@@ -33,8 +33,8 @@ std::int32_t near_ones(const Grains& grains, std::int32_t i, double skin, double
         // Highway reads eight bytes.
         const std::uint8_t near[8] = {
             static_cast<std::uint8_t>(bits((apart.squared() < limit * limit) & (above > index)))};
-        // A whole register is stored, over candidates that have been read already. On Zen 4, storing some
-        // lanes only takes a hundred cycles.
+        // A whole register is stored, over candidates that have been read already. On Zen 4, storing only
+        // some of the lanes takes a hundred cycles.
         hn::StoreU(hn::CompressBits(partners, near), Indices(), candidates + kept);
         kept += std::popcount(near[0]);
     }

@@ -25,8 +25,8 @@ struct NeighbourList {
         start.resize(grains + 1), partner.resize(partners);
         start[0] = 0;
     }
-    // Puts in the list of the grains from `grain` on; their partners stand from place `at` on. Several
-    // threads may put in their parts at the same time.
+    // Puts in the list of the grains from `grain` on; their partners begin at place `at`. Several threads may
+    // put in their parts at the same time.
     void put(const NeighbourList& part, std::size_t grain, std::size_t at);
 };
 
@@ -54,7 +54,7 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
 void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 
-// keep_near() may read and write this many numbers behind the candidates.
+// keep_near() may read and write this many numbers after the candidates.
 constexpr std::int32_t kNearSlack = 16;
 
 // Moves the near candidates to the front, in their order, and returns how many they are. A candidate is near

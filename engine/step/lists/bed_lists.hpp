@@ -1,11 +1,12 @@
 // All lists of the bed: neighbours, and each thread's contacts and candidates. The threads make them
 // together.
 //
-// The bits do not depend on the number of threads, for three reasons. The grains have one spatial order,
-// whatever the team. Every thread computes all contacts of its own grains. Every grain sums its contacts in
-// one order: meshes before walls before pairs, law by law. Within a law, the contacts that began since the
-// last refresh come first, in the order in which they began. Then come the contacts in which the grain is the
-// second body, by rising first body, then those in which it is the first body, by rising second body.
+// The bits of a run do not depend on the number of threads, for three reasons. The grains have one spatial
+// order, whatever the team. Every thread computes all contacts of its own grains. Every grain sums its
+// contacts in one order: meshes before walls before pairs, law by law. Within a law, the contacts that began
+// since the last refresh come first, in the order in which they began. Then come the contacts in which the
+// grain is the second body, by rising first body, then those in which it is the first body, by rising second
+// body.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,8 @@ class BedLists {
   public:
     BedLists(const ContactRules& rules, const Surroundings& around, Grains& grains, Team& team);
 
-    // Forgets all contacts. rebuild() must follow, or begin_empty(), which makes the lists of no grains.
+    // Forgets all contacts. rebuild() must follow, or begin_empty(), which makes the lists of a bed without
+    // grains.
     void restart();
     void begin_empty();
 
@@ -57,7 +59,7 @@ class BedLists {
     // rising indices. Returns the new index of each grain, kGone for those that leave. renew_shares() must
     // follow.
     const std::vector<std::int32_t>& leave_out(const std::vector<std::int32_t>& leavers);
-    // Notes between two runs that a grain has come, behind all others. Its lists are made at the end of the
+    // Notes between two runs that a grain has come, after all others. Its lists are made at the end of the
     // next step.
     void add_unlisted();
     // Shares the grains out anew after some have left or come. All grains then have their new indices, and
@@ -65,13 +67,13 @@ class BedLists {
     void renew_shares();
     bool are_made() const { return !shares_.empty(); }
 
-    // Gives contacts that touch the histories that history_of fills in. Call it between two runs.
+    // To each contact that touches, gives the history that history_of fills in. Call it between two runs.
     using HistoryOf =
         std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
     void take_histories(const HistoryOf& history_of);
 
-    // Writes lists and histories, bit by bit. load() reads them. The reading fails where save() could not
-    // have written what is read, with these grains and faces; no index is trusted.
+    // Writes lists and histories, bit by bit. load() reads them. Reading fails for anything that save()
+    // cannot have written with these grains and faces; no index is trusted.
     void save(std::ostream& out) const;
     void load(Bytes& in, const Pose& now);
 

@@ -24,7 +24,7 @@ class NearPairs {
         if (++count_ == kChunk) pass_chunk();
     }
     // Adds all partners of a grain. They are copied eight at a time, so that the processor need not predict
-    // how many there are. Memory behind the partners can be read up to `end`.
+    // how many there are. Memory after the partners can be read up to `end`.
     void add(std::int32_t i, const std::int32_t* partner, std::int32_t partners, const std::int32_t* end) {
         if (end - partner < partners + kMore) {
             for (std::int32_t k = 0; k < partners; ++k) add(i, partner[k]);
@@ -87,7 +87,7 @@ void list_near_pairs(const ContactRules& rules, const Nearby& nearby, ThreadCont
     pairs.flush();
 }
 
-// Place in the list at which the wall neighbours of the grains from `begin` on start.
+// The place in the list where the wall neighbours of grain `begin` and of later grains begin.
 std::int32_t first_wall_slot(const std::vector<WallNeighbour>& list, std::int32_t begin) {
     const auto lower = [](const WallNeighbour& w, std::int32_t grain) { return w.grain < grain; };
     return static_cast<std::int32_t>(std::lower_bound(list.begin(), list.end(), begin, lower) - list.begin());

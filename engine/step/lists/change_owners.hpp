@@ -18,13 +18,13 @@ struct Renumbering {
     const Shares &before, &after;
 };
 
-// Adds to `count` the number of contacts of which each own grain is the first body. `index` gives the grain's
-// new number, under which it is counted.
+// Counts the contacts in which each of the thread's own grains is the first body, and adds them to `count`
+// under the grain's new number, which `index` gives.
 void count_contacts(const ThreadContacts& contacts, const std::vector<std::int32_t>& index,
                     std::vector<std::int32_t>& count);
 
-// Gives the bodies of all contacts of a thread their new numbers. Contacts that another thread did not have
-// but needs from now on go to `leaving`, by group. Their tag is the number of that thread.
+// Gives the bodies of all contacts of a thread their new numbers. Contacts that another thread needs from now
+// on, and did not have, go to `leaving`, by group. Their tag is the number of that thread.
 void renumber(const ContactRules& rules, int thread, const Renumbering& to, ThreadContacts& contacts,
               std::vector<KeptContacts>& leaving);
 // Takes the contacts that another thread has put into `leaving` for this one.

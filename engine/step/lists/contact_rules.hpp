@@ -1,5 +1,6 @@
 // Which contact follows which law. Contacts of one law form a group with lists of its own, and each group
-// runs through one kernel. So a wall without friction costs no friction, even where the grains have some.
+// runs through one kernel. So walls without friction do not take the time of friction, even if the grains
+// have friction.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@ inline std::int32_t mesh_of(std::int32_t patch) {
     return patch / kMostPatches;
 }
 
-// Numbers that a contact with a mesh remembers behind the numbers of its laws: the triangle that it touched,
+// Numbers that a contact with a mesh remembers after the numbers of its laws: the triangle that it touched,
 // the normal and the normal force (N), all in the last step.
 enum PatchNumber { kTriangle, kNormalX, kNormalY, kNormalZ, kForce, kPatchNumbers };
 
@@ -34,7 +35,7 @@ struct ContactGroup {
     bool of_glued;  // true for contacts of grains with glued grains
     bool of_mesh;   // true for contacts of grains with patches of meshes
     LawParameters parameters, rolling_parameters;
-    std::vector<std::int32_t> row;  // where each kind stands in the parameters
+    std::vector<std::int32_t> row;  // place of each kind in the parameters
 
     std::size_t number_size() const { return law->number_size; }
     // Numbers in the history of a contact: the numbers of the laws, then those that a patch of a mesh

@@ -64,7 +64,7 @@ void ContactTable::make_room_for_candidates() {
     near_first_.resize(near_second_.size());
 }
 
-// Fills the places behind the last contact with copies of it, so that everything that is read is valid.
+// Fills the places after the last contact with copies of it, so that everything that is read is valid.
 void ContactTable::fill_up() {
     for (std::size_t c = size_; c < first_.size(); ++c) {
         first_[c] = size_ > 0 ? first_[c - 1] : 0;

@@ -1,6 +1,6 @@
 // The contacts of one law under one thread. First come the sorted contacts, by rising first and second body.
-// Behind these and some empty places stand the late contacts, which began since the last sort(). A contact
-// that has parted keeps its place until the next sort(), without a force or a history.
+// After these and some empty places come the late contacts, which began since the last sort(). A contact that
+// has parted keeps its place until the next sort(), without a force or a history.
 //
 // The table also holds the candidates: pairs that are so close that they may touch before the next refresh.
 // The same table serves grains at walls.
@@ -35,8 +35,8 @@ class ContactTable {
     // Empties the table. Histories will have `history_size` numbers of `number_size` bytes each.
     void shape(int history_size, std::size_t number_size);
 
-    // The sorted contacts are [0, sorted()), the late ones [late(), size()). Copies fill the last block
-    // behind both, so that whole registers can be read. Empty places do not touch.
+    // The sorted contacts are [0, sorted()), the late ones [late(), size()). After both, copies fill the last
+    // block, so that whole registers can be read. Empty places do not touch.
     std::int32_t sorted() const { return sorted_; }
     std::int32_t late() const { return (sorted_ + 63) / 64 * 64; }
     std::int32_t size() const { return size_; }
@@ -56,7 +56,8 @@ class ContactTable {
     void begin_candidates();
     void offer(std::int32_t i, std::int32_t j) {
         if (candidates_ == std::ssize(near_second_)) make_room_for_candidates();
-        // There is no branch to mispredict. Every pair is written, and the next pair overwrites a contact.
+        // There is no branch to mispredict: every pair is written, and if it is a contact, the next pair
+        // overwrites it.
         near_first_[candidates_] = i, near_second_[candidates_] = j;
         candidates_ += !holds(i, j);
     }
@@ -168,7 +169,8 @@ class ContactTable {
     std::int32_t candidates_ = 0;
     LargeArray<std::int32_t> near_first_, near_second_;
     std::vector<std::uint64_t> admitted_;  // one bit for each candidate
-    std::int32_t cursor_ = 0;              // contacts before this one have been offered
+    std::int32_t cursor_ =
+        0;  // sorted contacts before this one come before all pairs that are still to be offered
 
     struct Batch {
         std::int32_t from, step;

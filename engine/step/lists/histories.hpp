@@ -1,4 +1,4 @@
-// The histories of contacts, in the layout that the kernels of the laws read. Contacts stand in blocks of
+// The histories of contacts, in the layout that the kernels of the laws read. Contacts lie in blocks of
 // kBlock. A block holds the first number of all its contacts, then the second number, and so on. The numbers
 // are doubles, or floats with mixed precision.
 #pragma once

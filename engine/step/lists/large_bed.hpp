@@ -45,10 +45,10 @@ inline bool is_large_bed(const Grains& grains) {
     }
 }
 
-// Fetches second bodies now. Puts into `ahead` the grains that later chunks will need in their order; the
-// present chunk has `count` contacts from c on. Where contacts are few, a chunk's grains come from a long
-// stretch. The grains that go on with the next step then pass one after the other, and the processor fetches
-// them as well by itself.
+// Fetches second bodies now, and puts into `ahead` the grains that later chunks will need. The present chunk
+// has `count` contacts from c on. Where contacts are few, a chunk's grains come from a long stretch, and
+// nothing is put into `ahead`: the grains that begin their next step then pass one after the other, and the
+// processor fetches them as well by itself.
 inline void look_ahead(const Grains& grains, bool rounded, const ContactTable& table, std::int32_t c,
                        int count, Ahead& ahead) {
     constexpr std::int32_t kAhead = 1000, kMost = 300;  // grains; a tile of boxes has some 2,000

@@ -54,7 +54,7 @@ Vec3 ListLife::frame(const Evaluation& at, double step) const {
 
 bool ListLife::contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
                                 const Evaluation& at, const Vec3& drift) {
-    constexpr std::int64_t kRefresh = 16;  // a refresh takes as long as this many contacts a grain
+    constexpr std::int64_t kRefresh = 16;  // a refresh takes as long as this many contacts per grain
     Reach& reach = threads_[thread].reach;
     reach.parted += parted;
     reach.fastest = fastest.norm();
@@ -78,7 +78,7 @@ void ListLife::set_reach(int thread, const Pose& now, const Vec3& drift, const V
 
 void ListLife::measure(int thread, const Grains& grains, std::int32_t begin, std::int32_t end,
                        const Vec3& drift) {
-    constexpr double kRounding = 1e-7;  // as a share of floats
+    constexpr double kRounding = 1e-7;  // relative rounding of floats
     double farthest = 0;
     for (std::int32_t i = begin; i < end; ++i) {
         const Vec3 listed = listed_at_[i].cast<double>();
@@ -157,7 +157,7 @@ WallWays::WallWays(const Surroundings& around) : around_(around) {
     for (const MeshWall& mesh : around.meshes) of_meshes_.push_back(swing_of(mesh));
 }
 
-// A plane across the axis, and a cylinder about it, stay where they are as they turn.
+// A plane perpendicular to the axis, and a cylinder about it, stay where they are as they turn.
 WallWays::Swing WallWays::swing_of(const Face& face) {
     if (!face.body.turn) return {face.point, face.reach};
     const bool stays = face.kind == Face::Kind::cylinder || are_parallel(face.normal, face.body.turn->axis);

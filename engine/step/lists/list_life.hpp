@@ -1,7 +1,7 @@
 // How long lists last: until grains and walls may have moved farther than the lists reach.
 //
-// Displacements are measured against the free flight of the bed since the neighbour lists were made. This is
-// safe whatever the bed does: two grains come closer by at most the sum of their displacements relative to
+// Displacements are measured relative to the free flight of the bed since the neighbour lists were made. This
+// is safe whatever the bed does: two grains come closer by at most the sum of their displacements relative to
 // any common frame.
 #pragma once
 
@@ -68,7 +68,8 @@ class ListLife {
     void use_next_skin() { skin_ = next_skin_; }
     // Notes that neighbour lists have been made at `time` (steps) from the grains as they are.
     void note_listing(const Grains& grains, const Pose& pose, double time);
-    // Steps that the neighbour lists have lasted. Lists that expired because grains came count as right.
+    // Steps that the neighbour lists have lasted. Lists that expired because grains came count as having
+    // lasted well.
     double lasted(double time) const;
 
     // The displacement (m) of the free flight since the neighbour lists were made. `time` is in steps, and

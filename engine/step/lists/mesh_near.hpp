@@ -63,7 +63,7 @@ struct MeshLists {
     void clear();
     // Lists a grain whose triangles are those within `reach` (m) of its centre, if there are any.
     void add(std::int32_t grain, std::int32_t mesh, const Surface& surface, const Vec3& centre, double reach);
-    // Notes where the contacts stand in the table. Call it when all grains are listed.
+    // Notes the places of the contacts in the table. Call it when all grains are listed.
     void find_contacts(const ContactTable& table);
 
   private:

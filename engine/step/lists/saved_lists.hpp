@@ -30,12 +30,12 @@ constexpr std::int32_t kMostStepsOfLists =
 bool are_sound(const NeighbourLists& lists, std::int32_t grains, const WallParts& walls);
 
 // Checks contacts of the g-th group. Their bodies must exist and follow the group's law, and the contacts
-// must stand in the order in which they are computed. Their tags are ages of at most `steps`.
+// must be in the order in which they are computed. Their tags are ages of at most `steps`.
 bool are_sound(const KeptContacts& kept, const ContactRules& rules, std::size_t g, const Grains& grains,
                const WallParts& walls, std::int32_t steps);
 
-// Reads the contacts that BedLists::save() writes first, group by group. The reading fails where they could
-// not have been written for these grains.
+// Reads the contacts that BedLists::save() writes first, group by group. Reading fails for anything that
+// cannot have been written for these grains.
 std::vector<KeptContacts> read_contacts(Bytes& in, const ContactRules& rules, const Grains& grains,
                                         const WallParts& walls);
 

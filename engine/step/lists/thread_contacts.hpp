@@ -25,7 +25,7 @@
 namespace grainreel {
 
 // Lists the candidate pairs that may touch within a few steps. A step looks at these pairs only. Candidates
-// are to last for some fifty steps, so few of them are near at any time. A list is made anew once the grains
+// must serve for some fifty steps, so few of them are near at any time. A list is made anew once the grains
 // may have moved as far as its gap allows.
 //
 // The candidates are cut into several stretches, and each stretch has its own list. The lists are made in
@@ -138,15 +138,15 @@ struct ThreadContacts {
     };
 
     std::int32_t begin = 0, end = 0;   // the own grains
-    std::vector<ContactTable> tables;  // one a group
-    std::vector<Found> found;          // one a group
-    std::vector<Soon> soon;            // one a group, of pairs
-    std::vector<MeshLists> meshes;     // one a group, of meshes
+    std::vector<ContactTable> tables;  // one for each group
+    std::vector<Found> found;          // one for each group
+    std::vector<Soon> soon;            // one for each group of pairs
+    std::vector<MeshLists> meshes;     // one for each group of meshes
     std::optional<MeshFault> fault;    // the first one; it ends the run
     double skin = 0;                   // m, of the candidates
     std::vector<Pair> incoming;        // listed pairs of a grain of an earlier thread and an own grain
     Halo halo;                         // copies of other threads' grains
-    Loaded loaded;                     // own grains that have contacts
+    Loaded loaded;                     // which own grains have contacts
 
     bool owns(std::int32_t grain) const { return grain >= begin && grain < end; }
 

@@ -83,7 +83,8 @@ struct MotionRecord {
 };
 
 // A pass over the grains that ends a step, begins one, or does both. With `closes` there is a drift between
-// the two. That drift and the next one are two sums, so that a run in pieces has the bits of the run in one.
+// the two. That drift and the next one are added one after the other, so that a run in pieces has the bits of
+// a run in one piece.
 template <bool ends, bool begins, bool closes, bool rubs, bool drags>
 HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     using Whole = MotionRecord<rubs>;
@@ -173,7 +174,7 @@ namespace grainreel {
 
 namespace {
 
-// Rotates q about the axis of `rate` by the angle |rate| * step. q keeps unit length.
+// Rotates q about the axis of `rate` by the angle |rate| * step. The result has unit length.
 Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
     const double angle = rate.norm() * step;
     if (angle == 0) return q;

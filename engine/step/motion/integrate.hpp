@@ -10,8 +10,8 @@
 namespace grainreel {
 
 // Marks the grains of a thread that have contacts. Only these can get a load before the lists are made again.
-// The load of any other grain is zero and stays zero, so it is neither read nor cleared. Another thread can
-// compute the flight of such a grain as well as its owner can.
+// The load of any other grain is zero and stays zero, so it is neither read nor cleared. So another thread
+// can compute the flight of such a grain as well as its owner can.
 //
 // There is one bit for each grain, so that the bits of a million grains fit into the cache.
 class Loaded {
@@ -56,7 +56,7 @@ struct KickInput {
     bool unloaded = false;           // true: no grain has a load
 };
 
-// Loads are skipped where this many grains in a row have none. A choice for every single grain would be
+// Loads are skipped where this many grains in a row have none. A branch for every single grain would be
 // mispredicted.
 constexpr int kTogether = 4;
 

@@ -1,14 +1,15 @@
 // Copies of other threads' grains, for the contacts of one thread. Once a step the owners write their grains
-// into a box, and this thread reads the box. No thread reads the arrays that another thread writes. So one
-// barrier a step is enough, and each processor keeps the cache lines of the grains that it integrates.
+// into a box (memory for messages), and this thread reads the box. No thread reads the arrays that another
+// thread writes. So one barrier a step is enough, and each processor keeps the cache lines of the grains that
+// it integrates.
 //
 // Where few grains have contacts, only these go through the box. A grain without contacts flies freely, so
 // this thread moves its copy by the same sums as the owner, to the same bits. This takes less time than a
 // cache line that two processors share: 3 % of a step in flight, nothing in dense beds
 // (docs/notes/performance.md, "Three devices of the step").
 //
-// The copies stand behind the last grain, in reserved room of the grains' arrays. So a contact reads a copy
-// like a grain.
+// The copies lie after the last grain, in reserved memory of the grains' arrays. So a contact reads a copy as
+// it reads a grain.
 #pragma once
 
 #include <array>
@@ -39,7 +40,7 @@ class alignas(64) Halo {
         std::int32_t& slot = slot_[grain - lowest_];
         if (slot == kNone) foreign_.push_back(grain), slot = kNeeded;
     }
-    // Needs the bodies of `count` pairs.
+    // The same for the bodies of `count` pairs.
     void need(const std::int32_t* first, const std::int32_t* second, std::int32_t count);
     std::int32_t size() const { return static_cast<std::int32_t>(foreign_.size()); }
     // Makes room for as many copies as are needed now. The first copy gets the index `at`. `owners` is the
@@ -112,7 +113,7 @@ class FoundPairs {
     std::vector<std::int32_t> first_, second_;  // bodies of the chunks that hold grains of other threads
 };
 
-// Makes room for `count` copies behind the grains.
+// Makes room for `count` copies after the grains.
 void reserve_copies(Grains& grains, std::int32_t count);
 
 }  // namespace grainreel

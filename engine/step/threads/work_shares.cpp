@@ -67,10 +67,10 @@ void WorkShares::share_out(const NeighbourList& pairs, const std::vector<std::in
     }
 }
 
-// Sets the ranges of the next search for neighbours, so that all take the same time. It assumes that the next
-// search takes as long a grain as the last one did in the same range, and goes half of the way to the new
-// ranges. The search time per grain varies along the order of the grains, because grains look at different
-// numbers of others.
+// Sets the ranges of the next search for neighbours, so that all threads take the same time. It assumes that
+// the next search takes as long per grain as the last one did in the same range, and goes half of the way to
+// the new ranges. The search time per grain varies along the order of the grains, because grains look at
+// different numbers of others.
 void WorkShares::share_search() {
     double whole = 0, passed = 0;
     for (const Thread& t : threads_) whole += t.searched_for;

@@ -37,16 +37,16 @@ class WorkShares {
     }
     void refreshed(int thread, double busy) { threads_[thread].busy_refreshing += busy; }
 
-    // One thread calls the following functions for all. begin_search() comes before the search and makes
-    // equal parts if the number of grains has changed. renew() comes after the search. share_out() uses no
-    // knowledge of speeds. `contacts` holds the number of contacts of each grain as first body; it is not
+    // One thread calls the following functions for all threads. begin_search() comes before the search and
+    // makes equal parts if the number of grains has changed. renew() comes after the search. share_out() uses
+    // no knowledge of speeds. `contacts` holds the number of contacts of each grain as first body; it is not
     // read if there is one thread.
     void begin_search(std::int32_t grains);
     void renew(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts, std::int32_t grains);
     void share_out(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts,
                    std::int32_t grains);
     // clear() is for a bed without grains. leave_out() takes rising indices of grains that leave. append()
-    // adds grains behind the last one.
+    // adds grains after the last one.
     void clear() { share_.assign(team_.size() + 1, 0); }
     void leave_out(const std::vector<std::int32_t>& leavers);
     void append(std::int32_t grains) { share_.back() = grains; }
