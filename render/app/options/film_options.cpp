@@ -64,7 +64,7 @@ void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, c
 void add_print_size(CLI::App& verb, PrintSize& print) {
     constexpr double most = 1e5;
     verb.add_option("--dpi", print.dpi,
-                    "With --at: pixels an inch, which the PNG tells printers [300 with --width-mm]")
+                    "With --at: pixels an inch, stored in the PNG for print [300 with --width-mm]")
         ->check(number_within(1, most))
         ->type_name("N");
     verb.add_option("--width-mm", print.width_mm,
@@ -88,14 +88,14 @@ void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
     };
     CLI::Option* out =
         verb.add_option_function<std::string>("--out", take_out,
-                                              about_out + "; - puts the film on\nstdout, with --format y4m")
+                                              about_out + "; - writes the film to\nstdout, with --format y4m")
             ->type_name("DIR");
     verb.add_flag("--force", film.force, "Replace the run in --out, once the new one is complete")
         ->needs(out);
     verb.add_flag("--frames", film.frames, "Keep every frame of the film as frames/*.png too");
     verb.add_flag_callback(
         "--no-film", [&film] { film.film = false; },
-        "Leave out the film; with --frames, keep the pictures alone");
+        "Leave out the film; with --frames, keep only the pictures");
     add_gl(verb, film.gl);
 }
 
@@ -109,8 +109,10 @@ CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest) {
     }
     return verb.add_flag_callback(
         "--no-cache", [&shortest] { shortest.reset(); },
-        "Pack anew, and keep no packing: one that took longer than a second is else kept in the user's\n"
-        "cache folder for later runs of the same start, whose bits are the same [$GRAINREEL_PACKINGS]");
+        "Pack anew and do not keep the packing. Otherwise a packing that took longer than a second is "
+        "kept\n"
+        "in the user's cache folder; later runs with the same start use it and have the same bits\n"
+        "[$GRAINREEL_PACKINGS]");
 }
 
 CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& into, const char* about) {
@@ -132,9 +134,8 @@ CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& i
 void add_no_replay(CLI::App& verb, bool& replay) {
     verb.add_flag_callback(
         "--no-replay", [&replay] { replay = false; },
-        "Draw what finished runs kept alone, and say what is left out: moments that they did not keep\nare "
-        "else "
-        "brought back from their checkpoints");
+        "Draw only what finished runs kept, and say what is left out. Otherwise moments that they did not\n"
+        "keep are brought back from their checkpoints");
 }
 
 namespace {
@@ -159,7 +160,7 @@ void add_camera_file(CLI::App& verb, CameraFiles& files, bool keep) {
             ->type_name("FILE")
             ->check(not_empty());
     };
-    add("--camera", files.use, "Look as this file says, which --keep-camera wrote");
+    add("--camera", files.use, "Take the camera from this file, which --keep-camera wrote");
     if (keep) add("--keep-camera", files.keep, "Write the camera to a file, for --camera with other runs");
 }
 

@@ -107,15 +107,15 @@ void add_parts(CLI::App& verb, std::optional<PartsWanted>& parts, int& slurm) {
                                [&parts](int of) {
                                    parts = PartsWanted{0, of};
                                },
-                               "Draw the film in one go, with the bytes of so many joined parts")
+                               "Draw the film in one go, with the same bytes as N joined parts")
                            ->check(CLI::Range(1, most_parts))
                            ->type_name("N");
-    CLI::Option* script =
-        verb.add_option("--slurm", slurm,
-                        "Draw nothing; print a script that draws so many parts on a cluster and joins them\n"
-                        "to the file of --out (docs/guide/clusters.md)")
-            ->check(CLI::Range(1, most_parts))
-            ->type_name("N");
+    CLI::Option* script = verb.add_option("--slurm", slurm,
+                                          "Print a script that draws N parts on a cluster and joins them to "
+                                          "the file of --out; draw nothing\n"
+                                          "(docs/guide/clusters.md)")
+                              ->check(CLI::Range(1, most_parts))
+                              ->type_name("N");
     part->excludes(all);
     part->excludes(script);
     all->excludes(script);
@@ -167,9 +167,8 @@ Form progress_form(const std::string& word) {
 void add_reporting(CLI::App& verb, ReporterOptions& report) {
     verb.add_option_function<std::string>(
             "--progress", [&report](const std::string& word) { report.form = progress_form(word); },
-            "auto (a line that redraws on a terminal and comes now and then in a pipe), json (an object a "
-            "line) or "
-            "none [auto]")
+            "Progress: auto (a line that is redrawn on a terminal, or printed now and then in a pipe), json "
+            "(an object a line) or none [auto]")
         ->type_name("FORM");
     verb.add_flag("--quiet", report.quiet, "Say nothing on stderr but errors");
     verb.add_flag("--verbose", report.verbose, "Say more on stderr");
@@ -198,20 +197,20 @@ std::string joined(const std::vector<std::string>& words) {
 // Adds the keys of the film's file.
 void add_file_keys(CLI::App& verb, Assignments& sets) {
     add_key(verb, sets, "--for", "film.for", "WHAT",
-            "Defaults of size, rate, format, quality and cap for " + joined(purpose_names()) +
-                " (docs/guide/films.md); what is set elsewhere wins");
+            "Purpose that sets size, rate, format, quality and largest file: " + joined(purpose_names()) +
+                " (docs/guide/films.md); values that are set elsewhere stay");
     add_key(verb, sets, "--format", "film.format", "FORMAT",
             joined(all_of(film_format_words)) + " (docs/guide/films.md) [mp4]");
     add_key(verb, sets, "--max-size", "film.max_size", "SIZE",
-            "Largest file, as in 10MB; of mp4, webm and gif");
+            "Largest size of the file, as in 10MB; for mp4, webm and gif");
     add_key(verb, sets, "--sheet", "film.sheet", "CxR",
-            "A contact sheet of so many columns and rows too, sheet.png");
+            "Make sheet.png too, a contact sheet of C columns and R rows");
     verb.add_flag_callback(
         "--transparent",
         [&sets] {
             sets.push_back({"film.transparent=true", "--transparent"});
         },
-        "Alpha in place of the background; of png and ffv1");
+        "Make the background transparent; for png and ffv1");
 }
 
 // Keys of a film's file and pace, which a single picture does not have.
@@ -260,7 +259,7 @@ void add_scene_keys(CLI::App& verb, Assignments& sets) {
              "Give a key of the scene another value, as in --set drive.frequency=\"25 Hz\"; may be repeated");
     add_picture_keys(verb, sets);
     add_key(verb, sets, "--duration", "run.duration", "TIME", "Simulated time of vibration, as in 10s");
-    add_key(verb, sets, "--seed", "run.seed", "N", "Of every random choice [1]");
+    add_key(verb, sets, "--seed", "run.seed", "N", "Seed of all random choices [1]");
 }
 
 void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets) {
@@ -290,8 +289,7 @@ int port_of(const std::string& flag, const std::string& text) {
 void add_watch_port(CLI::App& verb, WatchPlace& place) {
     verb.add_option_function<std::string>(
             "--port", [&place](const std::string& text) { place.port = port_of("--port", text); },
-            fmt::format("Port of the page; 0 takes any that is free [{}, or any that is free]",
-                        kUsualWatchPort))
+            fmt::format("Port of the page; 0 takes a free one [{}, or a free one]", kUsualWatchPort))
         ->type_name("N");
 }
 
@@ -302,8 +300,8 @@ void add_watch_host(CLI::App& verb, WatchPlace& place) {
                 check_typed("--watch-host", host);
                 place.host = host;
             },
-            "Show it to other machines too: a name or an address of this one. The address that is\n"
-            "told has a key, which is good for one visitor [127.0.0.1: this machine alone]")
+            "Name or address of this machine under which other machines may see the page. The address\n"
+            "that is printed has a key for one visitor [127.0.0.1: only this machine]")
         ->type_name("HOST");
 }
 

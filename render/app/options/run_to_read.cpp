@@ -145,10 +145,10 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
             ->group(group);
     };
     add("--columns", "MEANING=COLUMN,...",
-        "Which column says what, as in radius=c_rad,type=mol [known names]", set_columns);
-    add("--radius", "LENGTH", "Radius of the grains where the file has none: 2mm, or 1=2mm,2=5mm by type",
+        "Which column holds what, as in radius=c_rad,type=mol [known names]", set_columns);
+    add("--radius", "LENGTH", "Radius of the grains if the file has none: 2mm, or 1=2mm,2=5mm by type",
         set_radius);
-    add("--time-step", "TIME", "Length of a step where the file has steps alone, as in 1us or 1e-6",
+    add("--time-step", "TIME", "Length of a step if the file has no times, as in 1us or 1e-6",
         [](ReadingOptions& to, const std::string& text) {
             to.time_step = positive("--time-step", text, Dimension::time, "1e-6");
         });
@@ -159,7 +159,7 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
             for (const auto& [type, name] : pairs_of("--species", text, "1=small,2=big"))
                 to.species[type] = name;
         });
-    add("--density", "DENSITY", "Density of the grains where the file has none [2500 kg/m3]",
+    add("--density", "DENSITY", "Density of the grains if the file has none [2500 kg/m3]",
         [](ReadingOptions& to, const std::string& text) {
             to.density = positive("--density", text, Dimension::density, "2500 kg/m3");
         });
@@ -171,10 +171,11 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
         [](ReadingOptions& to, const std::string& text) {
             to.walls_scale = positive("--walls-scale", text, Dimension::length, "0.001");
         });
-    add("--container", "SCENE", "Scene of ours whose container, walls and drive stand around the grains",
+    add("--container", "SCENE", "Scene that gives the container, walls and drive around the grains",
         [](ReadingOptions& to, const std::string& text) { to.container = text; });
-    add("--moves-with", "WHOM", "Places of the file are against: lab, or container [lab]", set_moves_with);
-    verb.add_flag("--one", reading.one, "This file alone, although it is one of a numbered series")
+    add("--moves-with", "WHOM", "What the positions in the file are relative to: lab or container [lab]",
+        set_moves_with);
+    verb.add_flag("--one", reading.one, "Read this file alone, although it is part of a numbered series")
         ->group(group);
 }
 

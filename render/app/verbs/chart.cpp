@@ -21,9 +21,10 @@ constexpr int signal_base = 128;
 class ChartVerb final : public Verb {
   public:
     ChartVerb()
-        : Verb("chart", "Measure the methods themselves: errors, costs, limits",
-               "Tables (CSV) and the pictures that gnuplot makes of them (SVG, PNG). Ctrl-C stops; the same\n"
-               "command goes on.\n"
+        : Verb("chart", "Measure errors, costs and limits of the methods",
+               "The folder gets tables (CSV) and the charts that gnuplot makes of them (SVG, PNG). After "
+               "Ctrl-C the\n"
+               "same command goes on.\n"
                "Exit status: 0 done, 1 a measurement failed, 2 a mistake in the options, 130 Ctrl-C, 143 "
                "SIGTERM.") {}
 
@@ -36,7 +37,7 @@ class ChartVerb final : public Verb {
         add_out_folder(
             parser, out_,
             "Folder of the tables and pictures; a chart that was stopped there goes on [output/WHICH]");
-        parser.add_flag("--quick", quick_, "Coarser, in a few minutes");
+        parser.add_flag("--quick", quick_, "Measure less exactly, in a few minutes");
         add_reporting(parser, report);
     }
 

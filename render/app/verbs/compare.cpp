@@ -18,24 +18,25 @@ class Compare final : public Verb {
     Compare()
         : Verb("compare", "Run scenes and film them side by side, in step",
                fmt::format(
-                   "Rate, size and segments of the film are those of the first scene; --set and its like go "
-                   "to\n"
-                   "every scene. All panels show the same moment, at the same scale where they can. A film "
-                   "of\n"
-                   "finished runs shows moments that they did not keep too: they are brought back.\n{}",
+                   "Rate, size and segments of the film are those of the first scene. --set and options "
+                   "such as\n"
+                   "--duration go to every scene. All panels show the same moment, at the same scale if "
+                   "sizes allow.\n"
+                   "Moments that finished runs did not keep are brought back.\n"
+                   "{}",
                    exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
         parser
             .add_option("SCENE", request_.inputs,
-                        "Two to six scenes to run, folders of finished runs or files of other programs; one "
-                        "with --vary")
+                        "Two to six scenes to run, folders of finished runs or files of other programs; with "
+                        "--vary only one")
             ->required()
             ->type_name("FILE|DIR");
         add_vary(parser);
         add_captions(parser);
         CLI::Option* at =
-            add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file in the folder");
+            add_time(parser, "--at", request_.at, "Draw only this moment, to a PNG file in the folder");
         add_print_size(parser, request_.print);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
@@ -43,7 +44,7 @@ class Compare final : public Verb {
         const bool keep = false;  // each panel has its own camera
         add_camera_file(parser, camera_, keep);
         add_film(parser, film_,
-                 "Folder of the film, with one in it for each run [output/ and the scenes' names]");
+                 "Folder of the film, which has a folder for each run [output/ and the scenes' names]");
         add_no_cache(parser, film_.keep_packings);
         for (const char* option : {"--part", "--parts"})
             parser
@@ -97,8 +98,8 @@ class Compare final : public Verb {
                     check_typed("--captions", text);
                     request_.captions = text;
                 },
-                "One a panel, bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the values of --vary, "
-                "the drives, else the titles]")
+                "Caption of each panel, with bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the "
+                "values of --vary, the drives, otherwise the titles]")
             ->type_name("TEXT");
     }
 

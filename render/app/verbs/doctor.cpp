@@ -221,8 +221,8 @@ std::string line_of(const Finding& finding, std::size_t width) {
 class Doctor final : public Verb {
   public:
     Doctor()
-        : Verb("doctor", "Tell what this machine has for films, what is missing, and how to get it",
-               "Exit status: 0 films can be made, 1 something that they need is missing.") {}
+        : Verb("doctor", "Tell what films need, what of it this machine has, and how to get the rest",
+               "Exit status: 0 films can be made, 1 something that films need is missing.") {}
 
     void add_options(CLI::App&) override {}
 

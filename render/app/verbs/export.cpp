@@ -45,20 +45,22 @@ class Export final : public Verb {
             ->type_name("PATH");
         std::vector<std::string> names;
         for (const FrameFormat& format : frame_formats()) names.emplace_back(format.name);
-        parser.add_option("--to", format_, "Format, one of those above")
+        parser.add_option("--to", format_, "Format of the files; see below")
             ->required()
             ->type_name("FORMAT")
             ->check(CLI::IsMember(names));
         parser
             .add_option("--out", out_,
-                        "File or folder that is made [beside RUN, its name with the format's ending]")
+                        "File or folder to make [beside RUN, with its name and the ending of the format]")
             ->type_name("PATH")
             ->check(not_empty());
-        parser.add_flag("--force", force_, "Replace what has that name");
-        CLI::Option* at = add_time(parser, "--at", choice_.at, "This moment alone");
-        CLI::Option* from = add_time(parser, "--from", choice_.from, "First moment [the run's first]");
-        CLI::Option* until = add_time(parser, "--until", choice_.until, "Last moment [the run's last]");
-        CLI::Option* every = parser.add_option("--every", choice_.every, "One of so many frames [1]")
+        parser.add_flag("--force", force_, "Replace a file or folder of that name");
+        CLI::Option* at = add_time(parser, "--at", choice_.at, "Write only this moment");
+        CLI::Option* from =
+            add_time(parser, "--from", choice_.from, "First moment to write [the run's first]");
+        CLI::Option* until =
+            add_time(parser, "--until", choice_.until, "Last moment to write [the run's last]");
+        CLI::Option* every = parser.add_option("--every", choice_.every, "Write every Nth frame [1]")
                                  ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}))
                                  ->type_name("N");
         for (CLI::Option* other : {from, until, every}) at->excludes(other);

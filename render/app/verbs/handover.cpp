@@ -35,39 +35,41 @@ class Handover final : public Verb {
   public:
     Handover()
         : Verb("handover", "Write a scene as a folder that LAMMPS or LIGGGHTS runs under MPI",
-               "The folder has the data file, the deck, walls, run.sh, job.slurm for sbatch, and\n"
+               "The folder has the data file, the deck (the engine's input script), walls, run.sh, "
+               "job.slurm for sbatch, and\n"
                "handover.toml, which says what was changed and why. Its path goes to stdout.\n"
                "Then:   sh DIR/run.sh        or   cd DIR && sbatch job.slurm\n"
                "        ./movie render DIR\n"
-               "What cannot be carried is told at once, each with its line of the scene; then nothing is "
-               "written.\n\n" +
+               "If the engine cannot do something, a message names each such line of the scene, and nothing "
+               "is written.\n"
+               "\n" +
                    std::string(exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
-        parser.add_option("--to", engine_, "Engine: lammps or liggghts")
+        parser.add_option("--to", engine_, "Engine that will run the scene: lammps or liggghts")
             ->required()
             ->type_name("ENGINE")
             ->check(CLI::IsMember({"lammps", "liggghts"}));
-        parser.add_option("--ranks", request_.ranks, "Ranks that run.sh starts [1]")
+        parser.add_option("--ranks", request_.ranks, "MPI processes (ranks) that run.sh starts [1]")
             ->check(CLI::Range(1, 1'000'000))
             ->type_name("N");
         parser
             .add_option("--accept", accepted_,
-                        "law: a contact law that the engine has not becomes the nearest that it has")
+                        "law: replace a contact law that the engine lacks by the nearest that it has")
             ->check(CLI::IsMember({"law"}))
             ->type_name("WHAT");
         parser
             .add_option("--law", law_,
-                        "edinburgh: LIGGGHTS on one rank keeps Walton-Braun, its model edinburgh")
+                        "edinburgh: keep Walton-Braun, with LIGGGHTS' model edinburgh on one rank")
             ->check(CLI::IsMember({"edinburgh"}))
             ->type_name("LAW");
         parser
             .add_option("--pack-there", request_.packs_above,
-                        "Above so many grains the deck packs by itself [1000000]")
+                        "Let the engine pack the bed if it has more than N grains [1000000]")
             ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
             ->type_name("N");
-        parser.add_flag("--force", folder_.force, "Replace a hand-over of before in DIR");
-        add_out_folder(parser, folder_.out, "Folder that is made [output/NAME-ENGINE]");
+        parser.add_flag("--force", folder_.force, "Replace an earlier hand-over in DIR");
+        add_out_folder(parser, folder_.out, "Folder to make [output/NAME-ENGINE]");
         add_scene(parser, scene_, sets_);
         add_reporting(parser, report);
     }

@@ -19,29 +19,30 @@ namespace {
 
 std::string about_columns() {
     std::string text =
-        "Quantities of a grain, for --where and --histogram (numbers have units there, as in 2 cm). * brings "
-        "the "
-        "moment\nback, which may take a while:\n";
+        "Quantities of a grain, for --where and --histogram (write numbers with units, as in 2 cm). Those "
+        "with * bring\n"
+        "the moment back, which may take a while:\n";
     for (const GrainColumn& column : grain_columns())
         text += fmt::format("  {:<20}{}{}{}\n", column.name, column.needs == Needs::nothing ? "  " : "* ",
                             column.about,
                             column.also.empty() ? "" : fmt::format("; also called {}", column.also));
     return text +
-           "Conditions are joined by and, or, not. touches(WHO) holds where a grain has a contact that "
-           "carries "
-           "force\nwith any wall (touches(wall)), a wall, a species or the grain of an id.\n";
+           "Conditions are joined by and, or, not. touches(WHO) is true if the grain has a contact that "
+           "carries force\n"
+           "with WHO: any wall (touches(wall)), the name of a wall or species, or the id of a grain.\n";
 }
 
 class Inspect final : public Verb {
   public:
     Inspect()
         : Verb(
-              "inspect", "Ask a moment of a run: who is this grain, where are the big ones",
-              "Without a question: the moment on one screen: the species, which grain stands out and which "
-              "is "
-              "the tip of\nthe bed, what pushes on which wall, and what the run measured, segregation among "
-              "it. A moment that the\nrun did not keep is brought back from its checkpoints, and so are the "
-              "forces.\n\n" +
+              "inspect", "Ask about one moment of a run: which grain is this, where are the big ones",
+              "Without a question it shows the moment on one screen: the species, the grains that stand "
+              "out, the tip of the\n"
+              "bed, the forces on the walls, and what the run measured, such as segregation. A moment that "
+              "the run did not\n"
+              "keep is brought back from its checkpoints, and so are the forces.\n"
+              "\n" +
                   about_columns() +
                   "\nExamples:\n"
                   "  grainreel inspect output/gravel --at 1.2s\n"
@@ -65,29 +66,29 @@ class Inspect final : public Verb {
         CLI::Option* cycle =
             parser.add_option("--cycle", asks_.moment.cycle, "Moment in periods of the drive, as in 40");
         cycle->type_name("N")->excludes(at)->excludes(parser.get_option("--frame"));
-        parser.add_option("--phase", asks_.phase, "With --cycle: so far into the period, from 0 to 1 [0]")
+        parser
+            .add_option("--phase", asks_.phase,
+                        "With --cycle: part of the period that has passed, from 0 to 1 [0]")
             ->type_name("TURN")
             ->needs(cycle)
             ->check(CLI::Range(0.0, 1.0));
-        CLI::Option* average =
-            parser
-                .add_option("--average", asks_.average,
-                            "Mean over this many periods up to the moment; of the largest overlaps, those of "
-                            "all these moments")
-                ->type_name("N")
-                ->check(CLI::Range(0.05, 1e6));
-        parser.add_flag("--no-replay", asks_.no_replay,
-                        "Give what was kept alone: the kept moment that is nearest");
+        CLI::Option* average = parser
+                                   .add_option("--average", asks_.average,
+                                               "Mean over N periods up to the moment; with "
+                                               "--largest-overlap, the largest of all these moments")
+                                   ->type_name("N")
+                                   ->check(CLI::Range(0.05, 1e6));
+        parser.add_flag("--no-replay", asks_.no_replay, "Use only what was kept: the nearest kept moment");
         add_reading(parser, asks_.reading);
         parser.option_defaults()->group("Question (one of them; none: an overview)");
         add_questions(parser);
         parser.option_defaults()->group("Picture");
         add_time(parser, "--film-time", asks_.film_time,
-                 "With --pixel or --png: where a camera that moves is then [that of --frame, else 0]");
+                 "With --pixel or --png: time of the film, if its camera moves [that of --frame, else 0]");
         parser
             .add_option("--png", asks_.picture,
-                        "Draw the moment too, with the answer ringed and all else pale; with --grain and "
-                        "--wall the forces on it as arrows")
+                        "Draw the moment too, with rings around the answer and all else pale; with --grain "
+                        "and --wall, arrows for the forces on it")
             ->type_name("FILE")
             ->check(not_empty())
             ->excludes(average);
@@ -96,7 +97,7 @@ class Inspect final : public Verb {
                  "With --pixel or --png: another value for a key of [film], as for render; may be repeated");
         add_picture_keys(parser, asks_.sets);
         parser.option_defaults()->group("Answer");
-        parser.add_option("--limit", asks_.limit, "Longest list of grains [10]")
+        parser.add_option("--limit", asks_.limit, "Most grains in a list [10]")
             ->type_name("N")
             ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}));
         CLI::Option* json = parser.add_flag("--json", asks_.json, "Answer as JSON, in SI units");
@@ -160,27 +161,32 @@ class Inspect final : public Verb {
                 .add_option(
                     "--wall", asks_.wall,
                     "This wall or mesh, as in floor, \"left slant\" or drum (the overview lists them): "
-                    "force and moment on it, "
-                    "pressure by height, who touches it, how many of each species")
+                    "force and torque on it, pressure by height, the grains that touch it, number of each "
+                    "species")
                 ->type_name("NAME"),
             parser.add_flag("--largest-overlap", asks_.largest_overlap, "The contacts that overlap most"),
-            parser.add_option("--where", asks_.where, "Grains for which this holds: count, statistics, list")
+            parser
+                .add_option("--where", asks_.where, "Grains for which this is true: number, statistics, list")
                 ->type_name("CONDITION"),
             parser
-                .add_option("--profile", asks_.profile, "By bins along height, x, y, z, or r from the axis")
+                .add_option("--profile", asks_.profile,
+                            "Means in bins along height, x, y, z, or the distance r from the axis")
                 ->type_name("DIRECTION"),
             parser
                 .add_option("--slice", asks_.slice, "Grains that this plane cuts, as in y=0 or \"z = 2 cm\"")
                 ->type_name("PLANE"),
-            parser.add_option("--histogram", asks_.histogram, "How many grains have which value")
+            parser
+                .add_option("--histogram", asks_.histogram,
+                            "How many grains have a value in each of several bins")
                 ->type_name("QUANTITY"),
             parser.add_flag("--pair-distribution", asks_.pairs,
                             "Radial distribution function of the centres"),
-            add_time(parser, "--compare", asks_.compare, "Who moved most between then and the moment"),
+            add_time(parser, "--compare", asks_.compare,
+                     "Which grains moved most between this time and the moment"),
             parser
                 .add_option("--steady", asks_.steady,
                             "Whether this column of measures.csv is steady: where its transient ends, and "
-                            "whether it drifts behind that")
+                            "whether it drifts after that")
                 ->type_name("COLUMN"),
             parser
                 .add_option("--pixel", asks_.pixel,
@@ -192,22 +198,22 @@ class Inspect final : public Verb {
             for (std::size_t k = 0; k < i; ++k) questions[i]->excludes(questions[k]);
         parser
             .add_flag("--over-time", asks_.over_time,
-                      "With --where: how many of each species at every moment that was kept")
+                      "With --where: number of grains of each species at every kept moment")
             ->needs(parser.get_option("--where"))
             ->excludes(parser.get_option("--average"));
         add_time(parser, "--every", asks_.every,
-                 "With --where: the same at each multiple of this time, brought back")
+                 "With --where: the same at each multiple of this time; these moments are brought back")
             ->needs(parser.get_option("--where"))
             ->excludes(parser.get_option("--average"))
             ->excludes(parser.get_option("--over-time"));
         parser
             .add_option("--mean", asks_.mean,
-                        "With --every or --over-time: the mean of this quantity over these grains, too")
+                        "With --every or --over-time: also the mean of this quantity over these grains")
             ->type_name("QUANTITY")
             ->needs(parser.get_option("--where"));
-        parser.add_flag("--through", asks_.through, "With --pixel: what lies behind it, too")
+        parser.add_flag("--through", asks_.through, "With --pixel: also what lies behind it")
             ->needs(questions.back());
-        parser.add_option("--bins", asks_.bins, "With --histogram: how many [20]")
+        parser.add_option("--bins", asks_.bins, "With --histogram: number of bins [20]")
             ->type_name("N")
             ->check(CLI::Range(1, 10000))
             ->needs(parser.get_option("--histogram"));

@@ -15,12 +15,13 @@ class Join final : public Verb {
   public:
     Join()
         : Verb("join", "Put the parts of a film together",
-               fmt::format(
-                   "Nothing is encoded again: the film has the bytes of the same film drawn in one go with\n"
-                   "--parts. Parts that are missing, doubled, incomplete, damaged, or of another run or "
-                   "other\n"
-                   "settings are refused (docs/guide/clusters.md). The film's name goes to stdout.\n{}",
-                   exit_statuses)) {}
+               fmt::format("Nothing is encoded again: the film has the same bytes as a film drawn in one go "
+                           "with --parts.\n"
+                           "Parts that are missing, doubled, incomplete, damaged, or from another run or "
+                           "with other\n"
+                           "options are refused (docs/guide/clusters.md). The film's name goes to stdout.\n"
+                           "{}",
+                           exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
         parser.add_option("PART", request_.parts, "Folders of all parts, in any order")

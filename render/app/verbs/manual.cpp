@@ -101,9 +101,9 @@ std::string program_man_page(const std::vector<CommandVerb>& verbs, const std::s
         page += ".TP\n" + bold(verb.name) + "\n" + roff(verb.about) + ". See " +
                 bold("grainreel-" + verb.name) + "(1).\n";
     page += ".SH ENVIRONMENT\n.TP\n" + bold("GRAINREEL_OUTPUT") +
-            "\nFolder in which runs are made where nothing else is said [output]\n.TP\n" +
-            bold("GRAINREEL_GL") + "\nWhat draws: osmesa or egl [osmesa]\n.TP\n" + bold("XDG_CACHE_HOME") +
-            "\nFolder whose folder grainreel keeps what can be made again [~/.cache]\n";
+            "\nFolder for new runs if no other is given [output]\n.TP\n" + bold("GRAINREEL_GL") +
+            "\nOpenGL that draws: osmesa or egl [osmesa]\n.TP\n" + bold("XDG_CACHE_HOME") +
+            "\nIts folder grainreel has files that can be made again [~/.cache]\n";
     page +=
         ".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n1\nThe run failed; what it had is kept.\n.TP\n2\nA mistake in "
         "a file "
@@ -133,7 +133,8 @@ std::string verb_man_page(const CommandVerb& verb, const std::string& version) {
 class Manual final : public Verb {
   public:
     Manual()
-        : Verb("manual", "Print the man page of the program or of a verb, or write all of them into a folder",
+        : Verb("manual",
+               "Print the man page of the program or of a verb, or write all man pages into a folder",
                "To read one:  grainreel manual render | man -l -\n"
                "Exit status: 0 done, 1 a file cannot be written, 2 a mistake in the options.") {}
 

@@ -113,9 +113,11 @@ class Movie final : public Verb {
   public:
     Movie()
         : Verb("movie", "Run a scene and make its film",
-               fmt::format("The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends the "
-                           "film so that it\nplays and keeps the end state; a second one keeps the end state "
-                           "alone, a third stops at once.\n{}",
+               fmt::format("The folder of the run goes to stdout, everything else to stderr. Ctrl-C ends "
+                           "the run and leaves a\n"
+                           "film that plays and the end state. A second Ctrl-C keeps only the end state, a "
+                           "third stops at once.\n"
+                           "{}",
                            exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
@@ -129,8 +131,8 @@ class Movie final : public Verb {
         CLI::Option* engine =
             parser
                 .add_option("--engine", engine_,
-                            "Let another engine run the scene, which is installed here, with mpirun: lammps "
-                            "or liggghts [ours]")
+                            "Let another engine, installed on this machine, run the scene with mpirun: "
+                            "lammps or liggghts [ours]")
                 ->check(CLI::IsMember({key_of(PeerEngine::lammps), key_of(PeerEngine::liggghts)}))
                 ->type_name("NAME");
         parser.add_option("--ranks", carry_.ranks, "With --engine: processes that share the work [1]")
@@ -139,14 +141,14 @@ class Movie final : public Verb {
             ->type_name("N");
         parser
             .add_option("--accept", accepted_,
-                        "With --engine: `law`, a contact law that the engine lacks becomes the nearest that "
-                        "it has")
+                        "With --engine: `law` replaces a contact law that the engine lacks by the nearest "
+                        "that it has")
             ->needs(engine)
             ->check(CLI::IsMember({"law"}))
             ->type_name("WHAT");
         parser
             .add_option("--law", law_,
-                        "With --engine liggghts --ranks 1: `edinburgh`, Walton and Braun's law as it is")
+                        "With --engine liggghts --ranks 1: `edinburgh` keeps the law of Walton and Braun")
             ->needs(engine)
             ->check(CLI::IsMember({"edinburgh"}))
             ->type_name("NAME");

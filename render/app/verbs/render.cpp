@@ -66,27 +66,26 @@ class Render final : public Verb {
         CLI::Option* every =
             parser
                 .add_option("--every", request_.every,
-                            "Draw one of so many frames of the trajectory, in place of the film's pictures")
+                            "Draw every Nth frame of the trajectory, in place of the film's pictures")
                 ->check(CLI::Range(1, 1000000000))
                 ->type_name("N");
-        CLI::Option* at = add_time(parser, "--at", request_.at, "Draw this moment alone, to a PNG file");
-        CLI::Option* frame =
-            parser
-                .add_option("--frame", request_.frame,
-                            "Draw this frame of the film alone, or of the files of another program, counted "
-                            "from 0, to a PNG file")
-                ->type_name("N")
-                ->excludes(at);
+        CLI::Option* at = add_time(parser, "--at", request_.at, "Draw only this moment, to a PNG file");
+        CLI::Option* frame = parser
+                                 .add_option("--frame", request_.frame,
+                                             "Draw only this frame, counted from 0, of the film or of the "
+                                             "files of another program, to a PNG file")
+                                 ->type_name("N")
+                                 ->excludes(at);
         add_print_size(parser, request_.print);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
         CLI::Option* follow = parser.add_flag(
             "--follow", follow_,
-            "Film files of another program while they grow, until nothing new comes or Ctrl-C");
+            "Film files of another program while they grow, until no new frame comes or Ctrl-C");
         parser
             .add_option("--idle", idle_,
-                        "With --follow: s without a new frame, after which the film ends [60]")
+                        "With --follow: end the film after this time in s without a new frame [60]")
             ->needs(follow)
             ->check(number_within(0.5, 1e6))
             ->type_name("SECONDS");

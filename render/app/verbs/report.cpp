@@ -88,30 +88,30 @@ namespace {
 class Report final : public Verb {
   public:
     Report()
-        : Verb(
-              "report", "Make a page of a run: film, charts and the bed in three dimensions",
-              "The page is one file. It needs no network and no server; any browser of today opens it. An "
-              "earlier "
-              "page is replaced, and nothing else in RUN is changed. The file that was made goes to stdout.\n"
-              "Exit status: 0 done, 1 the page could not be written, 2 a mistake in the options or the "
-              "run.") {}
+        : Verb("report", "Make a page of a run: film, charts and the bed in three dimensions",
+               "The page is one file. It needs no network and no server; any present browser opens it. An "
+               "earlier page is\n"
+               "replaced, and nothing else in RUN is changed. The name of the page goes to stdout.\n"
+               "Exit status: 0 done, 1 the page could not be written, 2 a mistake in the options or the "
+               "run.") {}
 
     void add_options(CLI::App& parser) override {
         parser
             .add_option("RUN", runs_,
-                        "Folder of a run, however it ended, or files of another program; of several, which "
-                        "then stand\nside by side on "
-                        "one time axis")
+                        "Folder of a run, complete or not, or files of another program; several runs stand "
+                        "side by side\n"
+                        "on one time axis")
             ->required()
             ->type_name("DIR ...");
         parser
             .add_option("--out", out_,
-                        "The page's file [report.html in RUN; of several runs side_by_side.html]")
+                        "File of the page [report.html in RUN; for several runs side_by_side.html]")
             ->type_name("FILE")
             ->check(not_empty());
         CLI::Option* charts = add_paper(parser, paper_,
-                                        "Charts for print into this folder, in place of the page: pictures, "
-                                        "tables and the\ncommands of gnuplot that draw them");
+                                        "Write charts for print into this folder, in place of the page: "
+                                        "pictures, tables and the\n"
+                                        "gnuplot commands that draw them");
         charts->excludes(parser.get_option("--out"));
         parser
             .add_option("--measures", measures_,

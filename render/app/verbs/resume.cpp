@@ -43,29 +43,29 @@ namespace fs = std::filesystem;
 class Resume final : public Verb {
   public:
     Resume()
-        : Verb(
-              "resume", "Go on with a run that was broken off, or make a finished one longer",
-              fmt::format(
-                  "The run goes on bit by bit in its own folder, from its last checkpoint: trajectory, "
-                  "measures and what lies\nbeside them have neither a gap nor a row twice. The film is drawn "
-                  "again from the moments that were kept of it.\n{}",
-                  exit_statuses)) {}
+        : Verb("resume", "Go on with a run that was broken off, or make a finished one longer",
+               fmt::format("The run goes on in its own folder, from its last checkpoint, with the same bits "
+                           "as in one go. Its files have no\n"
+                           "gap and no row twice. The film is drawn again from the moments that were "
+                           "kept.\n"
+                           "{}",
+                           exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
         parser.add_option("RUN", run_, "Folder of the run")->required()->type_name("DIR");
         CLI::Option* until =
-            add_time(parser, "--until", until_, "Where the run ends then [run.duration of its scene]");
-        add_time(parser, "--for", more_, "So much further than it has come")->excludes(until);
+            add_time(parser, "--until", until_, "New end of the run [run.duration of its scene]");
+        add_time(parser, "--for", more_, "Time to add to what the run has reached")->excludes(until);
         parser
             .add_option("--accept", accept_,
-                        "A key that may differ from now on, as in drive.g_level=4 or contact.friction=0.2; "
-                        "without a value as it is in scene.toml; may be repeated")
+                        "New value of a key from now on, as in drive.g_level=4 or contact.friction=0.2; "
+                        "without VALUE, the one in scene.toml; may be repeated")
             ->type_name("KEY[=VALUE]")
             ->expected(1)
             ->take_all();
         parser.add_flag("--no-film", no_film_, "Leave the film as it is");
         parser.add_flag("--no-report", no_page_, "Leave report.html as it is");
-        parser.add_option("--threads", threads_, "Threads in all [as its scene says]")
+        parser.add_option("--threads", threads_, "Number of threads [that of its scene]")
             ->type_name("N")
             ->check(CLI::Range(1, 1024));
         add_gl(parser, film_.gl);

@@ -15,7 +15,7 @@ class Scenes final : public Verb {
     Scenes()
         : Verb("scenes", "List the scenes that come with the program",
                "Each runs by its name from any folder:  grainreel movie wedge_segregation\n"
-               "To have one as a file that you can change:  grainreel new --from wedge_segregation\n"
+               "To get one as a file that you can change:  grainreel new --from wedge_segregation\n"
                "Exit status: 0 done, 2 a mistake in the options.") {}
 
     void add_options(CLI::App&) override {}

@@ -39,9 +39,9 @@ class StudyVerb final : public Verb {
   public:
     StudyVerb()
         : Verb("study", "Run a scene with many values of its keys, and chart what is measured",
-               "Members run side by side, one thread each. The same command goes on where it stopped. The "
-               "folder\n"
-               "goes to stdout, everything else to stderr.\n"
+               "Each run of a study is a member. Members run side by side, one thread each. If the command "
+               "was stopped, the\n"
+               "same command goes on. The folder goes to stdout, everything else to stderr.\n"
                "Exit status: 0 all members are complete, 1 one has failed, 2 a mistake in the study, its "
                "scene\n"
                "or the options, 129 the terminal was closed (SIGHUP), 130 Ctrl-C, 143 SIGTERM.") {
@@ -51,32 +51,30 @@ class StudyVerb final : public Verb {
     void add_options(CLI::App& parser) override {
         parser
             .add_option("STUDY", file_,
-                        "The study, a TOML file; docs/guide/studies.md tells how one is written")
+                        "The study, a TOML file; docs/guide/studies.md tells how to write one")
             ->required()
             ->type_name("FILE");
         add_out_folder(parser, out_,
                        "Folder of the study; a study that was stopped there goes on [output/ and its name]");
-        parser.add_option("--jobs", request_.jobs, "Members at a time [as many as there are processors]")
+        parser
+            .add_option("--jobs", request_.jobs,
+                        "Members that run at a time [as many as there are processors]")
             ->check(CLI::Range(1, 4096))
             ->type_name("N");
-        parser
-            .add_option("--variant", variants_,
-                        "Run this variant of the study alone; several, one --variant each, run together")
+        parser.add_option("--variant", variants_, "Run only this variant of the study; may be repeated")
             ->type_name("NAME")
             ->allow_extra_args(false);
         parser.add_flag("--films", request_.films,
-                        "Make the film of each member; one that has none is run again");
+                        "Make a film of each member; members without a film are run again");
         parser.add_flag("--retry", request_.retry, "Run failed members again");
         parser.add_flag_callback(
             "--no-posters", [this] { request_.posters = false; },
             "Leave out the pictures of the members' last frames");
         add_no_cache(parser, shortest_packing_);
-        parser.add_flag("--yes", yes_, "More than 10,000 members are meant");
+        parser.add_flag("--yes", yes_, "Allow more than 10,000 members");
         add_ways(parser);
         CLI::Option* charts = add_paper(
-            parser, paper_,
-            "Charts for print into this folder, beside those of the study; with --collect nothing is "
-            "run");
+            parser, paper_, "Write charts for print into this folder too; with --collect nothing is run");
         for (const char* other : {"--dry-run", "--print-commands"})
             charts->excludes(parser.get_option(other));
         add_reporting(parser, report);
@@ -113,14 +111,13 @@ class StudyVerb final : public Verb {
 
   private:
     void add_ways(CLI::App& parser) {
-        CLI::Option* dry =
-            parser.add_flag("--dry-run", dry_, "Print the members, their cost and disk; run nothing");
-        CLI::Option* print =
-            parser.add_flag("--print-commands", print_commands_,
-                            "Print a command for each member that is to be run, for GNU parallel or "
-                            "Slurm; run nothing");
+        CLI::Option* dry = parser.add_flag("--dry-run", dry_,
+                                           "Print the members, their cost and the disk space; run nothing");
+        CLI::Option* print = parser.add_flag(
+            "--print-commands", print_commands_,
+            "Print a command for each member that must be run, for GNU parallel or Slurm; run nothing");
         CLI::Option* collect = parser.add_flag("--collect", request_.collect_only,
-                                               "Run nothing; gather what those commands have made");
+                                               "Run nothing; gather the results of those commands");
         dry->excludes(print)->excludes(collect);
         print->excludes(collect);
     }

@@ -20,13 +20,13 @@ class WatchVerb final : public Verb {
   public:
     WatchVerb()
         : Verb("watch", "Show a run while it goes, as a page for a browser",
-               fmt::format("The page is for reading alone: whoever sees it changes nothing in RUN. Ctrl-C "
-                           "ends it; the "
-                           "run\ngoes on.\n{}",
+               fmt::format("Visitors of the page can change nothing in RUN. Ctrl-C ends the page; the run "
+                           "goes on.\n"
+                           "{}",
                            exit_statuses)) {}
 
     void add_options(CLI::App& parser) override {
-        parser.add_option("RUN", run_, "Folder of a run, which may go on or be finished")
+        parser.add_option("RUN", run_, "Folder of a run, which may still go on or be finished")
             ->required()
             ->type_name("DIR");
         add_watch_port(parser, place_);
