@@ -1,4 +1,4 @@
-// Draws spheres and walls of one's own, and the last frame of a file where one is named:
+// Draws spheres and walls that it makes itself, and the last frame of a file if one is named:
 //     draw spheres.png [FILE file.png]
 #include <cmath>
 #include <cstdio>

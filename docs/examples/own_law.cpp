@@ -1,5 +1,5 @@
-// A contact law of one's own: a linear spring and dashpot with friction. A ball falls on a plane with it, and
-// two balls meet in the air.
+// A contact law of your own: a linear spring and dashpot with friction. With this law a ball falls on a
+// plane, and two balls meet in the air.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,8 +11,8 @@
 
 namespace {
 
-// N = k d + c v, with c so that a free impact has the scene's restitution e: c = 2 z sqrt(m k), where
-// z = -ln e / sqrt(pi^2 + ln^2 e). T = k s / 2, at most mu N; s is the slip that the spring has kept.
+// N = k d + c v for the overlap d and the closing speed v. c gives a free impact the scene's restitution e:
+// c = 2 z sqrt(m k), z = -ln e / sqrt(pi^2 + ln^2 e). T = k s / 2, at most mu N; s is the slip in the spring.
 class Spring final : public grainreel::ContactLaw {
   public:
     int vectors() const override { return 1; }

@@ -1,5 +1,5 @@
-// A reader of one's own: files that begin with "beads" and have a line "x y z radius" (mm) for each bead, one
-// frame a file. It prints what it has read, draws it, and gives it on as an XYZ file:
+// A reader of your own, for files that begin with "beads" and have a line "x y z radius" (mm) for each bead.
+// Each file is one frame. The program prints what it has read, draws it, and writes it as an XYZ file:
 //     own_reader FILE picture.png out.xyz
 #include <cstdio>
 #include <fstream>
