@@ -52,14 +52,14 @@ TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
     FilmMaker maker(small_scene(160, 96), options(),
                     painting([](const Frame& frame) { return ball(160, 96, static_cast<int>(frame.step)); }));
     for (int i = 0; i < count; ++i) maker.take(frame_at(i), "real time");
-    const FilmReport report = maker.finish();
-    EXPECT_EQ(report.frames, count);
+    const FilmResult result = maker.finish();
+    EXPECT_EQ(result.frames, count);
     EXPECT_EQ(maker.frames_done(), count);
-    EXPECT_EQ(report.gl, "painted");
-    EXPECT_THAT(report.encoder, HasSubstr("libx264"));
-    EXPECT_THAT(report.encoder, HasSubstr("1 thread"));
-    EXPECT_GT(report.draw_seconds, 0);
-    EXPECT_GT(report.encode_seconds, 0);
+    EXPECT_EQ(result.gl, "painted");
+    EXPECT_THAT(result.encoder, HasSubstr("libx264"));
+    EXPECT_THAT(result.encoder, HasSubstr("1 thread"));
+    EXPECT_GT(result.draw_seconds, 0);
+    EXPECT_GT(result.encode_seconds, 0);
     const FilmFile played = film();
     ASSERT_THAT(played.frames, SizeIs(count));
     EXPECT_GT(psnr(to_rgb(played.frames.front()), ball(160, 96, 0)), 35);
@@ -185,7 +185,7 @@ TEST_F(FilmMakerTest, WithoutFinishTheFilmPlaysAndHasAPoster) {
     EXPECT_EQ(poster_grey(), grey_of(static_cast<std::int64_t>(played.frames.size()) - 1));
 }
 
-// The film maker is closed while pictures wait: the film has the pictures encoded by then, and the report
+// The film maker is closed while pictures wait: the film has the pictures encoded by then, and the result
 // counts them.
 TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
     for (const FilmFormat format : {FilmFormat::mp4, FilmFormat::gif, FilmFormat::png}) {
@@ -202,32 +202,32 @@ TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
                             return flat(96, 64, grey, grey, grey);
                         }));
         for (int i = 0; i < 40; ++i) maker.take(frame_at(i), "");
-        const FilmReport report = maker.finish([&] { return hurry.load(); });
-        EXPECT_FALSE(report.complete);
-        EXPECT_GE(report.frames, 1);
-        EXPECT_LT(report.frames, 40);
-        EXPECT_TRUE(report.poster);
-        EXPECT_FALSE(report.sheet);
-        EXPECT_EQ(report.file, format == FilmFormat::mp4   ? "movie.mp4"
+        const FilmResult result = maker.finish([&] { return hurry.load(); });
+        EXPECT_FALSE(result.complete);
+        EXPECT_GE(result.frames, 1);
+        EXPECT_LT(result.frames, 40);
+        EXPECT_TRUE(result.poster);
+        EXPECT_FALSE(result.sheet);
+        EXPECT_EQ(result.file, format == FilmFormat::mp4   ? "movie.mp4"
                                : format == FilmFormat::gif ? "movie.work/spool.mkv"
                                                            : "");
         if (format == FilmFormat::png) {
             const auto files = std::filesystem::directory_iterator(folder / "frames");
-            EXPECT_EQ(std::distance(begin(files), end(files)), report.frames);
+            EXPECT_EQ(std::distance(begin(files), end(files)), result.frames);
             continue;
         }
-        EXPECT_THAT(report.encoder, HasSubstr(format == FilmFormat::mp4 ? "libx264" : "ffv1"));
-        const FilmFile left = read_film(folder / report.file);
-        EXPECT_EQ(static_cast<std::int64_t>(left.frames.size() + left.pictures.size()), report.frames);
+        EXPECT_THAT(result.encoder, HasSubstr(format == FilmFormat::mp4 ? "libx264" : "ffv1"));
+        const FilmFile left = read_film(folder / result.file);
+        EXPECT_EQ(static_cast<std::int64_t>(left.frames.size() + left.pictures.size()), result.frames);
     }
 }
 
 TEST_F(FilmMakerTest, WhoIsInNoHurryGetsAWholeFilm) {
     FilmMaker maker(small_scene(), options(), greys());
     for (int i = 0; i < 20; ++i) maker.take(frame_at(i), "");
-    const FilmReport report = maker.finish([] { return false; });
-    EXPECT_TRUE(report.complete);
-    EXPECT_TRUE(report.poster);
+    const FilmResult result = maker.finish([] { return false; });
+    EXPECT_TRUE(result.complete);
+    EXPECT_TRUE(result.poster);
     EXPECT_THAT(film().frames, SizeIs(20));
 }
 

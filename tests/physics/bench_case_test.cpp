@@ -30,8 +30,8 @@ TEST(WedgeCase, CountsTheMemoryOfItsBedAlone) {
     request.threads = 1;
     request.quick = true;
     const auto go_on = [](auto&&...) { return true; };
-    const double first = run_bench(wedge, request, go_on).report.bytes_per_particle;
-    const double second = run_bench(wedge, request, go_on).report.bytes_per_particle;
+    const double first = run_bench(wedge, request, go_on).result.bytes_per_particle;
+    const double second = run_bench(wedge, request, go_on).result.bytes_per_particle;
     EXPECT_NEAR(first / second, 1, 0.1) << first << ' ' << second;
 }
 
@@ -45,11 +45,11 @@ TEST(RestCase, IsABedAtRest) {
     request.threads = 1;
     request.particles = 600;
     request.quick = true;
-    const BenchReport report = run_bench(rest, request, [](auto&&...) { return true; }).report;
-    ASSERT_EQ(report.phases.size(), 1u);
-    EXPECT_EQ(report.phases[0].name, "at rest");
+    const BenchResult result = run_bench(rest, request, [](auto&&...) { return true; }).result;
+    ASSERT_EQ(result.phases.size(), 1u);
+    EXPECT_EQ(result.phases[0].name, "at rest");
     const double contacts =
-        2 * static_cast<double>(report.phases[0].touching) / static_cast<double>(report.particles);
+        2 * static_cast<double>(result.phases[0].touching) / static_cast<double>(result.particles);
     EXPECT_GT(contacts, 3.5);
     EXPECT_LT(contacts, 5.5);
 }

@@ -58,9 +58,9 @@ class BenchRun {
   public:
     BenchRun(const BenchCase& bench, const BenchRequest& request, const BenchWatcher& watcher)
         : case_(request.quick ? shortened(bench, 10) : bench), request_(request), watcher_(watcher) {
-        report_.name = bench.name;
-        report_.precision = request.precision;
-        report_.threads = request.threads > 0 ? request.threads : usable_processors();
+        result_.name = bench.name;
+        result_.precision = request.precision;
+        result_.threads = request.threads > 0 ? request.threads : usable_processors();
         wanted_ = request.particles > 0 ? request.particles : bench.particles;
         if (case_.side_of_copies)
             while (copies_ * copies_ * bench.particles < wanted_) ++copies_;
@@ -77,24 +77,24 @@ class BenchRun {
         BenchBed bed = case_.bed(one_copy);
         for (auto* kinds : {&bed.plan.grain, &bed.plan.wall})
             for (PairPlan& pair : *kinds) pair.model.precision = request_.precision;
-        Running run(std::move(bed), report_.threads, case_.first_step - case_.lead);
+        Running run(std::move(bed), result_.threads, case_.first_step - case_.lead);
         if (!advance(run, case_.lead, "lead", case_.lead_drag, nullptr)) return false;
         for (std::size_t p = 0; p < case_.phases.size(); ++p) {
-            if (repetition == 0) report_.phases.emplace_back().name = case_.phases[p].name;
-            if (!time_phase(run, case_.phases[p], report_.phases[p])) return false;
+            if (repetition == 0) result_.phases.emplace_back().name = case_.phases[p].name;
+            if (!time_phase(run, case_.phases[p], result_.phases[p])) return false;
         }
         if (copies_ == 1) note_end(run, heap_in_use() - before);
         return true;
     }
 
-    BenchReport& report() { return report_; }
+    BenchResult& result() { return result_; }
 
   private:
     // Many copies take too long for a whole phase, so they begin with a bed from the middle of the phase.
     // Once their lists and histories exist, about as many grain-steps are timed as the single bed makes in
     // the phase. A single copy is timed in the same way for comparison.
-    bool time_phase(Running& run, const BenchPhase& phase, PhaseReport& report) {
-        if (copies_ == 1) return advance(run, phase.steps, phase.name, 0, &report);
+    bool time_phase(Running& run, const BenchPhase& phase, PhaseResult& result) {
+        if (copies_ == 1) return advance(run, phase.steps, phase.name, 0, &result);
         if (!advance(run, phase.steps / 2, phase.name, 0, nullptr)) return false;
         const std::int64_t least = request_.quick ? 100 : 400;
         const std::int64_t steps = std::max(least, phase.steps / (copies_ * copies_)), lead = steps / 2;
@@ -102,13 +102,13 @@ class BenchRun {
             Running one = copies_of(run, 1);
             one.run(lead);
             const double work = static_cast<double>(steps) * static_cast<double>(one.bed.grains.size());
-            report.of_one_copy.push_back(work / one.run(steps));
+            result.of_one_copy.push_back(work / one.run(steps));
         }
         const double before = heap_in_use();
         {
             Running whole = copies_of(run, copies_);
             whole.run(lead);
-            if (!advance(whole, steps, phase.name, 0, &report)) return false;
+            if (!advance(whole, steps, phase.name, 0, &result)) return false;
             note_end(whole, heap_in_use() - before);
         }
         return advance(run, phase.steps - phase.steps / 2, phase.name, 0, nullptr);
@@ -116,13 +116,13 @@ class BenchRun {
 
     Running copies_of(const Running& run, int copies) const {
         return Running(copied(run.bed, run.bed.grains, case_.side_of_copies(run.bed), copies),
-                       report_.threads, run.step);
+                       result_.threads, run.step);
     }
 
-    // Runs so many steps, and times them where there is a report. The clock of the stages slows the loop
+    // Runs so many steps, and times them where there is a result. The clock of the stages slows the loop
     // down, so only every fourth stretch has it, and that one does not count for the speed.
     bool advance(Running& run, std::int64_t steps, const std::string& what, double drag,
-                 PhaseReport* report) {
+                 PhaseResult* result) {
         run.loop->clear_costs();
         double taken = 0;
         std::int64_t counted = 0;
@@ -130,40 +130,40 @@ class BenchRun {
         for (std::int64_t done = 0, looks = 0; done < steps; ++looks) {
             if (!watcher_(what, std::min(1.0, done_steps_ / static_cast<double>(all_steps_)))) return false;
             const std::int64_t now = std::min(look, steps - done);
-            const bool by_stage = report && looks % 4 == 3;
+            const bool by_stage = result && looks % 4 == 3;
             run.loop->time_costs(by_stage);
             const double time = run.run(now, drag);
             if (!by_stage) taken += time, counted += now;
             done += now;
             done_steps_ += static_cast<double>(now);
         }
-        if (report)
-            note(run, steps, taken * static_cast<double>(steps) / static_cast<double>(counted), *report);
+        if (result)
+            note(run, steps, taken * static_cast<double>(steps) / static_cast<double>(counted), *result);
         return true;
     }
 
-    void note(const Running& run, std::int64_t steps, double taken, PhaseReport& report) {
+    void note(const Running& run, std::int64_t steps, double taken, PhaseResult& result) {
         const double work = static_cast<double>(steps) * static_cast<double>(run.bed.grains.size());
-        report.steps = steps;
-        report.particle_steps.push_back(work / taken);
-        report.listed = static_cast<std::int64_t>(run.loop->listed_pairs());
-        report.touching = 0;
-        run.loop->visit_contacts(run.step, [&](const ContactView& c) { report.touching += c.second >= 0; });
-        const double thread_time = 1e9 * taken * report_.threads / work;
+        result.steps = steps;
+        result.particle_steps.push_back(work / taken);
+        result.listed = static_cast<std::int64_t>(run.loop->listed_pairs());
+        result.touching = 0;
+        run.loop->visit_contacts(run.step, [&](const ContactView& c) { result.touching += c.second >= 0; });
+        const double thread_time = 1e9 * taken * result_.threads / work;
         const auto shares = run.loop->cost_shares();
-        for (int s = 0; s < kCosts; ++s) report.stage[s] = shares[s] * thread_time;
+        for (int s = 0; s < kCosts; ++s) result.stage[s] = shares[s] * thread_time;
     }
 
     void note_end(const Running& run, double heap) {
-        report_.particles = static_cast<std::int64_t>(run.bed.grains.size());
-        report_.bytes_per_particle = heap / static_cast<double>(run.bed.grains.size());
-        report_.state_hash = hash_of_motion(run.bed.grains);
+        result_.particles = static_cast<std::int64_t>(run.bed.grains.size());
+        result_.bytes_per_particle = heap / static_cast<double>(run.bed.grains.size());
+        result_.state_hash = hash_of_motion(run.bed.grains);
     }
 
     const BenchCase case_;
     const BenchRequest& request_;
     const BenchWatcher& watcher_;
-    BenchReport report_;
+    BenchResult result_;
     int wanted_ = 0, copies_ = 1;
     std::int64_t all_steps_ = 0;
     double done_steps_ = 0;
@@ -180,15 +180,15 @@ double median_of(std::vector<double> values) {
 
 }  // namespace
 
-double PhaseReport::median() const {
+double PhaseResult::median() const {
     return median_of(particle_steps);
 }
 
-double PhaseReport::median_of_one_copy() const {
+double PhaseResult::median_of_one_copy() const {
     return median_of(of_one_copy);
 }
 
-double PhaseReport::spread() const {
+double PhaseResult::spread() const {
     const auto [low, high] = std::minmax_element(particle_steps.begin(), particle_steps.end());
     return particle_steps.empty() ? 0 : (*high - *low) / median();
 }
@@ -208,7 +208,7 @@ BenchOutcome run_bench(const BenchCase& bench, const BenchRequest& request, cons
     BenchOutcome outcome;
     outcome.complete = true;
     for (int r = 0; r < request.repeats && outcome.complete; ++r) outcome.complete = run.repeat(r);
-    outcome.report = run.report();
+    outcome.result = run.result();
     return outcome;
 }
 

@@ -20,7 +20,7 @@ struct BenchRequest {
     Precision precision = Precision::full;
 };
 
-struct PhaseReport {
+struct PhaseResult {
     std::string name;
     std::int64_t steps = 0;              // number of timed steps
     std::vector<double> particle_steps;  // grain-steps a second, one value for each repetition
@@ -35,20 +35,20 @@ struct PhaseReport {
     double median_of_one_copy() const;
 };
 
-struct BenchReport {
+struct BenchResult {
     std::string name;
     std::int64_t particles = 0;
     int threads = 0;
     Precision precision = Precision::full;
     double bytes_per_particle = 0;  // heap in use at the end for all that the run asked for
     std::uint64_t state_hash = 0;   // hash of all places, velocities and spins at the end, by id
-    std::vector<PhaseReport> phases;
+    std::vector<PhaseResult> phases;
 };
 
-// watcher(what is done now, share done) returns false to stop; the report is then incomplete.
+// watcher(what is done now, share done) returns false to stop; the result is then incomplete.
 using BenchWatcher = std::function<bool(const std::string&, double)>;
 struct BenchOutcome {
-    BenchReport report;
+    BenchResult result;
     bool complete = false;
 };
 BenchOutcome run_bench(const BenchCase& bench, const BenchRequest& request, const BenchWatcher& watcher);

@@ -264,10 +264,10 @@ FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const F
         return use.frames < most && (use.frames < least_drawn || watch.seconds() < patience);
     };
     for (; goes_on(); ++use.frames) film.take(shaken(bed, use.frames, random), "");
-    const FilmReport report = film.finish();
-    const double busy = report.draw_seconds + report.encode_seconds;
+    const FilmResult result = film.finish();
+    const double busy = result.draw_seconds + result.encode_seconds;
     use.seconds = processor_seconds() - before;
-    use.drawing = busy > 0 ? report.draw_seconds / busy : 0.5;
+    use.drawing = busy > 0 ? result.draw_seconds / busy : 0.5;
     return use;
 }
 

@@ -26,10 +26,10 @@ const char* precision_name(Precision precision) {
     return precision == Precision::mixed ? "mixed" : "double";
 }
 
-std::string bench_json(const BenchReport& report) {
+std::string bench_json(const BenchResult& result) {
     using Json = nlohmann::ordered_json;
     Json phases = Json::array();
-    for (const PhaseReport& phase : report.phases) {
+    for (const PhaseResult& phase : result.phases) {
         Json stages = Json::object();
         for (int s = 0; s < kCosts; ++s) stages[stage_names[s]] = phase.stage[s];
         Json entry = {{"name", phase.name},
@@ -43,35 +43,35 @@ std::string bench_json(const BenchReport& report) {
             entry["particle_steps_per_s_of_one_copy"] = phase.median_of_one_copy();
         phases.push_back(entry);
     }
-    const Json all = {{"case", report.name},
-                      {"particles", report.particles},
-                      {"threads", report.threads},
-                      {"precision", precision_name(report.precision)},
+    const Json all = {{"case", result.name},
+                      {"particles", result.particles},
+                      {"threads", result.threads},
+                      {"precision", precision_name(result.precision)},
                       {"vector_width", vector_instructions()},
-                      {"bytes_per_particle", report.bytes_per_particle},
-                      {"state_hash", fmt::format("{:016x}", report.state_hash)},
+                      {"bytes_per_particle", result.bytes_per_particle},
+                      {"state_hash", fmt::format("{:016x}", result.state_hash)},
                       {"phases", phases}};
     return all.dump(2);
 }
 
-std::string bench_table(const BenchReport& report, bool quick) {
+std::string bench_table(const BenchResult& result, bool quick) {
     std::string text = fmt::format(
         "{}: {} grains, {} thread{}, {}, vectors {}, {:.0f} bytes a grain, state "
         "{:016x}\n\n{:<10}{:>8}{:>12}{:>8}",
-        report.name, report.particles, report.threads, report.threads == 1 ? "" : "s",
-        precision_name(report.precision), vector_instructions(), report.bytes_per_particle, report.state_hash,
+        result.name, result.particles, result.threads, result.threads == 1 ? "" : "s",
+        precision_name(result.precision), vector_instructions(), result.bytes_per_particle, result.state_hash,
         "phase", "steps", "M steps/s", "spread");
     for (const char* name : stage_names) text += fmt::format("{:>12}", name);
     text += fmt::format("{:>10}{:>10}\n", "listed", "touching");
-    for (const PhaseReport& phase : report.phases) {
+    for (const PhaseResult& phase : result.phases) {
         text += fmt::format("{:<10}{:>8}{:>12.2f}{:>6.0f} %", phase.name, phase.steps, 1e-6 * phase.median(),
                             100 * phase.spread());
         for (const double ns : phase.stage) text += fmt::format("{:>9.1f} ns", ns);
-        const double n = static_cast<double>(report.particles);
+        const double n = static_cast<double>(result.particles);
         text += fmt::format("{:>10.2f}{:>10.2f}\n", static_cast<double>(phase.listed) / n,
                             static_cast<double>(phase.touching) / n);
     }
-    for (const PhaseReport& phase : report.phases) {
+    for (const PhaseResult& phase : result.phases) {
         if (phase.of_one_copy.empty()) continue;
         text += fmt::format("\n{}: a single copy in the same steps {:.2f} M steps/s, {:.2f} times as many\n",
                             phase.name, 1e-6 * phase.median_of_one_copy(),
@@ -109,14 +109,14 @@ class Bench final : public Verb {
   public:
     Bench()
         : Verb(
-              "bench", "Time the engine on a bed of known kind",
+              "bench", "Measure the speed of the engine on a standard bed",
               "Results go to stdout, progress to stderr.\n"
               "Exit status: 0 done, 1 the run failed, 2 a mistake in the options, 130 Ctrl-C, 143 SIGTERM.") {
     }
 
     void add_options(CLI::App& parser) override {
         Choices cases(bench_cases());
-        cases.add("render", "the drawing of the peers' bed at rest, by stage");
+        cases.add("render", "drawing a bed at rest, stage by stage");
         parser.add_option("CASE", case_, cases.about)
             ->required()
             ->check(CLI::IsMember(cases.names))
@@ -124,9 +124,9 @@ class Bench final : public Verb {
         add_bed_options(parser);
         add_render_options(parser);
         parser.add_flag("--quick", request_.quick,
-                        "A tenth of the steps, to try it: the bed is then\nhardly settled, and its figures "
+                        "Run a tenth of the steps, to try it; the bed is then hardly settled, so the figures "
                         "are not those of a whole run");
-        parser.add_flag("--json", json_, "One JSON object in place of a table");
+        parser.add_flag("--json", json_, "Print a JSON object in place of a table");
         add_reporting(parser, report);
     }
 
@@ -148,7 +148,7 @@ class Bench final : public Verb {
             reporter.info("stopped; nothing was measured to its end");
             return signal_base + stop_signal();
         }
-        print_result((json_ ? bench_json(outcome.report) : bench_table(outcome.report, request_.quick)) +
+        print_result((json_ ? bench_json(outcome.result) : bench_table(outcome.result, request_.quick)) +
                      "\n");
         return 0;
     }
@@ -167,10 +167,12 @@ class Bench final : public Verb {
                 "double or mixed [double]")
             ->check(CLI::IsMember({"double", "mixed"}))
             ->type_name("WHICH");
-        parser.add_option("--particles", request_.particles, "Grains [by the case]; for render: --grains")
+        parser
+            .add_option("--particles", request_.particles,
+                        "Number of grains [that of the case]; for render: --grains")
             ->check(CLI::Range(100, 10000000))
             ->type_name("N");
-        parser.add_option("--repeat", request_.repeats, "Run it all so often and give medians [1]")
+        parser.add_option("--repeat", request_.repeats, "Run everything K times and give medians [1]")
             ->check(CLI::Range(1, 1000))
             ->type_name("K");
     }
@@ -182,7 +184,7 @@ class Bench final : public Verb {
         parser
             .add_option_function<std::string>(
                 "--size", [this](const std::string& size) { read_size(size, render_.film); },
-                "render: of the picture in pixels [1920x1080]")
+                "render: size of the picture in pixels [1920x1080]")
             ->type_name("WxH");
         add_out_folder(
             parser, render_.out,
@@ -198,7 +200,7 @@ class Bench final : public Verb {
             "render: with an orthographic camera");
         parser
             .add_option("--zoom", render_.film.camera.zoom,
-                        "render: closer than where the grains fill the picture's height or width [1]")
+                        "render: enlargement; at 1 the grains fill the picture's height or width [1]")
             ->type_name("Z")
             ->check(CLI::Range(0.01, 100.0));
     }

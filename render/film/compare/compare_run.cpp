@@ -165,7 +165,7 @@ void CompareRun::conclude() {
 
 std::string CompareRun::stopped_text() const {
     if (all_.still) return "stopped";
-    return fmt::format("stopped at frame {} of {}", film_.report().frames, film_.frames_planned());
+    return fmt::format("stopped at frame {} of {}", film_.result().frames, film_.frames_planned());
 }
 
 void CompareRun::report_written() {

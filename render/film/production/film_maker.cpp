@@ -30,9 +30,9 @@ double seconds_since(Watch::time_point start) {
 // has 8 MB at 1080p.
 constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
 
-// These hold where engine and film take turns. Each turn begins and ends with a stage that has nothing to do,
-// so turns are long: up to as many frames as 64 MB hold. An engine that needs longer than the patience for
-// one frame does not have to fill the queue: the film then starts with what is there.
+// These apply when engine and film take turns. At the beginning and end of each turn some stage has nothing
+// to do, so turns are long: up to as many frames as 64 MB hold. An engine that needs longer than the patience
+// for one frame does not have to fill the queue: the film then starts with what is there.
 constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
 constexpr std::chrono::milliseconds turn_patience(250);
 constexpr std::chrono::milliseconds glance(50);  // how often the caller is asked whether it is in a hurry
@@ -46,8 +46,8 @@ std::size_t frames_that_wait(const FilmedScene& scene, const FilmOptions& option
         turn_bytes / (bytes_a_grain * moments * std::max<std::int64_t>(1, scene.grains()));
     return static_cast<std::size_t>(std::clamp<std::int64_t>(fit, waiting_frames, longest_turn));
 }
-// Counted are the pictures in the queue, the one being drawn, the one being encoded, and the last one, which
-// is kept for the poster.
+// The pictures in the queue, the one being drawn, the one being encoded, and the last one, which is kept for
+// the poster.
 constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 
 struct Order {
@@ -197,7 +197,7 @@ struct FilmMaker::Impl {
     std::mutex failure_mutex;
     std::string failure;                     // words of the stage that failed first; empty when none did
     std::atomic<bool> drawer_known = false;  // the drawer is made, or something failed
-    std::string gl, note;                    // words of the drawer; to be read once drawer_known is set
+    std::string gl, note;  // what the drawer says of itself; to be read once drawer_known is set
     // The members from here on are written by one thread and read after join().
     std::string last_note;  // last note of the drawer
     double draw_seconds = 0, encode_seconds = 0, waited_seconds = 0;
@@ -231,28 +231,28 @@ std::string FilmMaker::drawer() {
     return impl_->gl;
 }
 
-FilmReport FilmMaker::finish(const std::function<bool()>& in_a_hurry) {
+FilmResult FilmMaker::finish(const std::function<bool()>& in_a_hurry) {
     impl_->complete = true;
     impl_->frames.close();
     impl_->wait_for_end(in_a_hurry);
     impl_->join();
     impl_->throw_failure();
-    FilmReport report;
-    report.complete = impl_->files.complete();
-    report.frames = impl_->files.frames();
-    report.draw_seconds = impl_->draw_seconds;
-    report.encode_seconds = impl_->encode_seconds;
-    report.waited_seconds = impl_->waited_seconds;
-    report.gl = impl_->gl;
-    report.file = impl_->files.film_file();
-    report.pictures = impl_->files.has_frames();
-    report.poster = impl_->files.has_poster();
-    report.sheet = impl_->files.has_sheet();
-    report.encoder = impl_->files.encoder();
-    report.notes = impl_->files.notes();
+    FilmResult result;
+    result.complete = impl_->files.complete();
+    result.frames = impl_->files.frames();
+    result.draw_seconds = impl_->draw_seconds;
+    result.encode_seconds = impl_->encode_seconds;
+    result.waited_seconds = impl_->waited_seconds;
+    result.gl = impl_->gl;
+    result.file = impl_->files.film_file();
+    result.pictures = impl_->files.has_frames();
+    result.poster = impl_->files.has_poster();
+    result.sheet = impl_->files.has_sheet();
+    result.encoder = impl_->files.encoder();
+    result.notes = impl_->files.notes();
     for (const std::string& note : {impl_->note, impl_->last_note})
-        if (!note.empty()) report.notes.push_back(note);
-    return report;
+        if (!note.empty()) result.notes.push_back(note);
+    return result;
 }
 
 std::int64_t FilmMaker::frames_done() const {
@@ -287,7 +287,7 @@ class RendererDrawer final : public Drawer {
 
     Renderer renderer_;
     const double rate_;
-    std::int64_t drawn_;  // pictures drawn of the film, with the parts before this one
+    std::int64_t drawn_;  // pictures of the film drawn so far, those of earlier parts included
 };
 
 }  // namespace

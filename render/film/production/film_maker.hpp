@@ -37,13 +37,13 @@ struct FilmOptions {
     bool take_turns = false;  // with the caller of take(), which then waits while queued pictures are made
     gl::Provider gl = gl::Provider::automatic;
     FramePtr start;             // frame from which start heights are counted; null: the first picture's frame
-    std::int64_t pictures = 0;  // planned number of the whole film's pictures; an orbit may last as long
+    std::int64_t pictures = 0;  // planned number for the whole film; a camera's orbit may last as long as it
     FilmExtent extent;
     // Called before a file is made or replaced in the folder; throws RunError when that is not allowed.
     std::function<void()> check_folder = [] {};
 };
 
-struct FilmReport {
+struct FilmResult {
     bool complete = false;                        // the film was closed, not abandoned
     std::int64_t frames = 0;                      // in the film
     double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
@@ -52,7 +52,7 @@ struct FilmReport {
     std::string file;                             // "movie.mp4"; empty without one
     bool pictures = false;                        // whether frames/ is there
     bool poster = false, sheet = false;           // poster.png, sheet.png are there
-    std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty as above
+    std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty without a film
     std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
 };
 
@@ -66,7 +66,7 @@ class Drawer {
     virtual ~Drawer() = default;
     // Draws into an empty picture, or one that this drawer has drawn before.
     virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
-    // Takes frames that come before the first drawn one. Trails of them may show on later pictures.
+    // Takes frames that come before the first drawn one. Trails on later pictures may show them.
     virtual void remember(const Frames&) {}
     virtual std::string description() const = 0;
     virtual std::string note() const { return {}; }  // what its user should know about it
@@ -99,7 +99,7 @@ class FilmMaker {
     // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError as above.
     // Neither take() nor finish() may follow. in_a_hurry is called now and then. Once it returns true, what
     // is queued is thrown away and the film is left as it was written; it plays.
-    FilmReport finish(const std::function<bool()>& in_a_hurry = {});
+    FilmResult finish(const std::function<bool()>& in_a_hurry = {});
 
     std::int64_t frames_done() const;  // frames encoded so far
 

@@ -291,7 +291,7 @@ void EngineRun::conclude() {
 }
 
 void EngineRun::side_work_closed() {
-    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.report().frames);
+    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.result().frames);
 }
 
 std::string EngineRun::stopped_text() const {

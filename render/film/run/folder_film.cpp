@@ -50,24 +50,24 @@ void FolderFilm::close() {
     if (!film_) return;
     desk_.failure.attempt([&] {
         const auto timer = desk_.times.during("finishing the film");
-        report_ =
+        result_ =
             film_->finish([this] { return desk_.listener.in_a_hurry() || !desk_.folder->lock().is_there(); });
-        if (!report_.complete) desk_.listener.info("note: the film was left as it is");
-        for (const std::string& note : report_.notes) desk_.listener.info("note: " + note);
+        if (!result_.complete) desk_.listener.info("note: the film was left as it is");
+        for (const std::string& note : result_.notes) desk_.listener.info("note: " + note);
     });
-    report_.frames = film_->frames_done();
+    result_.frames = film_->frames_done();
     film_.reset();
     made_ = request_.film && !request_.to_stdout;
-    desk_.times.add("drawing (beside the engine)", report_.draw_seconds);
-    desk_.times.add("encoding (beside the engine)", report_.encode_seconds);
+    desk_.times.add("drawing (beside the engine)", result_.draw_seconds);
+    desk_.times.add("encoding (beside the engine)", result_.encode_seconds);
 }
 
 void FolderFilm::describe(RunJson& record) const {
     record.raster_threads = wanted() ? threads_.raster : 0;
     record.encoder_threads = wanted() ? threads_.encoder : 0;
-    record.film_frames = report_.frames;
+    record.film_frames = result_.frames;
     if (film_) record.film_frames.reset();  // how much of it is on disk is known when it is closed
-    record.encoder = report_.encoder;
+    record.encoder = result_.encoder;
 }
 
 void FolderFilm::show_progress() {
@@ -84,11 +84,11 @@ void FolderFilm::show_progress() {
 
 std::string FolderFilm::files_text() const {
     std::string text;
-    if (!report_.file.empty()) text += fmt::format("{} ({} frames), ", report_.file, report_.frames);
-    if (request_.to_stdout) text += fmt::format("to stdout {} frames, ", report_.frames);
-    if (report_.poster) text += "poster.png, ";
-    if (report_.sheet) text += "sheet.png, ";
-    if (report_.pictures) text += fmt::format("frames/ ({} pictures), ", report_.frames);
+    if (!result_.file.empty()) text += fmt::format("{} ({} frames), ", result_.file, result_.frames);
+    if (request_.to_stdout) text += fmt::format("to stdout {} frames, ", result_.frames);
+    if (result_.poster) text += "poster.png, ";
+    if (result_.sheet) text += "sheet.png, ";
+    if (result_.pictures) text += fmt::format("frames/ ({} pictures), ", result_.frames);
     return text;
 }
 

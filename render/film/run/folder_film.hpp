@@ -51,7 +51,7 @@ class FolderFilm final : public SideWork {
     std::int64_t frames_done() const { return film_ ? film_->frames_done() : 0; }
     std::int64_t frames_planned() const { return frames_planned_; }
     bool made() const { return made_; }  // a film lies in the folder and is closed
-    const FilmReport& report() const { return report_; }
+    const FilmResult& result() const { return result_; }
     std::string files_text() const;  // "movie.mp4 (4 frames), poster.png, "
 
     bool is_open() const override { return film_ != nullptr; }
@@ -68,7 +68,7 @@ class FolderFilm final : public SideWork {
     std::int64_t frames_planned_ = 0;  // frames of the film, with those that are held for captions
     FilmExtent extent_;
     std::optional<std::int64_t> frames_here_;
-    FilmReport report_;
+    FilmResult result_;
     bool made_ = false;
 };
 

@@ -174,7 +174,7 @@ bool FollowRun::work() {
 }
 
 std::string FollowRun::stopped_text() const {
-    return fmt::format("stopped after {} frames", film_.report().frames);
+    return fmt::format("stopped after {} frames", film_.result().frames);
 }
 
 void FollowRun::report_written() {

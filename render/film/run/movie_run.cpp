@@ -106,7 +106,7 @@ void MovieRun::add_progress(Progress& progress) const {
 }
 
 void MovieRun::side_work_closed() {
-    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.report().frames);
+    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.result().frames);
     SceneFolderRun::side_work_closed();
 }
 

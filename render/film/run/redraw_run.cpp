@@ -239,13 +239,13 @@ void RedrawRun::identify_part() {
 
 // Adds the checksum of a part whose film is complete.
 void RedrawRun::side_work_closed() {
-    if (!desk_.record.part || !film_.made() || !film_.report().complete || film_.report().file.empty())
+    if (!desk_.record.part || !film_.made() || !film_.result().complete || film_.result().file.empty())
         return;
-    desk_.record.part->checksum = checksum_of_file(folder() / film_.report().file);
+    desk_.record.part->checksum = checksum_of_file(folder() / film_.result().file);
 }
 
 std::string RedrawRun::stopped_text() const {
-    return fmt::format("stopped at frame {} of {}", film_.report().frames, film_.frames_planned());
+    return fmt::format("stopped at frame {} of {}", film_.result().frames, film_.frames_planned());
 }
 
 void RedrawRun::report_written() {
@@ -254,7 +254,7 @@ void RedrawRun::report_written() {
     desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
     desk_.listener.info(
         fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
-                    film_.report().frames, source_.record().frames().folder().string(),
+                    film_.result().frames, source_.record().frames().folder().string(),
                     film.moment(shots.front().step).time, film.moment(shots.back().step).time));
 }
 
