@@ -19,7 +19,7 @@ const std::vector<ObserverColumns>& observer_columns();
 
 // The columns of all observers, also of instruments that the scene does not ask for.
 std::vector<MeasureColumn> measure_columns(const Scene& scene);
-// These columns and the names of the instruments, which the reader of a scene needs.
+// These columns and the names of the instruments, for the reader of a scene.
 Measurable measurable_in(const Scene& scene);
 
 // The table of all columns in Markdown, as in docs/reference/scenes.md.
@@ -28,7 +28,7 @@ std::string column_table_markdown();
 // The axis on which a column of measures.csv is drawn.
 struct ColumnAxis {
     bool from_zero = false;  // true if the value cannot be negative, so that the axis begins at 0
-    double expected = 0;     // SI, rough size of the value by the scene; 0 if not known
+    double expected = 0;     // SI, rough size of the value, estimated from the scene; 0 if not known
 };
 
 ColumnAxis axis_of_column(const Scene& scene, const std::string& column);

@@ -26,7 +26,7 @@ class Times final : public Observer {
 };
 
 // Observer of the drive's present stage. It gives the frequency f and Gamma = a (2 pi f)^2 / g; during a
-// change and the ramp these are the values of the moment.
+// change and the ramp these are the values of that instant.
 class DriveNow final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

@@ -153,8 +153,8 @@ void EnergyBalance::add_contact(std::int64_t step, const ContactView& c) {
 }
 
 // Energy that a tangential spring still held when its contact parted counts as friction. If a grain has left,
-// or an outlet has opened below it, this energy has left with it. The sum goes by rising keys, so it does not
-// depend on the order of the contacts.
+// or an outlet has opened below it, this energy has left with it. The energies are summed by rising keys, so
+// the sum does not depend on the order of the contacts.
 void EnergyBalance::end_contacts() {
     ended_.clear();
     for (std::size_t k = 0; k < before_.size(); ++k)
@@ -224,8 +224,8 @@ bool EnergyBalance::are_there(std::uint64_t key) const {
     return there(key >> 32) && (is_at_wall(key) || there(second));
 }
 
-// A grain may touch several glued grains of one face, so their numbers come behind those of the faces. It may
-// also touch a mesh in several places. These come behind the glued grains, in the order in which they are
+// A grain may touch several glued grains of one face, so these are numbered after the faces. It may also
+// touch a mesh in several places. These are numbered after the glued grains, in the order in which they are
 // shown.
 std::uint64_t EnergyBalance::key_at_wall(std::uint64_t first, const ContactView& c) {
     constexpr std::uint64_t most_places = 64;  // places of one grain at one mesh
@@ -237,7 +237,8 @@ std::uint64_t EnergyBalance::key_at_wall(std::uint64_t first, const ContactView&
     return of_mesh + shown_[of_mesh]++;
 }
 
-// The key of a contact. Grains count by id, because their indices change, and walls come behind all grains.
+// The key of a contact. It names grains by their ids, because indices change, and numbers walls after all
+// grains.
 std::uint64_t EnergyBalance::key(const ContactView& c) {
     const auto id = [&](std::int32_t index) { return static_cast<std::uint64_t>(grains_.id[index]); };
     const std::uint64_t first = id(c.first);

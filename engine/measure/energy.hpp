@@ -29,7 +29,7 @@ double wall_work(const Grains& grains);  // done by moving walls since the drive
 struct ContactSummary {
     double stored = 0;           // J
     double carrying = 0;         // number of contacts that carry force; a pair counts for both grains
-    double largest_overlap = 0;  // over the smaller radius
+    double largest_overlap = 0;  // as a share of the smaller radius
 };
 ContactSummary summarise_contacts(const StepLoop& loop, std::int64_t step);
 
@@ -77,13 +77,13 @@ class EnergyBalance {
     // Notes a step. Call it after every step with the step's number.
     void note(std::int64_t step);
 
-    // Saves and loads the whole state, bit by bit, to go on with the same grains and loop. The reading fails
-    // where save() could not have written what is read.
+    // Saves and loads the whole state, bit by bit, to go on with the same grains and loop. Reading fails for
+    // anything that save() cannot have written.
     void save(std::ostream& out) const;
     void load(Bytes& in);
 
     const EnergyTerms& terms() const { return terms_; }
-    // Energy (J) that the grains hold beyond the balance.
+    // Energy (J) that the grains hold beyond what the balance says.
     double residual() const {
         return terms_.held() + terms_.left - terms_.came - held_at_start_ - terms_.wall_work + terms_.lost();
     }
@@ -95,9 +95,9 @@ class EnergyBalance {
         double latched = 0, sideways = 0;  // J
         double rubbing = 0;                // W
     };
-    // A contact that touched at a step. Contacts stand in the order in which the loop shows them. From one
-    // step to the next few contacts come or go, so most are found right behind the one before, without a
-    // search in a map.
+    // A contact that touched at a step. Contacts are kept in the order in which the loop shows them. Few
+    // contacts come or go in a step, so most are found right after the contact found before, without a search
+    // in a map.
     struct Touching {
         std::uint64_t key;
         Kept kept;
@@ -127,7 +127,7 @@ class EnergyBalance {
     const double half_step_;                   // s
     std::vector<Touching> contacts_, before_;  // contacts at the last step noted, and at the one before it
     std::vector<char> goes_on_;                // whether each contact of before_ still touches
-    std::size_t place_ = 0;  // place in before_ behind the last contact that was found in order
+    std::size_t place_ = 0;  // place in before_ after the last contact that was found in order
     std::unordered_set<std::uint64_t> touching_;  // the keys of contacts_
     std::unordered_map<std::uint64_t, std::size_t>
         places_;  // places in before_, for contacts whose order has changed

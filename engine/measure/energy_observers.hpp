@@ -42,9 +42,9 @@ class Energies final : public Observer {
     double elastic_ = 0;  // J
 };
 
-// Observer of the terms of the energy balance. Each term is measured at the contacts, and none is the rest of
-// the others. The formulas are those of engine/measure/energy.hpp.
-// This observer looks at all contacts after every step, so a run takes several times as long.
+// Observer of the terms of the energy balance. Each term is measured at the contacts, and none is inferred
+// from the others. The formulas are those of engine/measure/energy.hpp. This observer looks at all contacts
+// after every step, so a run takes several times as long.
 class EnergyShares final : public Observer {
   public:
     static constexpr const char* instrument = "energy_balance";

@@ -19,7 +19,8 @@ constexpr double kTurnoverShare = 0.05;
 // steps of a free fall.
 constexpr double kRounding = 1e-8;
 constexpr std::int64_t kStepsPerLook = 200;
-constexpr double kFasterMeanwhile = 2;  // a grain hit by a heavy one may be so much faster at the next look
+constexpr double kFasterMeanwhile =
+    2;  // a grain hit by a heavy one may be this many times as fast at the next look
 
 std::string moment(const Clock& clock, std::int64_t step) {
     return fmt::format("step {} ({:.6g} s)", step, clock.time(step));
@@ -134,8 +135,8 @@ void check_way_of_a_step(const HealthLimits& limits, const Grains& grains, std::
                     grain_name(limits, grains, fastest_of(grains))));
 }
 
-// Checks that grains are in the box around a closed vessel, at rest. This costs almost nothing. The step
-// itself notices grains that cross a sheet.
+// Checks that grains are in the box around a closed vessel, in the vessel's own frame. This costs almost
+// nothing. The step itself notices grains that cross a sheet.
 void check_vessel(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                   std::int64_t step) {
     if (limits.vessel < 0) return;

@@ -15,10 +15,10 @@ namespace grainreel {
 
 struct HealthLimits {
     Clock clock;
-    double overlap = 1.0 / 3.0;                                   // largest overlap over the smaller radius
-    std::vector<std::string> species;                             // names, for messages
-    double safe_speed = std::numeric_limits<double>::infinity();  // m/s, relative speed of two grains:
-                                                                  // no impact below it overlaps so far
+    double overlap = 1.0 / 3.0;        // largest overlap, as a share of the smaller radius
+    std::vector<std::string> species;  // names, for messages
+    double safe_speed = std::numeric_limits<double>::infinity();       // m/s, relative speed of two grains:
+                                                                       // no impact below it overlaps so far
     double smallest_radius = std::numeric_limits<double>::infinity();  // m
     double wall_speed = 0;     // m/s, speed of the fastest wall with a motion of its own
     std::int32_t vessel = -1;  // number of the mesh that is closed around all grains, or -1
@@ -40,9 +40,9 @@ std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& 
 class EnergyWatch {
   public:
     // All values are in J. `energy` is the total energy, `work` the work done by walls so far, and `through`
-    // the sum of the sizes of all terms of both. Throws RunError if energy - work has risen too far above its
-    // lowest value so far. The limit is 5 % of the energy that was turned over and of the present motion,
-    // plus `allowance`, plus the possible rounding of the largest sum so far.
+    // the sum of the magnitudes of all terms of both. Throws RunError if energy - work has risen too far
+    // above its lowest value so far. The limit is 5 % of the energy that was turned over and of the present
+    // motion, plus `allowance`, plus the possible rounding of the largest sum so far.
     void check(double energy, double work, double through, double allowance, const HealthLimits& limits,
                const Grains& grains, std::int64_t step);
 

@@ -1,7 +1,7 @@
 // Observers measure. They look at the state of a run and do not change it.
 //
 // An observer is a class in the folder of its subject, beside the formulas that it uses (for example
-// bed/bed_observers.hpp). Its name stands in observer_list.hpp. Besides the virtual functions below it has
+// bed/bed_observers.hpp). Its name is listed in observer_list.hpp. Besides the virtual functions below it has
 //     static std::vector<ColumnGroup> columns(const Scene& scene);
 // which names its columns without a state, for the reader of scenes. An observer that is made only if the
 // scene asks for it (output.instruments or Scene::wishes) also has
@@ -91,7 +91,7 @@ class Observer {
     virtual void start(const ObservedState&) {}
     virtual void gather(const ObservedState&) {}
     // Saves everything that was gathered, bit by bit, for the checkpoint. load() takes the place of start().
-    // The reading fails where save() could not have written what is read.
+    // Reading fails for anything that save() cannot have written.
     virtual void save(std::ostream&) const {}
     virtual void load(const ObservedState&, Bytes&) {}
 };

@@ -1,5 +1,5 @@
 // Every observer of measures.csv, in the order of the columns. A new observer is a class beside its formula;
-// its include and its name come here.
+// its include and its name go here.
 //
 // Two files read this list. columns.cpp uses only static members of each observer, so it needs no step loop.
 // observers.cpp makes the observers.

@@ -21,7 +21,7 @@ const std::vector<ObserverEntry>& all_observers();
 
 class Observers {
   public:
-    // Makes the observers of `table` that are always made, and the instruments that scene.output names.
+    // Makes the observers of `table` that are always made, and the instruments that the scene asks for.
     Observers(const std::vector<ObserverEntry>& table, const Scene& scene, const Plan& plan);
 
     const std::vector<std::string>& names() const { return *names_; }
@@ -43,8 +43,8 @@ class Observers {
     // Calls the observers that gather at this step.
     void gather(const ObservedState& moment, const ShowContacts& show_contacts);
 
-    // Saves and loads the gathered data, for the checkpoint. The reading fails where save() could not have
-    // written what is read. Data of observers that are not made are skipped.
+    // Saves and loads the gathered data, for the checkpoint. Reading fails for anything that save() cannot
+    // have written. Data of observers that are not made are skipped.
     void save(std::ostream& out) const;
     void load(const ObservedState& moment, Bytes& in);
 

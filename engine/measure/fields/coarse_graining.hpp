@@ -1,8 +1,8 @@
-// Coarse-graining makes fields of the grains and contacts at many moments (Goldhirsch 2010, Granul. Matter
+// Coarse-graining makes fields from the grains and contacts at many moments (Goldhirsch 2010, Granul. Matter
 // 12, 239), and profiles of such fields. W is the kernel, sums go over grains i, and <> is the mean over
 // moments:
 //
-//   density            rho = < sum m_i W(r - r_i) >, of a solid fraction with the grains' volumes
+//   density rho = < sum m_i W(r - r_i) >; for the solid fraction, with volumes in place of masses
 //   velocity           V = < sum m_i v_i W > / < sum m_i W >
 //   granular temperature  T = < sum m_i |v_i - V_p|^2 W > / (3 < sum m_i W >)
 //   kinetic stress     < sum m_i (v_i - V_p) x (v_i - V_p) W >
@@ -85,7 +85,8 @@ class CoarseGraining {
     const FieldGrid& grid() const { return grid_; }
     const std::vector<double>& shares() const { return shares_; }  // share of each cell that is inside
 
-    // Adds a moment, with 0 <= phase < phases. The last bits depend on the order of grains and contacts.
+    // Adds the state of one moment, with 0 <= phase < phases. The last bits depend on the order of grains and
+    // contacts.
     void add(const FieldState& state, int phase);
     // Mean over all moments since the last clear(). All phases must have had equally many moments.
     CoarseFields mean() const;
@@ -93,8 +94,7 @@ class CoarseGraining {
     std::int64_t moments() const { return moments_; }
     std::size_t species() const { return species_; }
 
-    // Saves and loads all sums, bit by bit. The reading fails where save() could not have written what is
-    // read.
+    // Saves and loads all sums, bit by bit. Reading fails for anything that save() cannot have written.
     void save(std::ostream& out) const;
     void load(Bytes& in);
 

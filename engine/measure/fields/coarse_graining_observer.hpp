@@ -1,6 +1,6 @@
-// The observer of coarse-grained fields (density, velocity, temperature, stress): what they see of a moment,
-// their names and units, and their means over the records (stretches of time) of fields.nc. The formulas are
-// in coarse_graining.hpp.
+// The observer of coarse-grained fields (density, velocity, temperature, stress): what it takes from a moment
+// of a run, the fields' names and units, and their means over the records (stretches of time) of fields.nc.
+// The formulas are in coarse_graining.hpp.
 #pragma once
 
 #include <iosfwd>
@@ -15,7 +15,7 @@
 
 namespace grainreel {
 
-// The functions from here to field_contact() make the input of coarse-graining from a moment of a run.
+// The functions from here to field_contact() make the input of coarse-graining from the state at one moment.
 //
 // seen_from() is the pose relative to which places and velocities are given. It is the container's if the
 // drive moves the container, and that of the lab if the drive moves only the floor.
@@ -74,8 +74,8 @@ class FieldMeans {
     // Saves the sums of the present record, and the mean of a record that has just ended, because that may
     // not have been written yet.
     void save(std::ostream& out) const;
-    // The reading fails where save() could not have written what is read. Sums that were gathered with other
-    // settings are ignored, and gathering then waits for the next record.
+    // Reading fails for anything that save() cannot have written. Sums that were gathered with other settings
+    // are ignored, and gathering then waits for the next record.
     void load(Bytes& in);
 
   private:
@@ -108,7 +108,7 @@ class CoarseGrainedFields final : public Observer {
         for (std::size_t i = 0; i < m.grains.size(); ++i) state_.grains.push_back(field_grain(m, i));
     }
     void contact(const ObservedState& m, const ContactView& c) override {
-        // Latched springs and grains that part touch without a force.
+        // A latched spring, or a contact about to part, touches without a force.
         if (c.normal_force == 0 && c.tangential.isZero(0)) return;
         state_.contacts.push_back(field_contact(m, c));
     }

@@ -117,7 +117,7 @@ double area(const std::vector<Corner>& polygon) {
     return 0.5 * twice;
 }
 
-// Faces that are edge-on in the y-z plane.
+// Planes that are seen edge-on in the y-z plane.
 std::vector<Face> upright_faces(const Scene& scene) {
     std::vector<Face> faces = container_faces(scene.container, scene.drive);
     std::erase_if(faces, [](const Face& f) { return f.kind != Face::Kind::plane || f.normal.x() != 0; });
@@ -139,7 +139,8 @@ double quarter_area(double radius, double x, double y) {
     const auto under_arc = [&](double to) {
         return 0.5 * (to * std::sqrt(radius * radius - to * to) + radius * radius * std::asin(to / radius));
     };
-    const double corner = std::sqrt(radius * radius - b * b);  // up to this x the rectangle is lower
+    const double corner =
+        std::sqrt(radius * radius - b * b);  // up to this x the rectangle is lower than the arc
     return sign * (a <= corner ? a * b : corner * b + under_arc(a) - under_arc(corner));
 }
 

@@ -1,5 +1,5 @@
-// The grid on which fields are given. It follows the container: places are relative to the present middle of
-// its floor.
+// The grid on which fields are given, the kernels of coarse-graining, and the shares of cells inside the
+// container. The grid follows the container: places are relative to the present middle of its floor.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +59,7 @@ double kernel_value(FieldOutput::Kernel kind, double q);
 // Width (m) of the kernel for a grain of this radius, where the fields ask for `width`. It is at least the
 // radius, because a narrower kernel would give a solid fraction above 1 in the middle of the grain. From half
 // a diameter on fields hardly depend on the width (Goldenberg, Atman, Claudin, Combe & Goldhirsch 2006, Phys.
-// Rev. Lett. 96, 168001; Weinhart, Hartkamp, Thornton & Luding 2013), so each grain has a kernel of that
+// Rev. Lett. 96, 168001; Weinhart, Hartkamp, Thornton & Luding 2013), so each grain gets a kernel of its own
 // size. In density estimation these are called adaptive kernels (Silverman 1986, Density Estimation, section
 // 5.3).
 inline double kernel_width(double width, double radius) {

@@ -18,7 +18,7 @@ struct CellWeight {
 
 struct CellWay {
     std::int64_t cell;
-    Vec3 way;  // 1/m2
+    Vec3 way;  // 1/m2, the weight of a contact, a vector
 };
 
 // The weights are the kernel's values at the middles of the cells, scaled so that the sum of weight times

@@ -73,10 +73,10 @@ struct Estimate {
     double mean, error;
 };
 
-// Compares the place of each grain with its place four periods before. Four is a multiple of the 1, 2 and 4
-// periods after which beds repeat themselves, so that bouncing does not count as drift. Results are means
-// over the last windows of four periods, at most four of them. Errors are standard errors over these windows,
-// and NaN if there is only one. All results are NaN before the first window is over.
+// Measures drift by comparing the place of each grain with its place four periods before. Four is a multiple
+// of the 1, 2 and 4 periods after which beds repeat themselves, so that bouncing does not count as drift.
+// Results are means over the last windows of four periods, at most four of them. Errors are standard errors
+// over these windows, and NaN if there is only one. All results are NaN before the first window is over.
 class Drift {
   public:
     static constexpr int kPeriods = 4;  // periods of a window
@@ -99,7 +99,7 @@ class Drift {
     // Centre (m) of the roll in a half; y counts from the middle of the container, and z from its floor.
     RollCentre centre(Side half) const { return half == Side::left ? left_centre_ : right_centre_; }
 
-    // Everything it knows, for the checkpoint; the reading fails where save() could not have written it.
+    // Everything it knows, for the checkpoint. Reading fails for anything that save() cannot have written.
     void save(std::ostream& out) const;
     void load(Bytes& in);
 

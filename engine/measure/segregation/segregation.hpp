@@ -19,8 +19,8 @@ namespace grainreel {
 inline constexpr int kLaceySample = 32;
 
 // Mean number of grains of the rarer kind that a sample must have. With fewer there is no index. At this
-// number one sample in exp(3) = 20 has none of these grains by chance (Poisson). With fewer, samples of a
-// mixture would look like samples of a layer.
+// number one sample in exp(3) = 20 has none of these grains by chance (Poisson). With fewer grains, samples
+// of a mixture would look like samples of layers.
 inline constexpr double kLeastOfRareKind = 3;
 
 // The distribution of one kind of grain over samples of the bed. The samples have equal counts of grains,

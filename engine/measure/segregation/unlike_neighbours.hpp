@@ -1,4 +1,4 @@
-// Finds whether grains of different species are neighbours as often as by chance, and has the search for
+// Tells whether grains of different species are neighbours as often as by chance, and contains the search for
 // neighbours that this needs.
 #pragma once
 
@@ -18,9 +18,9 @@ inline constexpr double kNeighbourGap = 0.25;
 // have by chance. It is 0 if the species are apart, 1 if they are mixed at random, and above 1 if they
 // alternate in order. It is 1 - a, where a is the order parameter of alloys (Cowley 1950, Phys. Rev. 77,
 // 669). The atoms of an alloy have one size. Here sizes differ, and a large grain has more neighbours. So a
-// pair counts with the weight (r_i + r_j)^2: the centre of a grain j that touches i lies on a sphere of that
-// area, but for a factor. This weight is our own choice. For grains of one size all pairs have one weight,
-// and chance then means all ways to permute the labels.
+// pair counts with the weight (r_i + r_j)^2: the centre of a grain j that touches i lies on a sphere whose
+// area is proportional to this. This weight is our own choice. For grains of one size all pairs have one
+// weight, and chance then means all ways to permute the labels.
 //
 // `species` holds the species of the grain at each place, `gap` (m) is between surfaces, and `period` (m) is
 // the period of x, or 0 where x is not periodic. NaN without neighbours, or if all grains are of one species.

@@ -1,4 +1,5 @@
-// The surface of a bed across its container: h(y), the height of the topmost grains.
+// The surface of a bed across its container, h(y), the height of the topmost grains; and what it tells:
+// mounds, waves, and whether these repeat themselves.
 #pragma once
 
 #include <cstddef>
@@ -38,11 +39,10 @@ std::size_t bins_across(const SurfaceFrame& frame);
 // not count. A bin without any column takes the mean of the nearest bins. The result is empty without grains.
 BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
 
-// The frame in which the surface of a scene's bed is searched for.
 //
-// It is the frame of the container at rest, with its free width at the height that the grains fill. The size
-// of bins follows the mean diameter of all grains. It has no width in empty space, nor in a drum
-// (surface_observers.hpp).
+// The frame in which a scene's surface is searched for: that of the container at rest, with its free width at
+// the height that the grains fill. Bins are sized by the mean diameter of all grains. It has no width in
+// empty space, nor in a drum (surface_observers.hpp).
 SurfaceFrame surface_frame(const Scene& scene);
 
 // How far a surface is heaped up.
@@ -62,8 +62,9 @@ struct DominantWave {
     double share = 0;       // share of the surface's variance, 0 to 1
 };
 
-// The periodogram of a surface of N bins over the width W, its mean m taken off (Schuster 1898, Terr. Magn.
-// 3, 13), at half and whole numbers of waves across, because standing waves between two walls have both:
+// The periodogram of a surface of N bins over the width W, with its mean m subtracted (Schuster 1898, Terr.
+// Magn. 3, 13), at half and whole numbers of waves across, because standing waves between two walls have
+// both:
 //     H_k = sum over j of (h_j - m) exp(-i pi k (j + 1/2) / N),   wavelength 2 W / k.
 // It is a Fourier transform of twice the length, half of it zeros (by Eigen's KISS FFT). The dominant wave is
 // the largest |H_k| of those whose wavelength is at least four bins; and its share in the variance v is 2

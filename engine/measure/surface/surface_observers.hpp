@@ -26,12 +26,12 @@
 
 namespace grainreel {
 
-// Three perpendicular unit vectors: along the axis, across it to the side where the drum carries the bed up,
-// and upwards.
+// Three perpendicular unit vectors: along the axis, level across it to the side where the drum carries the
+// bed up, and upwards.
 struct DrumAxes {
     Vec3 along, across, up;
 };
-// Empty if the axis stands (within 30 degrees of gravity) or there is no gravity.
+// Empty if the axis is upright (within 30 degrees of gravity) or there is no gravity.
 std::optional<DrumAxes> drum_axes(const BodyTurn& turn, const Vec3& gravity);
 
 // The angle (rad) is above 0 if the bed is highest on the side where the drum carries it up. `diameter` (m)
@@ -81,7 +81,7 @@ class BedSurface final : public Observer {
 
     std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
     void start(const ObservedState& m) override { gather(m); }
-    // Keeps the surfaces of all rows of the last periods.
+    // Keeps the surfaces of all rows in the last eight periods.
     void gather(const ObservedState& m) override {
         if (m.clock.steps_per_period == 0 || !has_surface(m)) return;
         earlier_.push_back({m.step, surface_at(m).height});

@@ -1,4 +1,4 @@
-// Pressure and wear on the triangles of meshes, as fields.nc has them and as films show them.
+// Pressure and wear on the triangles of meshes, as in fields.nc and as films show them.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace grainreel {
 
-// Pressure and wear of one mesh, a number for each triangle, as drawn and as in fields.nc.
+// Pressure and wear of one mesh, with a number for each triangle.
 struct MeshWear {
     std::vector<double>
-        pressure;  // Pa, mean normal force over area since the last record began; NaN if not known
-    std::vector<double> wear;  // J/m2, work of rubbing over area since the drive started
+        pressure;  // Pa, mean normal force divided by area, since the last record began; NaN if not known
+    std::vector<double> wear;  // J/m2, work of rubbing divided by area, since the drive started
 };
 // The names of its fields. `name` is the name of the mesh as in face_names().
 std::string pressure_field(const std::string& name);

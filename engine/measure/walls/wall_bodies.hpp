@@ -15,7 +15,7 @@ namespace grainreel {
 
 // A wall, numbered as in the sums of walls: faces first, then meshes.
 struct WallBody {
-    std::size_t body = 0;  // number of its body; the container's for a tray
+    std::size_t body = 0;  // number of its body; for a tray, that of the container
     bool mesh = false;     // true for a mesh, false for a face
     bool fixed = true;     // whether it stays where it is, apart from the drive's motion of a face
     bool turns = false;    // whether it turns about `axis`, through `point`
@@ -27,7 +27,7 @@ std::vector<WallBody> wall_bodies(const Scene& scene);
 // Number of the mesh that is the scene's container; empty if there is none.
 std::optional<std::size_t> vessel_of(const Scene& scene);
 
-// Whether the container turns about an axis that does not stand, so that left, right and floor mean nothing.
+// Whether the container turns about an axis that is not vertical, so that left, right and floor mean nothing.
 bool turns_over(const Scene& scene);
 
 // The point (m, at rest) about which the moment of the grains on a mesh counts. It moves with the mesh.

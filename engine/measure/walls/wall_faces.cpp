@@ -27,7 +27,7 @@ double largest_radius(const Scene& scene) {
 int slices_of(const Scene& scene) {
     if (scene.container.shape == Container::Shape::none || scene.container.shape == Container::Shape::mesh)
         return 0;
-    if (scene.container.turn) return 0;  // no wall of it keeps standing
+    if (scene.container.turn) return 0;  // none of its walls stays upright
     const double slices = scene.container.height / (4 * largest_radius(scene));
     return static_cast<int>(std::clamp(std::round(slices), 1.0, double{kMostSlices}));
 }
@@ -101,7 +101,7 @@ namespace {
 
 constexpr double kLooksAPeriod = 128, kLooksARow = 64;
 
-// Whether the velocity of a body changes, or its rate of turning.
+// Whether the velocity or the spin of a body changes.
 bool is_unsteady(const Body& body, const Drive& drive) {
     const bool ramps =
         body.turn && (body.turn->from > 0 || body.turn->over > 0 || std::isfinite(body.turn->until));

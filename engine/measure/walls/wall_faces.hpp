@@ -42,12 +42,12 @@ class PressureProfile {
 // The work that walls do on the grains when they move by themselves: meshes that turn or move, and the faces
 // of a container that turns.
 //
-// A rigid wall on which the grains have the force F and about a point P of it the moment M gives them the
-// power -(F . v + M . w), where v is the velocity of P and w is the wall's spin. The impulses of F and M
-// between two looks are summed over every step (walls/wall_forces_observer.hpp). They are multiplied by the
-// means of v and w, so the work is exact as long as v and w are steady. A wall whose velocity changes is
-// looked at 128 times per period of the drive, or 64 times per row of measures.csv. The error is then of
-// second order in the time between two looks.
+// A rigid wall on which the grains exert the force F, and the moment M about a point P of the wall, gives
+// them the power -(F . v + M . w), where v is the velocity of P and w is the wall's spin. The impulses of F
+// and M between two looks are summed over every step (walls/wall_forces_observer.hpp). They are multiplied by
+// the means of v and w, so the work is exact as long as v and w are steady. A wall whose velocity changes is
+// looked at 128 times per period of the drive, or 64 times per row of measures.csv. Its work then has an
+// error of second order in the time between two looks.
 
 // Force (N) and moment (N m) of the grains on a wall between two moments, summed over the steps. Multiplied
 // by the step, they are impulses.

@@ -7,7 +7,7 @@
 // F_n, where s is the share of a step's force that the grains have felt by its end: 1/2 with velocity Verlet.
 // So the impulse of all walls is the change of the grains' momentum minus the impulse of gravity, except for
 // rounding (sums of eqs. 4 and 5 of Swope et al. 1982, J. Chem. Phys. 76, 637). Gear's method corrects places
-// and velocities by other weights and keeps this to the order of its step only.
+// and velocities with other weights, so with it this holds only to the order of the step.
 #pragma once
 
 #include <algorithm>
@@ -95,7 +95,7 @@ class WallForces final : public Observer {
         const std::vector<double> work = work_.until(m);
         for (std::size_t f = 0; f < from.faces.size(); ++f) {
             const WallSum all = sum_between(from.faces[f], m.wall_sums->faces[f], *m.wall_sums);
-            // This is NaN as long as there is no step to take the mean of.
+            // This is NaN until there is a step to average over.
             const Vec3 force = all.force / steps;
             Vec3 moment = all.moment / steps;
             const WallBody& wall = walls_.at(f);

@@ -15,13 +15,13 @@
 
 namespace grainreel {
 
-// The tally, triangle by triangle. A contact with the normal force N and the tangential force T on the mesh,
-// has the velocity u of the grain's surface relative to the mesh there. It presses with N. Impacts do the
-// work N max(0, u . n) dt, where n points into the mesh; this work compresses the bodies. Rubbing does the
-// work T . u dt. Contacts are looked at every second step, six times or more in a collision, and each look
-// counts for the steps since the one before. Archard's law makes wear proportional to the work of rubbing
-// over the area (J. F. Archard 1953, J. Appl. Phys. 24, 981, at a constant coefficient of friction). The work
-// of impacts causes erosion (I. Finnie 1960, Wear 3, 87).
+// The tally sums, triangle by triangle, what contacts do. A contact exerts the normal force N and the
+// tangential force T on the mesh; u is the velocity of the grain's surface relative to the mesh there. The
+// contact presses with N. Impacts do the work N max(0, u . n) dt, where n points into the mesh; this work
+// compresses the bodies. Rubbing does the work T . u dt. Contacts are looked at every second step, six times
+// or more in a collision, and each look counts for the steps since the look before. By Archard's law, wear is
+// proportional to the work of rubbing per area (J. F. Archard 1953, J. Appl. Phys. 24, 981, at a constant
+// coefficient of friction). The work of impacts causes erosion (I. Finnie 1960, Wear 3, 87).
 inline constexpr std::int64_t kLookSteps = 2;
 
 // One number for each triangle of one mesh, since the drive started.
@@ -165,7 +165,7 @@ class Wear final : public Observer {
         }
     }
 
-    // Names of the meshes, which face_names() has behind those of the faces.
+    // Names of the meshes, which face_names() gives after those of the faces.
     static std::vector<std::string> mesh_names(const Scene& scene) {
         const std::vector<std::string> names = face_names(scene);
         return {names.end() - static_cast<std::ptrdiff_t>(scene.meshes.size()), names.end()};
