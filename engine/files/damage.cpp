@@ -15,7 +15,6 @@ namespace {
 // No bed of grains reaches these limits, and code that draws can still compute with such numbers.
 constexpr double longest_time = 1e9;    // s
 constexpr double most_cycles = 1e15;    // periods of the drive
-constexpr double farthest = 1e6;        // m
 constexpr double largest_radius = 1e3;  // m
 constexpr double fastest = 1e6;         // m/s
 constexpr double fastest_spin = 1e12;   // rad/s
@@ -42,7 +41,7 @@ std::optional<std::string> grain_fault(const Frame& f, std::size_t i, std::size_
         return says(fmt::format("the type {} of {}", static_cast<std::int64_t>(f.species[i]) + 1, species));
     if (!(f.radius[i] > 0 && f.radius[i] <= largest_radius))
         return says(fmt::format("a radius of {:.3g} m", f.radius[i]));
-    if (!within(f.position[i], farthest))
+    if (!within(f.position[i], kFarthestPlace))
         return says(fmt::format("the position {} m", vector_text(f.position[i])));
     if (!within(f.velocity[i], fastest))
         return says(fmt::format("the velocity {} m/s", vector_text(f.velocity[i])));
@@ -62,7 +61,8 @@ std::optional<std::string> moment_fault(const Frame& f) {
     if (!within(f.cycles, most_cycles)) return fmt::format("it is {} periods after the start", f.cycles);
     if (!(f.phase >= 0 && f.phase <= 1)) return fmt::format("its phase is {:.3g} turns", f.phase);
     for (const BodyPose& body : f.bodies) {
-        if (!within(body.place, farthest)) return fmt::format("a wall is {} m off", vector_text(body.place));
+        if (!within(body.place, kFarthestPlace))
+            return fmt::format("a wall is {} m off", vector_text(body.place));
         if (!within(body.velocity, fastest))
             return fmt::format("a wall has the velocity {} m/s", vector_text(body.velocity));
         if (!within(body.spin, fastest_spin))

@@ -38,6 +38,9 @@ class Checksum {
     std::uint64_t sum_ = 0;
 };
 
+// No bed of grains reaches so far (m), and code that draws can still compute with such a coordinate.
+constexpr double kFarthestPlace = 1e6;
+
 // The first fault of a frame as text: "its time is nan s", "grain 12 has a radius of -1 m"; none when all
 // numbers are possible. moment_fault() looks at time, phase and poses, grains_fault() at the grains.
 // `species` is the number of species that there are.

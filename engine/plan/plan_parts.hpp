@@ -1,4 +1,5 @@
-// The parts of the plan: what the bed is like, the contacts' numbers, the step. Internal to make_plan.
+// The parts of the plan: what the bed is like, the contacts' numbers, the step. make_plan() puts them together;
+// what is handed over to another engine asks for contacts one by one.
 #pragma once
 
 #include <string>

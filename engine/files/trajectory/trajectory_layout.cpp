@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/bed.hpp"
@@ -15,7 +16,6 @@ namespace grainreel {
 
 namespace {
 
-constexpr double farthest = 1e6;  // m, the same as in damage.cpp
 constexpr const char *mesh_dimension = "mesh", *vertex_dimension = "vertex", *triangle_dimension = "triangle";
 
 // The meshes as they lie in the file, one after the other.
@@ -104,7 +104,7 @@ void check(const Flat& all, const std::filesystem::path& path, std::size_t bodie
     }
     if (3 * vertices != all.vertices.size() || 3 * triangle != all.triangles.size())
         damaged(path, "their counts do not add up");
-    const auto far = [](double x) { return !(std::abs(x) <= farthest); };
+    const auto far = [](double x) { return !(std::abs(x) <= kFarthestPlace); };
     if (std::any_of(all.vertices.begin(), all.vertices.end(), far)) damaged(path, "a vertex is no place");
 }
 
