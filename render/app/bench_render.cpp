@@ -121,8 +121,8 @@ double coverage(Renderer& renderer, const Frame& frame) {
     return static_cast<double>(covered) / (static_cast<double>(full.width) * full.height);
 }
 
-// Medians of the times of the drawing stages. Shadows and occlusion are part of a grain's light, so their
-// cost is the difference to a picture without them.
+// Medians of the times of the drawing stages. Shadows and occlusion are computed together with a grain's
+// light, so their cost is the difference from a picture without them.
 class DrawnStages {
   public:
     DrawnStages(const FilmedScene& scene, int threads) {

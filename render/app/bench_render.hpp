@@ -1,4 +1,4 @@
-// The case `render` of `grainreel bench`: measures the stages of drawing a bed at rest.
+// The case `render` of `grainreel bench`: measures how long the stages of drawing a bed at rest take.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Parses the command line: turns its words into a verb with its options. Here is also the table of verbs and
-// options from which man pages and completion for shells are written.
+// Parses the command line into a verb with its options. Here is also the table of verbs and options from
+// which man pages and completion for shells are written.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -28,7 +28,7 @@ struct CommandOption {
     std::string value;                // "DIR"; empty for a flag
     std::string about;                // one sentence or a few
     std::string group;                // heading in --help, "Options" unless the verb says otherwise
-    bool required = false;            // the verb does nothing without it
+    bool required = false;            // the verb cannot do without it
     bool repeated = false;            // may be given several times
     std::vector<std::string> values;  // the words that it takes; empty where any may come
 

@@ -1,4 +1,4 @@
-// The program: finds the verb, runs it, and makes the exit code of mistakes and failures.
+// The program: finds the verb, runs it, and turns mistakes and failures into exit codes.
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -16,7 +16,8 @@ namespace {
 
 constexpr int run_failed = 1, user_mistake = 2;
 
-// Does the work and returns its exit status. A mistake or failure that ends it is told, and gives the status.
+// Does the work and returns its exit status. If a mistake or failure ends it, calls tell() with the message
+// and returns the status for that.
 int status_of(const std::function<int()>& work, const std::function<void(const std::string&)>& tell) {
     try {
         return work();

@@ -1,5 +1,5 @@
-// The public pictures (grainreel/picture.hpp): scenes, frames and settings become those of the renderer. The
-// public header has types of its own; engine/library/internal.hpp goes between these and ours.
+// The public pictures (grainreel/picture.hpp): turns scenes, frames and settings into those of the renderer.
+// The public header has types of its own; engine/library/internal.hpp converts between them and ours.
 #include "engine/library/internal.hpp"
 
 #include "grainreel/picture.hpp"
@@ -120,7 +120,8 @@ std::string toml_text(const std::string& text) {
     return toml + '"';
 }
 
-// Film and colours that the settings say, read as those of a scene with these species and nothing else.
+// Sets film and colours by the settings, which are read as keys of a scene with these species and nothing
+// else.
 void take_settings(FilmedScene& scene, const std::vector<std::string>& settings) {
     std::string text = fmt::format("[film]\ntitle = {}\n", toml_text(scene.title));
     text += "[container]\nshape = \"none\"\n[run]\nduration = \"1 s\"\n";
@@ -135,7 +136,7 @@ void take_settings(FilmedScene& scene, const std::vector<std::string>& settings)
     scene.colours = said.colours;
 }
 
-// The scene of walls of one's own, which knows how far they reach.
+// The scene for walls that the caller gives, with the boxes of its meshes filled in.
 grainreel::Scene scene_with_walls(const grainreel::World& world) {
     grainreel::Scene scene = scene_of(world);
     for (SceneMesh& mesh : scene.meshes) {
@@ -160,7 +161,7 @@ FilmedScene plain_scene(const grainreel::Scene& scene, const grainreel::Frame& f
     return filmed;
 }
 
-// A painter holds one thread's worth of drawing; more than a few are of no use to one picture.
+// Threads of the software rasteriser: more than a few are of no use for one picture.
 int raster_threads() {
     return std::clamp(usable_processors(), 1, 8);
 }

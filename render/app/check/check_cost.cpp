@@ -1,4 +1,4 @@
-// What `check` says about the results of a run and their cost, and about the cost of a study.
+// Writes what `check` says about the results of a run and their cost, and estimates the cost of a study.
 #include "render/app/check/check_cost.hpp"
 
 #include <fmt/format.h>
@@ -35,12 +35,12 @@ std::string film_format_text(const Film& film) {
     return film.format == FilmFormat::png ? std::string("PNG pictures") : codec_of(film.format).words;
 }
 
-constexpr std::int64_t fewest_to_hand_over = 20000;  // grains; enough for four ranks
+constexpr std::int64_t fewest_to_hand_over = 20000;  // grains; enough for four ranks (processes of MPI)
 constexpr double long_run = 24 * 3600;               // s
 constexpr double much_faster = 3;
 
-// Says where the run is faster: here, or on as many ranks as its grains can use. Only for beds that are large
-// enough to be handed over.
+// Says whether the run would be much faster in another engine, on as many ranks as its grains can use. Only
+// for beds that are large enough to be handed over.
 void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& here, Listing& list) {
     const std::int64_t grains = scene.grains(), ranks = useful_ranks(grains);
     if (grains < fewest_to_hand_over) return;
@@ -135,8 +135,8 @@ void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<Se
 
 namespace {
 
-constexpr double usual_lattice = 1e7;  // grain-steps a second
-// Cost of the poster of a setting's first seed.
+constexpr double usual_lattice = 1e7;  // grain-steps a second: MachineFigures::lattice_one of a usual machine
+// What the poster of a setting costs, which is made for its first seed.
 constexpr double poster_seconds = 0.5, poster_bytes = 0.5e6;
 
 }  // namespace
@@ -146,7 +146,8 @@ void StudyEstimate::add_setting(const FilmedScene& scene, const Plan& plan) {
     if (settings_.empty()) {
         machine_.lattice_one = machine_.lattice_team = usual_lattice;
         if (measured_) {
-            // A team on all processors is measured too: it shares caches and clock rate, as the members will.
+            // A team on all processors is measured too: its threads share caches and clock rate as members
+            // will.
             machine_ = machine_figures(scene, plan, {jobs_, 1, 1, true}, films_);
             const int team = std::min(jobs_, machine_.processors);
             side_by_side_ =

@@ -16,11 +16,11 @@ struct MemberEstimate {
     double seconds = 0, bytes = 0;
 };
 
-// Give it each setting in its order by add_setting(), then ask for members.
+// Call add_setting() for each setting in its order, then ask for members.
 class StudyEstimate {
   public:
-    // measured: whether the speed of this machine is measured. Else that of a usual one is assumed, which is
-    // enough for comparing members.
+    // measured: whether the speed of this machine is measured. If not, that of a usual machine is assumed,
+    // which is enough for comparing members.
     StudyEstimate(int jobs, bool films, bool measured) : jobs_(jobs), films_(films), measured_(measured) {}
 
     void add_setting(const FilmedScene& scene, const Plan& plan);
@@ -33,7 +33,7 @@ class StudyEstimate {
     int jobs_;
     bool films_, measured_;
     MachineFigures machine_;
-    double side_by_side_ = 1;  // speed of one of several jobs over the speed of a single one
+    double side_by_side_ = 1;  // speed of one of several jobs, divided by the speed of a job that runs alone
     std::vector<MemberEstimate> settings_;
 };
 

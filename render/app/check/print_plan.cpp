@@ -97,7 +97,7 @@ PlanWords plan_words(const FilmedScene& scene, const Plan& plan) {
     return {list.lines(), contacts.str()};
 }
 
-// From here on the first chapter is printed, which is about the experiment: grains, container, drive.
+// From here on: the first chapter, which is about the experiment (grains, container, drive).
 
 namespace {
 

@@ -1,6 +1,6 @@
-// What `grainreel check` prints: the plan of a scene, chapter by chapter. Each chapter is a function declared
-// below. print_plan.cpp has the first one, about the experiment; check_model.cpp and check_cost.cpp have the
-// others.
+// What `grainreel check` prints: the plan of a scene, in chapters of lines about one subject. Each chapter is
+// a function declared below. print_plan.cpp has the first one, about the experiment; check_model.cpp and
+// check_cost.cpp have the others.
 #pragma once
 
 #include <fmt/ostream.h>
@@ -22,8 +22,8 @@ namespace grainreel {
 // the results will be and what it will cost. The warnings of the plan and the film come last.
 void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out);
 
-// The part of the plan in words that also holds for a finished run. Each line has a name and a text; the name
-// is empty when the line continues the one before. The table of contacts is in columns.
+// The lines of the plan that are also true of a finished run. Each has a name and a text; the name is empty
+// when the line continues the one before. The table of contacts is in columns.
 struct PlanWords {
     std::vector<std::pair<std::string, std::string>> lines;
     std::string contacts;

@@ -34,8 +34,8 @@ constexpr double seconds_to_start = 0.1;
 // s for a million pixels, used when no frame can be drawn for a measurement.
 constexpr double assumed_seconds = 0.02;
 
-// Drawing and encoding have a thread each, and more where there are processors for them. Two threads are not
-// twice as fast as one where their processors share a core, or the caches.
+// s of wall time for a frame. Drawing and encoding have a thread each, and more if there are processors for
+// them. Two threads are not twice as fast as one if their processors share a core or the caches.
 double film_wall(double processor_seconds, double drawing, const ThreadPlan& threads,
                  const MachineFigures& machine, int processors) {
     if (processors < 2) return processor_seconds;
@@ -171,8 +171,8 @@ constexpr int most_drawn = 48, least_drawn = 4;
 constexpr double patience = 1.5;  // s after which no further frame is begun
 constexpr std::int64_t most_grains = 200'000;
 constexpr double solid_fraction = 0.5;  // solid fraction of a shaken bed
-// A frame of a run takes less time than a frame of the stack, in which more grains are visible: 0.7 to 0.9 of
-// it for the scenes that come with the program.
+// The time for a frame of a run, divided by that for a frame of the stack, in which more grains are visible.
+// It is 0.7 to 0.9 for the scenes that come with the program.
 constexpr double run_over_stack = 0.8;
 
 double processor_seconds() {
@@ -326,8 +326,7 @@ std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& 
     const HeldSignals signals;  // signals wait until the film's folder is removed
     try {
         const Frame bed = stacked_bed(scene);
-        // The program's first film loads libraries and fonts, so it is not counted. A small picture keeps it
-        // short.
+        // The first film of the process loads libraries and fonts, so it is not counted.
         use_of_film(scene, threads, bed, 1, signals);
         // The time that a film takes before its frames is in both films, so it is not in their difference.
         const FilmUse setup = use_of_film(scene, threads, bed, 1, signals);

@@ -23,12 +23,12 @@ struct MachineFigures {
     double frame_seconds = 0;    // s of processor time to draw and encode a frame of one moment
     double frame_drawing = 0.5;  // share of it that is drawing
     int processors = 1;          // processors that the program may use
-    double gain_of_two = 2;      // speed of two threads over that of one, from 1 to 2
+    double gain_of_two = 2;      // speed of two threads divided by that of one, from 1 to 2
 };
 
 struct CostEstimate {
-    double grain_steps = 0;                          // with those of packing
-    double packing_share = 0;                        // share of packing in them
+    double grain_steps = 0;                          // including those of packing
+    double packing_share = 0;                        // the share of packing in grain_steps
     double engine_one = 0;                           // grain-steps a second of one thread, in this scene
     double packing_seconds = 0, engine_seconds = 0;  // on the planned threads
     std::int64_t frames = 0;

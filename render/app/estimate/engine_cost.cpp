@@ -26,8 +26,8 @@ namespace grainreel {
 
 namespace {
 
-// All numbers were measured by processor time (docs/notes/performance.md). These are the contacts of a grain
-// in a bed at rest.
+// All numbers here were measured by processor time (docs/notes/performance.md). The first are the contacts of
+// a grain in a bed at rest.
 constexpr double kAtRest = 4.5, kAtRestWithoutFriction = 5.8;
 // In a shaken bed some contacts (kThrown) remain at any strength. The others decrease exponentially with the
 // strength, at the rate kFallsOff.
@@ -36,12 +36,12 @@ constexpr double kThrown = 0.25, kFallsOff = 2.6;
 // Costs relative to a step of a grain of the lattice: a step of a grain without contacts, and what each
 // contact adds.
 constexpr double kGrain = 0.23, kGrainWithoutSpin = 0.115, kGrainOfGas = 0.15, kContact = 0.165;
-// A part of the cost is for new lists. They last for some time, so they last for more steps when steps are
-// short.
-constexpr double kLists = 0.1, kStepsOfLists = 5000;  // steps while a grain falls through its diameter
+// The part of a grain's cost that is for new lists of neighbours. Lists last for a certain time, so for short
+// steps they last more steps, and the cost is less than kLists.
+constexpr double kLists = 0.1, kStepsOfLists = 5000;  // for so many steps in which a grain falls its diameter
 constexpr double kStep = 4.2;                         // cost of a step without its grains
-constexpr double kLargeBedCost =
-    1.5;  // a bed that does not fit into the caches; from kSmallBed on they help less
+// For a bed that does not fit into the caches; from kSmallBed grains on these help less.
+constexpr double kLargeBedCost = 1.5;
 constexpr double kSmallBed = 2000;
 constexpr double kRow = 3.7;          // cost of a row of measures for each grain
 constexpr double kInstrument = 2.5;   // what an instrument adds to a row
@@ -122,8 +122,8 @@ double contacts_in_stage(const FilmedScene& scene, double at_rest, const DriveSt
     const double shaken =
         contacts_when_shaken(at_rest, level_along_gravity(scene, stage.frequency, stage.amplitude));
     if (stage.kind == DriveStage::Kind::vibrate) return shaken;
-    const double share =
-        std::min(1.0, 2 / (stage.frequency * stage.interval));  // the bed flies as long as a tap lasts
+    const double share = std::min(
+        1.0, 2 / (stage.frequency * stage.interval));  // a bed flies for the length of a tap after it
     return at_rest + share * (shaken - at_rest);
 }
 
@@ -162,7 +162,7 @@ double packing_cost(const FilmedScene& scene, const Plan& plan, double& steps) {
             kCalm * std::sqrt(mean_diameter(scene) / gravity) +
             (rubs(commonest(scene, plan)) ? kFalling : kFallingWithoutFriction) * std::sqrt(9.81 / gravity);
     if (plan.start.relaxes) {
-        // A bed that is relaxed is at rest soon after it has been stopped.
+        // A bed from a file that is relaxed comes to rest soon after its grains have been stopped.
         steps = static_cast<double>(braking_steps(plan)) + settling / plan.clock.step;
         return steps * (grains * dense + kStep);
     }

@@ -1,5 +1,6 @@
-// Estimates the work of the engine for a run. It is counted in steps of a grain of the lattice that the
-// machine is measured by (lattice_speed.hpp); each of its grains has six contacts and is at rest.
+// Estimates the work of the engine for a run, and keeps the measured speed of this machine. Work is counted
+// in steps of a grain in the lattice by which the machine is measured (lattice_speed.hpp); each grain there
+// has six contacts and is at rest.
 //
 // The cost of a grain's step depends on its number of contacts. A bed at rest has 4.5 contacts for each
 // grain, and so has a bed whose acceleration stays below gravity. A bed that is thrown up has fewer: 2.6 at
@@ -29,17 +30,15 @@ EngineCost engine_cost(const FilmedScene& scene, const Plan& plan);
 // Mean number of contacts of a grain over the run.
 double mean_contacts(const FilmedScene& scene, const Plan& plan);
 
-// How fast this machine computes and draws, measured once and kept in the cache folder.
-
 // How fast films of one look are made.
 struct FilmSpeed {
     double seconds = 0;    // s of processor time to draw and encode a frame of one moment
     double drawing = 0.5;  // share of it that is drawing
 };
 
-// The cache has a file for each processor, version and vector width in $XDG_CACHE_HOME/grainreel or
-// ~/.cache/grainreel. A file that is missing, damaged or of another kind counts as empty. When no file can be
-// written, nothing is kept.
+// How fast this machine computes and draws, measured once and kept in a file of $XDG_CACHE_HOME/grainreel or
+// ~/.cache/grainreel. There is one file for each processor, version and vector width. A file that is missing,
+// damaged or of another kind counts as empty. When no file can be written, nothing is kept.
 class SpeedCache {
   public:
     SpeedCache();  // reads the file

@@ -126,7 +126,7 @@ class Inspection {
             for (const std::string& line : lines) reporter.warning(line);
     }
 
-    // The settings, with one that makes contacts be read when the run kept them.
+    // The settings, with one added by which contacts are read, if the run kept them.
     Assignments sets_for_contacts(const fs::path& folder) const {
         std::error_code ignored;
         Assignments sets = asks_.sets;
@@ -211,8 +211,8 @@ class Inspection {
         return {std::move(snapshot), std::move(about)};
     }
 
-    // Throws when the question needs something that a run of another program does not have: nothing of it can
-    // be brought back.
+    // Throws when the question needs something that the files of another program lack. Their runs cannot be
+    // simulated again.
     void check_known(const AskedMoment& asked, const AskedRun& asked_run) const {
         if (asks_for_forces())
             throw UserError(

@@ -1,6 +1,6 @@
-// Does the work of the verb `inspect` once its options are read: opens the run, brings the moment back (by
-// simulating it again from a checkpoint) when that is necessary, and finds the answer. Each kind of question
-// is a function in engine/questions; this file only chooses the right one.
+// Does the work of the verb `inspect` once its options are read: opens the run, brings the moment back if it
+// was not kept (by simulating it again from a checkpoint), and finds the answer. Each kind of question is a
+// function in engine/questions; here the right one is chosen.
 #pragma once
 
 #include <cstdint>

@@ -36,9 +36,9 @@ Dimension dimension_of(const AnswerTable& table, std::size_t row, std::size_t co
     return own == Dimension::number && row < table.row_dimensions.size() ? table.row_dimensions[row] : own;
 }
 
-// The units of an answer: one for each dimension, the same in all tables. A unit fits the number half way, on
-// a logarithmic scale, between the largest number and the mean over the columns' largest numbers; and no
-// number has more than four digits before the point.
+// The units of an answer: one for each dimension, the same in all tables. It suits the geometric mean of two
+// numbers: the largest one, and the geometric mean of the largest ones of all columns. No number has more
+// than four digits before the point.
 class Units {
   public:
     explicit Units(const Answer& answer) {

@@ -22,7 +22,8 @@ namespace {
 constexpr auto terminal_interval = std::chrono::milliseconds(100);
 constexpr auto json_interval = std::chrono::milliseconds(500);
 constexpr auto pipe_interval = std::chrono::seconds(5);
-// A pipe gets the progress after this share of a stage when that is sooner, but not much sooner.
+// A pipe gets the progress earlier when this share of a stage has been done since the last time, but not
+// before pipe_shortest.
 constexpr double pipe_share = 0.1;
 constexpr auto pipe_shortest = std::chrono::seconds(1);
 
@@ -234,7 +235,7 @@ void print_exact(std::string_view text) {
 
 void close_results() {
     if (std::fflush(stdout) != 0) note_error();
-    // `inspect ... | head` has read what it wanted.
+    // EPIPE is no failure: a reader such as `head` has read what it wanted.
     if (first_error != 0 && first_error != EPIPE)
         throw RunError(fmt::format("stdout: cannot be written: {}", std::strerror(first_error)));
 }

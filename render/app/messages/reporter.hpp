@@ -1,6 +1,6 @@
-// All that the program says: results on stdout, and on stderr the messages and the progress. The progress
-// line is redrawn on a terminal and comes now and then in a pipe. The reporter also passes on that a signal
-// has asked the run to stop.
+// Prints all that the program says: results on stdout, messages and progress on stderr. The progress line is
+// redrawn on a terminal, and printed now and then into a pipe. The reporter also tells a run that a signal
+// has asked it to stop.
 #pragma once
 
 #include <chrono>
@@ -92,14 +92,14 @@ class ShareWatcher {
     std::chrono::steady_clock::time_point begin_;
 };
 
-// From here on are the results of the program: the folder that it made, a plan, figures, help.
+// From here on: the results of the program, such as the folder that it made, a plan, figures, help.
 
 // Prints a text of many lines. Control characters that came with a title or a name are made visible. A
 // failure to write is remembered for close_results().
 void print_result(std::string_view text);
 
-// Prints text that scripts use as it is, the name of a folder or a command. Control characters are made
-// visible on a terminal only.
+// Prints text that scripts use as it is, such as the name of a folder or a command. Control characters are
+// made visible on a terminal only.
 void print_exact(std::string_view text);
 
 // To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader

@@ -20,8 +20,8 @@ void install_stop_handlers(const std::string& last_words);
 int stop_signal();
 
 // While an object of this class exists, Ctrl-C, SIGTERM and SIGHUP wait, also in threads that are made
-// meanwhile. They take effect when it is destroyed. It is meant for short work that leaves nothing behind
-// only when it ends by itself.
+// meanwhile. They take effect when it is destroyed. It is meant for short work that would leave files behind
+// if it were killed.
 class HeldSignals {
   public:
     HeldSignals();

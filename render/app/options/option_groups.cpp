@@ -82,7 +82,7 @@ bool is_option(const std::string& word, const std::string& option, bool& value_f
     return value_follows || word.rfind(option + "=", 0) == 0;
 }
 
-// The command without the options that the script gives itself.
+// The words of the command without the options that the script adds itself.
 std::vector<std::string> words_of_part(const std::vector<std::string>& words) {
     std::vector<std::string> kept;
     for (std::size_t k = 1; k < words.size(); ++k) {
@@ -213,7 +213,7 @@ void add_file_keys(CLI::App& verb, Assignments& sets) {
         "Make the background transparent; for png and ffv1");
 }
 
-// Keys of a film's file and pace, which a single picture does not have.
+// Keys of a film's file and pace, which do not apply to a single picture.
 constexpr std::array of_film_file = {"film.format",   "film.quality", "film.preset",
                                      "film.max_size", "film.sheet",   "film.rate"};
 

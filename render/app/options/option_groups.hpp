@@ -29,7 +29,7 @@ void check_typed(const std::string& option, const std::string& text);
 // A check for options that name a file: an empty name, as from an unset shell variable, is refused.
 CLI::Validator not_empty();
 
-// --set: values that replace others.
+// --set: gives keys of the scene other values.
 void add_sets(CLI::App& verb, Assignments& sets, const char* about);
 // Keys of the film: --for, --format, --max-size, --sheet, --transparent, --size, --fps, --title; and
 // --threads.
@@ -54,13 +54,12 @@ std::filesystem::path output_base();
 
 // --dpi and --width-mm, for one picture for print.
 void add_print_size(CLI::App& verb, PrintSize& print);
-// Throws UserError when they are given for more than one picture. moment: the options that ask for one
+// Throws UserError when a print size is given for more than one picture. moment: the options that ask for one
 // picture.
 void check_print_size(const PrintSize& print, bool one_picture, const char* moment);
 // --no-cache, of a verb that runs scenes: packings are neither taken from the user's cache folder nor kept
-// there. shortest: packings that took at least this time (s) are kept. It becomes none with the option or
-// with GRAINREEL_PACKINGS=off, and 0 with GRAINREEL_PACKINGS=all. Throws UserError for another value of the
-// variable.
+// there. shortest: packings that took at least this time (s) are kept. The option and GRAINREEL_PACKINGS=off
+// empty it, and GRAINREEL_PACKINGS=all makes it 0. Throws UserError for another value of the variable.
 CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest);
 
 // Adds an option that is a time of a finished run in s.

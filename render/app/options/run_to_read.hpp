@@ -12,8 +12,7 @@
 namespace grainreel {
 
 // --columns, --radius, --time-step, --units, --species, --density, --contacts, --walls, --walls-scale,
-// --container,
-// --moves-with and --one.
+// --container, --moves-with and --one.
 void add_reading(CLI::App& verb, ReadingOptions& reading);
 // The name of one of these options that was given; empty for none.
 std::string given_reading(const ReadingOptions& reading);

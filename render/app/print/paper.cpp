@@ -27,8 +27,8 @@ double whole_points(double mm) {
     return std::round(mm / inch * points_an_inch);
 }
 
-// The `set terminal` command of gnuplot. Its letters and lines have sizes for a screen of 96 pixels an inch;
-// ours are in points of print.
+// The `set terminal` command of gnuplot. gnuplot gives letters and lines sizes for a screen of 96 pixels an
+// inch; ours are in points of print.
 std::string terminal(const std::string& form, const Paper& paper) {
     const double wide = whole_points(paper.width_mm), high = whole_points(paper.height_mm());
     constexpr double letters = points_an_inch / 96;

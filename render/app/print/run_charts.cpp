@@ -83,7 +83,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-// Names of the measures to draw for all runs: those with which their pages begin, or all that they have.
+// Names of the measures to draw for all runs: those that their pages show at first, or all that they have.
 std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::vector<std::string>& wanted) {
     std::vector<std::string> names;
     const bool all = wanted == std::vector<std::string>{"all"};

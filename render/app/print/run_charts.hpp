@@ -11,7 +11,7 @@
 namespace grainreel {
 
 // Draws a chart for each measure, with a line for each run, into `folder`, which is made. measures: columns
-// of measures.csv; none: those with which the runs' page begins; "all": all that have values. Beside each
+// of measures.csv; none: those that the runs' page shows at first; "all": all that have values. Beside each
 // chart lie its table, in SI units, and its commands. Returns the charts' files. Throws UserError for runs
 // without measures and for columns that they lack.
 std::vector<std::filesystem::path> draw_run_charts(const std::vector<std::filesystem::path>& runs,

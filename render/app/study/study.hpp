@@ -1,5 +1,6 @@
-// The data of a study: one scene is run again and again with other values of some of its keys, each run is
-// reduced to some numbers, and charts are made of them. docs/guide/studies.md tells how a study is written.
+// A study runs one scene again and again with other values of some of its keys, reduces each run to some
+// numbers, and draws charts of them. This header has its data. docs/guide/studies.md tells how a study is
+// written.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct Variation {
         std::string words;  // for people: 9 mm, or the variant's name
         std::string place;  // in the study file, for messages
         double number = 0;  // in the axis' unit; used when the axis is numeric
-        Assignments sets = {};  // values that a variant gives keys of the scene
+        Assignments sets = {};  // the values that a variant gives to keys of the scene
         Seeds seeds = {};       // seeds of a variant that has its own
     };
     std::string key;    // "drive.g_level"
@@ -91,9 +92,9 @@ struct Study {
 
 // Reduces a column to one number. This function and those below depend on times and values alone.
 //
-// times: s, rising. values: SI units, as many. The result is NaN when there is none: no row lies in the
-// window, or the threshold is not reached. Values that are NaN are left out; only for the value at the end
-// the last one counts even if it is NaN.
+// times: s, rising. values: SI units, as many. The result is NaN if no row lies in the window, or if the
+// threshold is not reached. Values that are NaN are left out, except by Kind::end, for which the last value
+// counts even if it is NaN.
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values);
 
 // The mean of rows that are all finite.
@@ -103,8 +104,8 @@ double deviation_of_values(const std::vector<double>& values);
 // The slope of the line of least squares, in 1/s times the value's unit: sum (t - mean t) (v - mean v) / sum
 // (t - mean t)^2. NaN for fewer than two different times.
 double slope_of(const std::vector<double>& times, const std::vector<double>& values);
-// The time in s at which the values, joined by straight lines, first reach the threshold. It is the first
-// time when they begin at the threshold.
+// The time in s at which the values, joined by straight lines, first reach the threshold. If the first value
+// is at the threshold, this is its time.
 double first_passage(double threshold, const std::vector<double>& times, const std::vector<double>& values);
 // The time in s at which the values cross the threshold for the last time; afterwards they stay on the side
 // where they end. A value on the threshold counts as above it.

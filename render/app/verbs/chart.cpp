@@ -1,4 +1,4 @@
-// The verb `chart` makes tables and pictures of experiments on the methods themselves.
+// The verb `chart` makes tables and pictures of experiments on the program's own methods.
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -170,7 +170,7 @@ std::vector<Finding> find_programs() {
     return {gnuplot};
 }
 
-// Findings about the letters that words on films always need, and about all others.
+// Findings about fonts: for the letters that words on films always need, and for those of other scripts.
 std::vector<Finding> find_letters() {
     std::vector<std::string> here, absent, packages;
     bool usual = true;

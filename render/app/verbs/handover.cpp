@@ -103,7 +103,7 @@ class Handover final : public Verb {
     }
 
   private:
-    // Checks that a folder which ours would replace is a hand-over and nothing else.
+    // Checks that a folder which would be replaced is a hand-over and nothing else.
     void check_replaceable() {
         std::error_code ignored;
         if (!folder_.out || !folder_.force || !fs::exists(*folder_.out, ignored)) return;

@@ -1,5 +1,5 @@
-// The verb `inspect`: its options for questions about a moment of a run, and the printing of the answer. The
-// answer is found in render/app/inspect/inspection.cpp.
+// The verb `inspect` answers questions about a moment of a run. Here are its options and the printing of the
+// answer, which render/app/inspect/inspection.cpp finds.
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>

@@ -33,8 +33,8 @@ namespace grainreel {
 
 namespace {
 
-// Shows the live page of a run that this process computes, by a process of its own. So visitors slow the run
-// no more than another program would, and the page needs nothing but the run's files.
+// A process of its own that shows the live page of the run which this process computes. So visitors slow the
+// run no more than another program would, and the page needs nothing but the run's files.
 class WatchChild {
   public:
     // Throws RunError when no process can be made.

@@ -30,7 +30,8 @@ namespace {
 
 constexpr int signal_base = 128;
 
-// Refuses segments for frames of the trajectory, which have a pace of their own.
+// Refuses values for the film's segments when frames of the trajectory are drawn, which have a pace of their
+// own.
 void check_no_segments(const Assignments& sets) {
     for (const Assignment& set : sets)
         if (set.key().rfind("film.segment", 0) == 0)
@@ -167,7 +168,7 @@ class Render final : public Verb {
         return 0;
     }
 
-    // Prints the script for Slurm. Mistakes for which every part would be refused are found here.
+    // Prints the script for Slurm, after checking for mistakes that would make every part fail.
     int tell_script(Reporter& reporter, RevisitedRun& source) {
         if (!film_.out) throw UserError("--slurm: the film needs a name; add --out film.mp4");
         if (!film_.film) throw UserError("--slurm: joins films; leave out --no-film");

@@ -1,5 +1,5 @@
-// The verb `report` makes one page for a browser from finished runs. Here is also how all verbs make the page
-// of a run.
+// The verb `report` makes one page for a browser from finished runs. Here are also the functions by which all
+// verbs make the page of a run.
 #include "render/app/verbs/report.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Settings with which frames come with the contacts that the run kept.
+// Settings by which frames come with the contacts that the run kept.
 Assignments with_contacts() {
     return {{"film.force_chains=true", "report"}};
 }

@@ -158,8 +158,8 @@ class Resume final : public Verb {
             folder.string()));
     }
 
-    // Whether a run has come to its end, should not be longer, and lacks nothing but its page. Older versions
-    // did not note that.
+    // Whether a run has come to its end, should not be longer, and lacks nothing but its page. run.json says
+    // so (lacks_only_page()); in runs of older versions it does not, and the files are looked at.
     bool is_only_page_missing(const fs::path& folder) const {
         if (until_ || more_ || !accept_.empty()) return false;
         const fs::path record = folder / "run.json";
@@ -204,7 +204,7 @@ class Resume final : public Verb {
     }
 
     // Applies changes of the scene from the checkpoint on. The checkpoint is saved again with the changed
-    // scene, so that later moments are brought back as they were.
+    // scene, so that moments after it are brought back as they were computed.
     void take_up(const std::vector<AcceptedChange>& changes, const fs::path& folder, FilmedScene& scene,
                  Plan& plan, ResumePoint& point, int threads) const {
         const double time = plan.clock.time(point.simulation.step());
@@ -227,8 +227,8 @@ class Resume final : public Verb {
         return with_film_warnings(scene, plan_of_run(scene, folder));
     }
 
-    // The scene with the end that is asked for and the values given with --accept. The values of `undone` are
-    // set before those.
+    // The scene with the end that is asked for and the values given with --accept, before which the values of
+    // `undone` are set.
     FilmedScene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
         const fs::path file = scene_file(folder);
         Assignments sets;

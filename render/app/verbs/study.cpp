@@ -168,7 +168,7 @@ class StudyVerb final : public Verb {
         const std::vector<const Member*> left = pending();
         std::size_t settings = 0;
         for (const Member& member : members_) settings = std::max(settings, member.setting + 1);
-        // Variants may have seeds of their own; then the number of members is no product.
+        // With variants the number of members is no product, since these may have seeds of their own.
         std::string reckoned = fmt::format("{} settings with their seeds", settings);
         if (!study.has_variants())
             reckoned = fmt::format("{} settings x {} seeds", settings, study.seed_count({}));
@@ -273,7 +273,7 @@ class StudyVerb final : public Verb {
         return failed > 0 ? 1 : 0;
     }
 
-    // Warns of missing numbers: they are left out of means, which then describe the other members only.
+    // Warns of members without a value: means leave them out, and then describe the other members only.
     void tell_gaps(const Study& study, Reporter& reporter) const {
         for (std::size_t i = 0; i < study.measures.size(); ++i) {
             const auto gaps = std::count_if(results_.begin(), results_.end(), [&](const MemberResult& r) {

@@ -63,7 +63,7 @@ std::vector<MemberFile> files_of(const Scene& scene) {
     return files;
 }
 
-// Throws for two members that are the same run. The error names the first value in which they differ.
+// Throws for two members that are the same run. The error names the first value that is written differently.
 [[noreturn]] void fail_for_twins(const Study& study, const Member& one, const Member& other) {
     std::string place = study.file.string();
     for (std::size_t i = other.at.size(); i-- > 0;)

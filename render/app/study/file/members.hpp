@@ -1,5 +1,5 @@
-// Makes the members of a study, which are its runs, and finds out which of its settings begin with the same
-// packing.
+// Makes the members of a study, which are its runs: one for each setting (values of the varied keys) and
+// seed. Also finds out which settings begin with the same packing.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ struct Member {
     std::optional<std::uint64_t> seed;
     Assignments sets;  // in this order: the study's own, the values, the start file, the seed
     std::vector<MemberFile> files;
-    // Name of its folder: a short description, and a hash of its scene with all values resolved. So a study
-    // that was changed finds the members that are still the same. The film does not count.
+    // Name of its folder: a short description, and a hash of its scene with all values resolved, but without
+    // the film. By the hash a study that was changed finds the members that are still the same.
     std::string name;
 };
 
@@ -66,7 +66,7 @@ class PackingSharing {
     std::string text() const;
 
   private:
-    // The limit for the settings that are looked at, since each costs some milliseconds.
+    // The most settings that are looked at, since each costs some milliseconds.
     static constexpr std::size_t kMost = 200;
 
     std::size_t settings_ = 0, packing_ = 0;  // settings that were looked at, and those of them that pack

@@ -1,4 +1,4 @@
-// Reads what a study measures, [[measure]], and which charts it draws of that, [[chart]].
+// Reads what a study measures, [[measure]], and which charts it draws, [[chart]].
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -85,7 +85,7 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
     study.measures.push_back(std::move(measure));
 }
 
-// From here on [[chart]] is read.
+// From here on: reading [[chart]].
 
 namespace {
 

@@ -21,9 +21,9 @@ Study read_study(const std::filesystem::path& file);
 // Gives the keys of a study file with their meanings, which docs/reference/studies.md lists.
 const std::vector<Key>& study_keys();
 
-// From here on are the functions that read the parts of a study file, in the order in which read_study()
-// calls them. Nobody else calls them. variations.cpp has those of seeds, variants and variations, and
-// read_measures.cpp has the others. Each throws UserError with the place of the mistake.
+// From here on: functions that read the parts of a study file, in the order in which read_study() calls them;
+// only read_study() does. variations.cpp has those of seeds, variants and variations, and read_measures.cpp
+// has the others. Each throws UserError with the place of the mistake.
 
 // Reads the seeds at that path, given as a number of seeds or a list; none when the key is absent.
 Seeds read_seeds(Document& document, const std::string& path);

@@ -128,7 +128,7 @@ void make_numeric(Variation& variation, const Key& key) {
     }
 }
 
-// From here on [[vary]] is read.
+// From here on: reading [[vary]].
 
 namespace {
 
@@ -138,7 +138,7 @@ std::string words_of(const std::string& toml) {
     return parsed["value"].value_exact<std::string>().value_or(toml);
 }
 
-// The key behind the path of a variation ("species.big.diameter"). Throws UserError, which begins with
+// The key that the path of a variation means ("species.big.diameter"). Throws UserError, which begins with
 // `place`, when the scene has no such key.
 const Key& key_of_scene(const std::string& scene_text, const std::filesystem::path& scene,
                         const std::string& path, const std::string& place) {
@@ -230,7 +230,7 @@ void read_variation(Document& document, const std::string& table, Study& study) 
     study.variations.push_back(std::move(variation));
 }
 
-// From here on seeds and [[variant]] are read.
+// From here on: reading seeds and [[variant]].
 
 namespace {
 

@@ -1,6 +1,5 @@
-// What a study varies: keys of the scene with their values, variants, and seeds. Here are the values of a
-// key, as they are written, as numbers of an axis, and in ranges. variations.cpp also has the functions of
-// read_study.hpp that read [[vary]], [[variant]] and seeds.
+// The values of a key that a study varies: as they are written, as numbers of an axis, and in ranges.
+// variations.cpp also has the functions of read_study.hpp that read [[vary]], [[variant]] and seeds.
 #pragma once
 
 #include <optional>
@@ -27,8 +26,8 @@ std::string toml_of(const WrittenNumber& value);
 
 struct ValueRange {
     std::string from, to;              // as TOML
-    std::optional<std::size_t> count;  // number of values, both ends included ......
-    std::string by;                    // ... or the distance between them; empty when there is none
+    std::optional<std::size_t> count;  // number of values, both ends included
+    std::string by;                    // in place of count: the distance between values; else empty
     bool logarithmic = false;          // equal ratios in place of equal distances
 };
 // The values of a range, each as TOML. Throws UserError, which says what is wrong with the range and what to

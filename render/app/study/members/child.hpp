@@ -1,4 +1,4 @@
-// Runs this program once more, as a process of its own, and reads what it says on stderr.
+// Runs this program once more, as a child process, and reads what that says on stderr.
 #pragma once
 
 #include <sys/types.h>

@@ -128,7 +128,7 @@ class Runner {
         }
     }
 
-    // Takes an event of --progress json. Other lines are no errors.
+    // Takes a line of the member's stderr: an event of --progress json, or an error in words.
     static void listen(Running& one, const std::string& line) {
         const Json event = Json::parse(line, nullptr, false);
         if (!event.is_object()) {
@@ -269,8 +269,8 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
                                    "1",       "--no-report"};
     if (!film) words.push_back("--no-film");
     if (!cache) words.push_back("--no-cache");
-    // Members get no checkpoints, since they are run again rather than brought back. A value that the study
-    // sets comes later and overrides this.
+    // Members keep no checkpoints, since their moments are not brought back: a member is rather run again. A
+    // value that the study sets comes later and overrides this.
     for (const char* word : {"--set", "output.checkpoints=none"}) words.emplace_back(word);
     for (const Assignment& assignment : member.sets) {
         words.push_back("--set");

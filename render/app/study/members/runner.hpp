@@ -1,10 +1,10 @@
-// Runs the members of a study side by side, each as a process of its own on one thread, and has the commands
-// and the folder with which they run.
+// Runs the members of a study side by side, each as a process of its own on one thread. Also makes the
+// commands that run them and the folder of the study.
 //
-// Why processes and not threads of this one: a member that runs out of memory or meets a bug ends alone; the
-// NetCDF library, which writes the trajectories, is not made for several threads; and --print-commands then
-// gives a cluster the same commands that run here. A process costs a tenth of a second, and a member takes
-// seconds at least. Both ways reach the same speed (docs/notes/performance.md#studies).
+// There are processes and not threads for three reasons: a member that runs out of memory or meets a bug ends
+// alone; the NetCDF library, which writes the trajectories, is not made for several threads; and a cluster
+// can get the same commands that run here (--print-commands). A process costs a tenth of a second, and a
+// member takes seconds at least. Both ways reach the same speed (docs/notes/performance.md#studies).
 #pragma once
 
 #include <filesystem>
@@ -22,12 +22,12 @@ namespace grainreel {
 struct StudyFolder {
     std::filesystem::path path;  // the folder's absolute path
 
-    // The path of the members' copy of the scene. They read a copy, so that editing the scene does not change
-    // members that are still to be run.
+    // Where the copy of the scene lies that members read. Since it is a copy, editing the scene does not
+    // change members that are still to be run.
     std::filesystem::path scene(const Study& study) const;
 
-    // The path of the members' copy of a mesh or a path. Two files with the same name can lie beside each
-    // other.
+    // Where the copy of a file of a mesh or path lies for the members. Two files with the same name can lie
+    // beside each other.
     std::filesystem::path copy_of(const MemberFile& file) const {
         return path / "meshes" / file.hash / std::filesystem::path(file.from).filename();
     }
@@ -42,8 +42,8 @@ struct StudyFolder {
 // Makes the folder with all that the commands need. Throws UserError when that cannot be done.
 void make_study_folder(const Study& study, const std::vector<Member>& members, const StudyFolder& folder);
 
-// These commands are lists of the words after the program's name. The first one runs a member on one thread.
-// Earlier files of the member are replaced.
+// The next two functions make commands as lists of the words after the program's name. This one runs a member
+// on one thread; earlier files of the member are replaced.
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
                                      bool film, bool cache);
 

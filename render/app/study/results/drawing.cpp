@@ -32,8 +32,8 @@ Look look_on(const Paper& paper) {
     return {lines_on(paper), 1, true};
 }
 
-// Number of lines of the longest name in the key. gnuplot lets names overlap unless they are set that far
-// apart.
+// Number of lines of the longest name in the key (the list of a chart's series). gnuplot lets names overlap
+// unless they are set that far apart.
 std::ptrdiff_t lines_of_key(const std::vector<ChartSeries>& series, const std::string& reference,
                             std::size_t letters) {
     const auto lines = [&](const std::string& name) { return std::ssize(wrapped(name, letters)); };

@@ -1,5 +1,5 @@
-// The points of a study's charts: means over seeds with their intervals, and points from elsewhere that are
-// drawn beside them.
+// The points of a study's charts: means over seeds with their 95 % intervals, and points from elsewhere
+// (another paper, an experiment) that are drawn beside them.
 #pragma once
 
 #include <filesystem>
