@@ -118,7 +118,7 @@ inline Palette palette_of(const Film& film) {
     return palette;
 }
 
-// The least alpha of a plate of the background's colour at which all words on it have a contrast of 4.5 (and
+// The least alpha of a plate of the background's colour at which all words on it have a contrast of 4.6 (and
 // a little more, for rounding), whatever is under the plate; 1 when no lower alpha is enough.
 inline double plate_strength(const Palette& palette) {
     for (double strength = 0.7; strength < 1; strength += 0.01) {
