@@ -285,7 +285,7 @@ TEST_F(StudyVerb, SharesPackings) {
                 HasSubstr("packings     settings that differ in the drive share no packing, since "
                           "radii grow while it moves"));
     const std::string shared = "\"start.method=rain\", \"contact.stiffness=700 N/m\", \"run.step=10 us\"";
-    EXPECT_THAT(dry(shared), HasSubstr("2 settings begin with 1 different packings"));
+    EXPECT_THAT(dry(shared), HasSubstr("2 settings begin with the same packing"));
     const Ended ended = run_program(
         words(write(replaced(text, "\"run.duration=0.1 s\"", "\"run.duration=0.1 s\", " + shared)),
               {"--jobs", "1"}),

@@ -176,6 +176,12 @@ void PackingSharing::add_setting(const Scene& scene, const Plan& plan) {
 
 std::string PackingSharing::text() const {
     if (packing_ < 2) return "";
+    if (packings_.size() == 1)
+        return fmt::format(
+            "{} settings begin with the same packing for each seed; it is made once, if it takes longer than "
+            "a "
+            "second, and found by those that start later",
+            packing_);
     if (packings_.size() < packing_)
         return fmt::format(
             "{} settings begin with {} different packings for each seed; each is made once, if it "
