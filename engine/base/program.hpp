@@ -1,4 +1,4 @@
-// Which build of the program runs, and the folder where it keeps what it can make again.
+// Which build of the program runs, and the folder for files that it can make again.
 #pragma once
 
 #include <cstdlib>

@@ -20,7 +20,7 @@ std::size_t letters_in(std::string_view text);
 
 constexpr std::size_t kExcerpt = 60;  // characters of a user's text in a message
 
-// The text for a message, with at most so many characters and "..." in place of the rest. Control characters
+// The text for a message, with at most `most` characters and "..." in place of the rest. Control characters
 // are written as in TOML, \u001b, and bytes that are not UTF-8 as \xff.
 std::string excerpt(std::string_view text, std::size_t most = kExcerpt);
 
@@ -50,7 +50,7 @@ inline void drop_byte_order_mark(std::string_view& text) {
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
 }
 
-// The name that somebody meant who mistyped it: the nearest of `names` to `word` by insertions, deletions,
+// The name that a mistyped `word` probably means: the nearest of `names` by insertions, deletions,
 // substitutions and swaps of neighbours (Damerau's distance). None where more than two letters and more than
 // a third of the word are wrong.
 std::optional<std::string> nearest_name(std::string_view word, const std::vector<std::string>& names);

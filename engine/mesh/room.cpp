@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-// Directions of the rays that are tried for the winding number. As soon as two rays agree, their answer
+// Directions of the rays that are tried for the winding number. As soon as two rays give the same answer, it
 // counts.
 constexpr std::array<int, 5> tried{1, 7, 11, 5, 14};
 

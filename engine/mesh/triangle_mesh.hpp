@@ -73,7 +73,7 @@ class EdgeTable {
 
   private:
     std::vector<std::size_t>
-        begins_;  // for each vertex, where the edges begin on which it is the lower vertex
+        begins_;  // for each vertex, the place of the first edge on which it is the lower vertex
     std::vector<EdgeSide> sides_;
 };
 

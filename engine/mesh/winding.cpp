@@ -119,7 +119,7 @@ class Winder {
     std::vector<std::int32_t>
         opposite_;  // the opposite side of each side; -1 if the edge does not have two triangles
     std::vector<std::int32_t> patch_of_;
-    std::vector<char> turned_;  // whether a triangle is turned against the first triangle of its patch
+    std::vector<char> turned_;  // whether a triangle is turned relative to the first triangle of its patch
 };
 
 }  // namespace

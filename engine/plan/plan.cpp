@@ -89,7 +89,7 @@ void plan_contacts(const Scene& scene, const BedPlan& bed, const StartFacts& fil
 }
 
 // Finds the largest overlap of all kinds of contact, and the usual one: the mean over contacts between
-// grains, or over those at walls where that is larger.
+// grains, or over those at walls if that is larger.
 void plan_overlaps(const Scene& scene, const BedPlan& bed, Plan& plan) {
     double between_grains = 0, at_walls = 0;
     std::string heaviest;  // the species whose grains land on others the hardest
@@ -149,7 +149,7 @@ void check_records(const Scene& scene, const Plan& plan, double every, const cha
 // Where the scene gives no interval, the time between records is a number of periods of the drive's present
 // stage.
 void go_by_periods(const Output& output, Plan& plan) {
-    const double mean = static_cast<double>(plan.steps) / plan.clock.cycles(plan.steps);  // steps a period
+    const double mean = static_cast<double>(plan.steps) / plan.clock.cycles(plan.steps);  // steps per period
     if (output.trajectory && !output.trajectory_interval) {
         plan.trajectory_periods = 1;
         plan.trajectory_every = mean;

@@ -1,5 +1,5 @@
-// How far grains fall, and how high they lie, before anything has been computed. Heights are along the
-// direction against gravity (z without gravity), from the scene's origin.
+// How far grains fall, and how high they lie, before anything has been computed. Heights are measured from
+// the scene's origin, in the direction opposite to gravity (z without gravity).
 #pragma once
 
 #include "engine/scene/scene.hpp"

@@ -1,5 +1,5 @@
-// The parts of the plan: what the bed is like, the contacts' numbers, the step. make_plan() puts them together;
-// what is handed over to another engine asks for contacts one by one.
+// The parts of the plan: what the bed is like, the contacts' numbers, the step. make_plan() puts them
+// together; what is handed over to another engine asks for contacts one by one.
 #pragma once
 
 #include <string>
@@ -54,11 +54,11 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair,
                         const std::vector<Touching>& sizes, double landing);
 
-// Whether impacts of this restitution lose so little that the gain of the contact corrections would count.
-// In an elastic impact the corrections gain (w dt)^4 / 20 of its energy, w^2 = K1 / m_eff, with w dt = pi /
-// 12 at 12 steps a contact (the onset in walton_braun_corrected-inl.hpp adds (w s)^4 / 4 at a touch s
-// before the force, s from 0 to dt). They are used where an impact loses twenty times that: 1 - e^2 >= (pi
-// / 12)^4, e < 0.9976.
+// Whether impacts of this restitution lose so little that the gain of the contact corrections would count. In
+// an elastic impact the corrections gain (w dt)^4 / 20 of its energy, w^2 = K1 / m_eff, with w dt = pi / 12
+// at 12 steps per contact (the onset in walton_braun_corrected-inl.hpp adds (w s)^4 / 4 if the grains touch a
+// time s before the force, s from 0 to dt). They are used where an impact loses twenty times that: 1 - e^2 >=
+// (pi / 12)^4, e < 0.9976.
 bool nearly_elastic(double restitution);
 
 // Number of steps in a free impact. At standard accuracy velocity Verlet then keeps the restitution within

@@ -1,4 +1,4 @@
-// The time step: short against every contact, and stable for a grain with twelve neighbours.
+// The time step: short compared with every contact, and stable for a grain with twelve neighbours.
 #include <fmt/format.h>
 
 #include <algorithm>

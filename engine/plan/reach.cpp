@@ -29,7 +29,7 @@ bool has_a_bed(const Scene& scene) {
            -scene.gravity.z() >= upright * gravity;
 }
 
-// How far (m) a drive throws the bed above where it rests.
+// How far (m) a drive throws the bed above its place at rest.
 double throw_height(const Scene& scene) {
     const Drive& drive = scene.drive;
     if (!drive.present) return 0;

@@ -200,7 +200,7 @@ std::vector<std::string> likely_slips(const Scene& scene) {
     return warnings.take();
 }
 
-// A stiffness that a run takes over from its start file may be less than its own drive wants.
+// A stiffness that a run takes over from its start file may be less than its own drive needs.
 
 namespace {
 

@@ -264,8 +264,7 @@ void warn_of_overlaps(const Plan& plan, Warnings& warnings) {
                                  plan.expected_overlap, plan.deepest, alarming_overlap, plan.usual_overlap));
 }
 
-// The speed (m/s) from which on grains of a kind pass through each other, for the sizes where it is
-// slowest.
+// The lowest speed (m/s), among all sizes, at which the grains of a kind of contact pass through each other.
 double tunnelling_speed(const ContactKind& kind) {
     double slowest = std::numeric_limits<double>::infinity();
     for (const Touching& t : extremes(kind.first, kind.other()))
@@ -298,7 +297,7 @@ void warn_of_softness(const BedPlan& bed, const Kinds& kinds, Warnings& warnings
             share, longest_text(kinds, false, lasts)));
 }
 
-// Warns of contacts that last too long against the shaking and against the flight of grains.
+// Warns of contacts that last too long compared with a period of the drive or with a grain's flight.
 void warn_of_long_contacts(const BedPlan& bed, const Kinds& kinds, Warnings& warnings) {
     const double at_walls = mean_over(kinds, true, [](const auto& kind) { return kind.mean_contact_time(); });
     if (bed.frequency * at_walls > alarming_turn)

@@ -144,7 +144,7 @@ struct Container {
     double half_width = 0;    // m, along y: y_max, at and above the slanted part; the radius of a cylinder
     double depth = 0;         // m, along x (front to back); unused by a cylinder
     double height = 0;        // m, from z = 0 (the floor) to lid or rim
-    double half_angle = 0;    // rad, slanted walls against the vertical; wedge only
+    double half_angle = 0;    // rad, between slanted walls and the vertical; wedge only
     double slant_height = 0;  // m, H: height of the slanted part; wedge only
     bool lid = true;
     std::optional<Outlet> outlet;  // empty: a closed floor
@@ -271,7 +271,7 @@ struct ListedGrain {
 struct Feed {
     std::size_t species = 0;
     double rate = 0;                      // 1/s
-    std::optional<std::int64_t> count;    // after so many grains it ends
+    std::optional<std::int64_t> count;    // the feed ends after so many grains
     double from = 0;                      // s
     std::optional<double> until;          // s; the run's end when empty
     Vec3 low{0, 0, 0}, high{0, 0, 0};     // m, corners of the box in which their centres appear

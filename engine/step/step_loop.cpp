@@ -132,8 +132,8 @@ void StepLoop::send_ahead(int member, bool goes_on, const KickInput& kicks) {
     members_[member].ahead = {begin, may ? lists_.end(member) : begin, kicks};
 }
 
-// Copies the grains of other threads as they are now. No thread may move a grain meanwhile, so barriers stand
-// before and after.
+// Copies the grains of other threads as they are now. No thread may move a grain meanwhile, so there is a
+// barrier before and after.
 void StepLoop::copy_foreign(int member) {
     if (team_.size() == 1) return;
     team_.barrier(member);

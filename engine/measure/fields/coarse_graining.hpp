@@ -2,7 +2,7 @@
 // 12, 239), and profiles of such fields. W is the kernel, sums go over grains i, and <> is the mean over
 // moments:
 //
-//   density rho = < sum m_i W(r - r_i) >; for the solid fraction, with volumes in place of masses
+//   density            rho = < sum m_i W(r - r_i) >; for the solid fraction, with volumes in place of masses
 //   velocity           V = < sum m_i v_i W > / < sum m_i W >
 //   granular temperature  T = < sum m_i |v_i - V_p|^2 W > / (3 < sum m_i W >)
 //   kinetic stress     < sum m_i (v_i - V_p) x (v_i - V_p) W >

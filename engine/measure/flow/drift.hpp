@@ -121,7 +121,7 @@ class Drift {
 
     SideWalls walls_;
     double half_width_ = 0;       // m, of the container
-    VelocityGrid cells_;          // empty
+    VelocityGrid cells_;          // the cells, all empty
     std::vector<Place2> before_;  // place of each grain by id; NaN for ids without a grain
     std::int64_t next_ = -1;      // period that ends the window
     std::deque<Window> windows_;

@@ -2,10 +2,10 @@
 // that turns (Drum), with the formulas for drums. The surface is that of surface.hpp, so grains in flight do
 // not count.
 //
-// In a drum the bed is seen along the axis. The angle of repose is that of the least-squares line through the
-// middle third of the surface against the horizontal, because away from the walls the surface is straight as
-// long as the bed rolls or cascades (Yamane, Nakagawa, Altobelli, Tanaka and Tsuji 1998, Phys. Fluids 10,
-// 1419; Orpe and Khakhar 2001, Phys. Rev. E 64, 031302).
+// In a drum the bed is seen along the axis. The angle of repose is that between the horizontal and the
+// least-squares line through the middle third of the surface, because away from the walls the surface is
+// straight as long as the bed rolls or cascades (Yamane, Nakagawa, Altobelli, Tanaka and Tsuji 1998, Phys.
+// Fluids 10, 1419; Orpe and Khakhar 2001, Phys. Rev. E 64, 031302).
 #pragma once
 
 #include <algorithm>

@@ -88,7 +88,7 @@ std::optional<std::size_t> vessel_of(const Scene& scene) {
 }
 
 bool turns_over(const Scene& scene) {
-    constexpr double kStands = 1 - 1e-6;  // cosine of the angle against the vertical
+    constexpr double kStands = 1 - 1e-6;  // cosine of the angle to the vertical
     const auto lies = [&](const std::optional<BodyTurn>& turn) {
         return turn && std::abs(turn->axis.normalized().z()) < kStands;
     };

@@ -19,7 +19,7 @@ struct alignas(64) FaceRecord {
 
 // The ends of a face; see Face. A face that does not end has no edge, no gap and two_sided = 0.
 struct alignas(64) FaceEnd {
-    Vec3 along;    // unit, across the lower edge; zero for none
+    Vec3 along;    // unit, perpendicular to the lower edge; zero without one
     double level;  // m, along . a point of the edge
     double out_x,
         out_y;         // 1 if this coordinate counts for the distance from the axis or from the gap, else 0

@@ -140,7 +140,7 @@ class Cells {
         double largest = 0;  // m, radius
         Grid grid;
         bool rising = false;  // indices rise in the grid's own order
-        bool leads = false;   // all grains stand in the order of this grid's boxes
+        bool leads = false;   // all grains are in the order of this grid's boxes
     };
     const std::vector<Level>& levels() const { return levels_; }
 

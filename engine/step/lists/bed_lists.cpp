@@ -278,8 +278,8 @@ void BedLists::load(Bytes& in, const Pose& now) {
     }
 }
 
-// A contact of two threads' grains stands in the tables of both. All patches of a mesh that a grain touches
-// take the same history.
+// A contact between grains of two threads is in the tables of both. All patches of a mesh that a grain
+// touches take the same history.
 void BedLists::take_histories(const HistoryOf& history_of) {
     for (Thread& thread : threads_) {
         for (std::size_t g = 0; g < thread.contacts.tables.size(); ++g) {

@@ -15,8 +15,8 @@
 
 namespace grainreel {
 
-// Brings the numbers of contacts into a new order. Most contacts that stood side by side still do so in the
-// new order, and are moved a block at a time.
+// Brings the numbers of contacts into a new order. Most contacts that were side by side still are in the new
+// order, and are moved a block at a time.
 class Reorder {
   public:
     void reserve(std::size_t contacts) {
@@ -69,7 +69,7 @@ class Reorder {
 
     const std::int32_t* order_ = nullptr;
     std::int32_t count_ = 0, unchanged_ = 0;  // the first `unchanged_` stay; a multiple of kBlock
-    std::vector<std::uint8_t> together_;      // whether the contacts of a block stood side by side
+    std::vector<std::uint8_t> together_;      // whether the contacts of a block were side by side before
     LargeArray<Line> room_;
 };
 

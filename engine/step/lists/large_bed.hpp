@@ -57,7 +57,7 @@ inline void look_ahead(const Grains& grains, bool rounded, const ContactTable& t
         return std::min(i + kAhead, static_cast<std::int32_t>(grains.size()));
     };
     const std::int32_t begin = later(table.first()[c]), end = later(table.first()[c + count - 1] + 1);
-    ahead.start(rounded ? 28 : 44);  // registers that a chunk takes on its way, all sweeps together
+    ahead.start(rounded ? 28 : 44);  // calls of fetch_some() for one chunk, in all sweeps together
     if (end - begin > kMost) return;
     ahead.add(grains.place, begin, end);
     ahead.add(grains.motion, begin, end);

@@ -37,7 +37,7 @@ struct Scheme {
 // leapfrog: as the original program has it, velocities half a step behind the positions.
 // position_verlet: Tuckerman et al. 1992, J. Chem. Phys. 97, 1990; forces at the middle of the step.
 // forest_ruth: of fourth order for smooth forces, the optimised form of Omelyan, Mryglod & Folk 2002, Comput.
-//   Phys. Commun. 146, 188 (PEFRL, position form); four forces a step, some drifts backwards.
+//   Phys. Commun. 146, 188 (PEFRL, position form); four force evaluations per step, some drifts backwards.
 // gear: four-value predictor-corrector (Gear 1971; Allen & Tildesley, Computer Simulation of Liquids, app.
 // E).
 inline Scheme scheme_of(Integrator integrator) {
