@@ -1,5 +1,6 @@
-// How far grains fall, and how high they lie, before anything has been computed. Heights are measured from
-// the scene's origin, in the direction opposite to gravity (z without gravity).
+// How far grains fall and how high they lie, before anything has been computed; and where the grains of rain
+// appear. Heights are measured from the scene's origin, in the direction opposite to gravity (z without
+// gravity).
 #pragma once
 
 #include "engine/scene/scene.hpp"
@@ -26,8 +27,6 @@ double start_drop(const Scene& scene, double depth);
 
 // How far (m) grains fall from the container, or from their start region, to a mesh further below.
 double drop_below(const Scene& scene);
-
-// Rain: where above the bed its grains appear, and how many per second.
 
 // The layer in which grains appear: lowest and highest height (m) of their centres above the bed's surface.
 struct RainLayer {

@@ -1,5 +1,6 @@
-// When fields are measured. A moment is a step at which they are measured; a record is the mean of many
-// moments, over whole periods of the drive.
+// Times that a plan counts in steps: when fields are measured (FieldTimes), events that come again and again
+// (Rhythm), and the clock of a drive. A moment is a step at which fields are measured. A record is the mean
+// of many moments, over whole periods of the drive.
 #pragma once
 
 #include <algorithm>

@@ -22,7 +22,7 @@ namespace grainreel {
 // Natural cubic splines: the curve through points at rising times whose second derivative is continuous, and
 // zero at both ends. de Boor 1978, A Practical Guide to Splines, ch. IV.
 
-// value = c0 + c1 s + c2 s2 + c3 s3, with s the time since the piece's beginning. V is a vector of fixed
+// value = c0 + c1 s + c2 s^2 + c3 s^3, with s the time since the piece's beginning. V is a vector of fixed
 // size.
 template <class V>
 struct CubicPiece {
