@@ -39,8 +39,8 @@ constexpr std::int64_t fewest_to_hand_over = 20000;  // grains; enough for four 
 constexpr double long_run = 24 * 3600;               // s
 constexpr double much_faster = 3;
 
-// Says whether the run would be much faster in another engine, on as many ranks as its grains can use. Only
-// for beds that are large enough to be handed over.
+// Says how long the run would take in other engines, on as many ranks as its grains can use, and whether it
+// should be handed over to one. Only for beds that are large enough for that.
 void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& here, Listing& list) {
     const std::int64_t grains = scene.grains(), ranks = useful_ranks(grains);
     if (grains < fewest_to_hand_over) return;

@@ -19,8 +19,8 @@ using OnePixel = hn::CappedTag<std::uint32_t, 1>;
 
 constexpr int kBits = 16;  // bits of a share's fraction
 
-// How a code is made: the shares of the three colours (219 or 224 codes stand for 255 levels), and the code
-// of black or grey.
+// How a code is computed: the shares of the three colours (219 or 224 codes stand for 255 levels), and the
+// code `zero` of black or grey.
 struct Share {
     int red, green, blue, zero;
 };
@@ -81,7 +81,8 @@ void luma_row(const std::uint8_t* pixels, const Columns& columns, std::uint8_t* 
     for (; x + lanes <= columns.end; x += lanes) {
         hwy::Prefetch(
             pixels +
-            4 * (x + 512));  // another processor has just drawn these pixels: this takes 0.8 of the time
+            4 * (x +
+                 512));  // the pixels were just drawn by another processor; fetched early, 0.8 of the time
         luma(d, pixels + 4 * x, to + x);
     }
     for (; x < columns.end; ++x) luma(OnePixel(), pixels + 4 * x, to + x);
@@ -189,7 +190,7 @@ void to_bt709(const Picture& picture, const Rectangle& part, const YuvPlanes& to
     GRAINREEL_CHECK(picture.width > 0 && picture.width % 2 == 0 && picture.height % 2 == 0);
     const auto even = [](int at) { return at / 2 * 2; };
     const int x = even(std::max(part.x, 0)), y = even(std::max(part.y, 0));
-    // The chroma of the column behind the part also depends on the part's last column.
+    // The chroma of the column to the right of the part also depends on the part's last column.
     const int right = std::min(even(part.x + part.width + 2), picture.width);
     const int bottom = std::min(even(part.y + part.height + 1), picture.height);
     if (x < right && y < bottom) HWY_DYNAMIC_DISPATCH(convert)(picture, {x, y, right - x, bottom - y}, to);

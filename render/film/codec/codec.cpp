@@ -13,8 +13,8 @@ namespace grainreel {
 
 namespace {
 
-// A fragment or cluster holds half a second of film at most, so that no more waits for it to be complete. Its
-// header has some hundred bytes.
+// A fragment or cluster is written when it is complete. It holds half a second of film at most, so that no
+// more than that waits in memory. Its header has some hundred bytes.
 const FilmContainer mp4{
     "mp4",
     {{"movflags", "frag_keyframe+empty_moov+default_base_moof"}, {"frag_duration", "500000"}},
@@ -148,13 +148,13 @@ OpenCodec open_codec(const Codec& codec, const CodecSettings& settings) {
 
 namespace {
 
-// Key frames are half a second apart at most: seeking in a film takes as long as decoding the frames since
-// the last key frame.
+// Key frames are half a second apart at most, because seeking in a film takes as long as decoding the frames
+// since the last key frame.
 int key_frame_distance(const CodecSettings& settings) {
     return std::max(1, static_cast<int>(av_q2d(settings.rate) / 2));
 }
 
-// A killed run loses above all the frames that the encoder holds back. These are a third of a second at most.
+// Of its film a killed run loses mainly the frames that the encoder holds back: a third of a second at most.
 int look_ahead(const CodecSettings& settings) {
     return std::min(10, static_cast<int>(av_q2d(settings.rate) / 3));
 }
@@ -162,8 +162,8 @@ int look_ahead(const CodecSettings& settings) {
 constexpr std::array<const char*, 10> presets{"ultrafast", "superfast", "veryfast", "faster",   "fast",
                                               "medium",    "slow",      "slower",   "veryslow", "placebo"};
 
-// Finds the preset among the known ones. For an unknown preset x264 would print to the terminal itself, past
-// FFmpeg's log.
+// Finds the preset among the known ones, because x264 would complain of an unknown preset on the terminal
+// itself, past FFmpeg's log.
 std::size_t preset_number(const std::string& preset) {
     const auto found = std::find(presets.begin(), presets.end(), preset);
     if (found == presets.end())
@@ -172,8 +172,8 @@ std::size_t preset_number(const std::string& preset) {
     return static_cast<std::size_t>(found - presets.begin());
 }
 
-// The crf of a codec whose scale runs from 0 to 63: `at_23` looks like x264's crf 23, and 1.5 times the steps
-// make up for the longer scale.
+// The crf of a codec whose scale runs from 0 to 63. `at_23` is the one that looks like x264's crf 23; steps
+// are 1.5 times as large, since the scale is longer.
 int crf_alike(int quality, double at_23) {
     return std::clamp(static_cast<int>(std::lround(at_23 + 1.5 * (quality - 23))), 1, 63);
 }
@@ -214,11 +214,11 @@ std::string set_up_x264(AVCodecContext& codec, AvOptions& options, const CodecSe
     };
     // With the default preset, motion is searched to half a sample only. This takes 28 % less work and makes
     // files 6 % larger. The quality stays about the same: the SSIM of the default film is 27.9 dB instead of
-    // 28.5 dB, that of films at one phase is 24.6 dB either way.
+    // 28.5 dB, and that of films locked to one phase is 24.6 dB either way.
     if (settings.preset == "veryfast") add("subme=1");
     if (av_q2d(settings.rate) < 15) {
-        // In slow films no frame is held back. x264's search for B-frames, in a thread of its own, would hold
-        // back frames too.
+        // At such low rates no frame is held back. x264's search for B-frames in a thread of its own would do
+        // that too, so it is off.
         codec.max_b_frames = 0;
         options.set("rc-lookahead", "0");
         add("sync-lookahead=0");
@@ -242,8 +242,8 @@ std::string set_up_x264_lossless(AVCodecContext& codec, AvOptions& options, cons
     return "lossless";
 }
 
-// OpenH264 has no constant quality. Instead it gets a rate: 0.1 bits a pixel at crf 23, and half as many for
-// every 6 of crf more.
+// OpenH264 has no constant quality, so it gets a rate: 0.1 bits a pixel at crf 23, and half as many for a crf
+// that is higher by 6.
 std::string set_up_openh264(AVCodecContext& codec, AvOptions&, const CodecSettings& settings) {
     const double pixels = static_cast<double>(settings.width) * settings.height * av_q2d(settings.rate);
     codec.gop_size = key_frame_distance(settings);

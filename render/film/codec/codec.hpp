@@ -11,10 +11,10 @@
 
 namespace grainreel {
 
-// The highest film.quality (crf of x264) at which every small digit on a frame can be read. It was measured
-// on 251 frames of the moving wedge, in windows of one digit each: how many digits looked more like another
-// digit than like themselves? At 640x360 none did at 24, 0.05 % at 26, 0.2 % at 28 and 15 % at 34; at
-// 1280x720 it was none, 0.01 %, 0.05 % and 2 % (the last one at 32).
+// The highest film.quality (crf of x264) at which every small digit on a frame can be read. Measured on 251
+// frames of the moving wedge as the share of digits that look more like another digit than like themselves.
+// At 640x360 it is 0 at quality 24, 0.05 % at 26, 0.2 % at 28 and 15 % at 34; at 1280x720 it is 0 at 24, 0.01
+// % at 26, 0.05 % at 28 and 2 % at 32.
 constexpr int least_legible = 24;
 
 struct CodecSettings {
@@ -24,9 +24,9 @@ struct CodecSettings {
     std::string preset = "veryfast";
     int threads = 1;  // the bits may depend on it, so it is never left to the machine
     bool alpha = false;
-    // 0: a single pass of constant quality. 1 and 2: two passes over the same clip. The first pass notes what
-    // the second one needs to reach `bit_rate`; `log` names the file of these notes, or, for encoders without
-    // such a file, is their text.
+    // 0: a single pass of constant quality. 1 and 2: two passes over the same pictures. The first pass notes
+    // what the second one needs to reach `bit_rate`; `log` is the name of the file with these notes or, for
+    // encoders without such a file, their text.
     int pass = 0;
     std::int64_t bit_rate = 0;  // bits/s; 0: constant quality
     std::string log;
@@ -61,8 +61,8 @@ struct Codec {
 
 // The codec of a format. The format png has none, since it makes no single file.
 const Codec& codec_of(FilmFormat format);
-// Codecs for the exact copy of a film that is encoded only when it is complete. The first one stores the
-// pixels that H.264 and VP9 take, the second one the pictures themselves.
+// Codecs for the exact copy ("spool") of a film that is encoded only when all its pictures are there. The
+// first stores the pixels that H.264 and VP9 take, the second the pictures themselves.
 const Codec& spool_of_yuv();
 const Codec& spool_of_rgb();
 

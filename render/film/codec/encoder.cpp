@@ -118,8 +118,8 @@ void Encoder::add(AVFrame& frame) {
     ++frames_;
 }
 
-// Each group gets an encoder of its own: what an encoder keeps from group to group (its rate control) would
-// change the bits.
+// Each group of frames (FilmWriter::begin_group()) gets an encoder of its own, because the rate control that
+// an encoder keeps from group to group would change the bits.
 void Encoder::begin_group() {
     check_open();
     if (frames_ == group_) return;
@@ -152,7 +152,7 @@ void Encoder::write(AVPacket& packet) {
 void Encoder::close() {
     if (frames_ > group_) encode(nullptr);  // without frames SVT-AV1 would wait for the first one for ever
     int code = av_write_trailer(file_.get());
-    if (frames_ == 0) code = std::max(code, 0);  // the GIF muxer then fails, as it has nothing to end
+    if (frames_ == 0) code = std::max(code, 0);  // without frames the GIF muxer fails, which does not matter
     if (code >= 0) code = avio_closep(&file_->pb);
     if (code < 0) fail(code);
     file_.reset();

@@ -1,6 +1,6 @@
-// Encodes pictures as a film of one codec. While the film is written its file consists of short fragments or
-// clusters, so that a killed process leaves a film that plays up to its last 2 s; finish() turns it into a
-// file with its index in front, where the container has such a form.
+// Encodes pictures as a film of one codec. While it is written, its file consists of short fragments or
+// clusters, so that a killed process leaves a film that plays and lacks 2 s at most. finish() turns it into a
+// file with its index in front, if the container has such a form.
 #pragma once
 
 #include <cstdint>
@@ -67,8 +67,7 @@ class Encoder final : public FilmWriter {
   public:
     // Creates the file. Throws RunError when it cannot be written or there is no encoder.
     explicit Encoder(const EncoderSettings& settings);
-    // Without finish() before: writes the pictures that were added and leaves the film as it was written; it
-    // plays.
+    // If finish() was not called: writes the pictures that were added and leaves the film as it is; it plays.
     ~Encoder() override;
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;

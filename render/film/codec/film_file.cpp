@@ -91,8 +91,8 @@ int open_output(const AVFormatContext& input, const std::filesystem::path& path,
 int copy_packets(AVFormatContext& input, AVFormatContext& output) {
     const PacketPtr packet(av_packet_alloc());
     if (!packet) return AVERROR(ENOMEM);
-    // The first picture may come some frames late in the order of coding. A fragmented file cannot say so;
-    // the new file can.
+    // The first picture may be shown some frames after the time 0 of coding. A fragmented file cannot note
+    // this delay; the new file can.
     std::int64_t start = AV_NOPTS_VALUE;
     int code = 0;
     while ((code = av_read_frame(&input, packet.get())) >= 0) {

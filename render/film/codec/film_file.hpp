@@ -35,8 +35,8 @@ class FilmReader {
 // Counts the complete pictures in a film without decoding them. Throws RunError when the file is no film.
 std::int64_t pictures_in(const std::filesystem::path& film);
 
-// Copies the film's packets to `path`.part, syncs it and renames it over `path`. Throws RunError, naming the
-// file and the reason, and leaves the film as it grew.
+// Copies the film's packets to `path`.part, syncs it and renames it to `path`. When that fails, throws
+// RunError with the file and the reason, and leaves the film as it was written.
 void remux_for_streaming(const std::filesystem::path& path, const FilmContainer& container);
 
 // Syncs `from` to disk and renames it to `to`. Returns 0 or a negative error of FFmpeg.

@@ -54,7 +54,7 @@ std::unique_ptr<FilmWriter> make_film_writer(const FilmedScene& scene, const Fil
 namespace {
 
 constexpr double in_hand = 0.9, bytes_by_pixels = 0.7;
-constexpr int least_height = 240;  // below this height words are too small to be read
+constexpr int least_height = 240;  // in lower pictures words are too small to be read
 constexpr std::int64_t least_frames = 10;
 
 int even_below(double pixels) {

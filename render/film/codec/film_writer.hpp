@@ -14,14 +14,14 @@ namespace grainreel {
 
 class FilmWriter {
   public:
-    // Without finish() before: the pictures that were added are on disk, in a form that plays where the
+    // If finish() was not called: leaves the pictures that were added on disk, in a form that plays if the
     // format allows it.
     virtual ~FilmWriter() = default;
 
     // Adds a picture. Throws RunError, naming the file and the reason, when writing fails.
     virtual void add(const Picture& picture) = 0;
-    // The pictures from here on are coded as if a film began with them, so that films which were cut here can
-    // be joined. Throws RunError as above, and where the format has no such groups.
+    // Codes the pictures from here on as if a film began with them, so that parts of a film that was cut here
+    // can be joined. Throws RunError as above, and if the format has no such groups.
     virtual void begin_group();
     // Completes the film under its final name. Throws RunError as above.
     virtual void finish() = 0;

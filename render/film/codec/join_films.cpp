@@ -69,7 +69,7 @@ bool same_coding(const AVCodecParameters& a, const AVCodecParameters& b) {
            std::equal(a.extradata, a.extradata + a.extradata_size, b.extradata);
 }
 
-// The joined film while it is written. Its file is removed unless it is finished.
+// The joined film while it is written. Its file is removed if finish() is not called.
 class Joined {
   public:
     Joined(std::filesystem::path path, const Codec& codec, AVRational rate)

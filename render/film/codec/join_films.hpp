@@ -1,5 +1,5 @@
-// Joins films of one encoder without encoding them again. A piece gives its packets one after another, each
-// with its place in the film.
+// Joins films (pieces) of the same encoder without encoding them again. PieceReader gives the packets of a
+// piece one after another, each with its place in the piece.
 #pragma once
 
 #include <cstdint>

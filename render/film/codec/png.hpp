@@ -1,4 +1,4 @@
-// Pictures as PNG files that say what they show.
+// Writes pictures as PNG files, with texts in them about what they show.
 #pragma once
 
 #include <filesystem>

@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double aim = 0.96, least = 0.9;  // parts of the cap
+constexpr double aim = 0.96, least = 0.9;  // the wanted and the least size, as shares of the cap
 constexpr int most_passes = 4;             // the first one is nearly always good enough
 constexpr const char* fitted = "fitted";   // name of the film encoded anew, in the work folder
 
@@ -66,7 +66,7 @@ void CappedFilm::finish() {
     work_.remove();
 }
 
-// Brings the film under its cap, if it stays legible.
+// Encodes the film anew so that it fits under its cap, if it stays legible.
 void CappedFilm::fit(std::int64_t size) {
     const auto overhead = static_cast<double>(size - film_->payload());  // bytes of the container
     film_.reset();  // x264 writes the last of its log when it is closed
@@ -116,7 +116,7 @@ void CappedFilm::fill(double overhead) {
                     settings_.path.string(), settings_.codec->words, data_size_text(cap)));
 }
 
-// Replaces the film at its own quality by the film that was encoded anew.
+// Puts the film that was encoded anew in place of the film at its own quality.
 void CappedFilm::take_fitted() const {
     const int code = replace_synced(work_.file(fitted), settings_.path);
     if (code < 0)
@@ -124,7 +124,7 @@ void CappedFilm::take_fitted() const {
             fmt::format("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code)));
 }
 
-// What the first pass found for the second one: the name of x264's file, or the text of libvpx.
+// CodecSettings::log for the second pass: the name of x264's file, or the text that libvpx gives.
 std::string CappedFilm::first_pass() const {
     if (settings_.codec->film_is_first_pass) return work_.file("pass.log");
     CodecSettings settings = codec_settings(settings_);
@@ -175,8 +175,7 @@ std::string CappedFilm::description() const {
 
 namespace {
 
-// Finds one palette for the whole film: with a palette for each frame, colours that stand still would
-// flicker.
+// Finds one palette for the whole film. With a palette for each frame, things that stand still would flicker.
 AvFramePtr find_palette(const std::filesystem::path& spool, int colours) {
     FilmReader reader(spool);
     FilterGraph graph(reader.codec(), fmt::format("palettegen=max_colors={}", colours));
@@ -187,8 +186,8 @@ AvFramePtr find_palette(const std::filesystem::path& spool, int colours) {
     return palette;
 }
 
-// Encodes the GIF. Bayer's pattern depends on the place alone, so it does not crawl, and what stands still
-// costs no bytes.
+// Encodes the GIF. Bayer's dither pattern depends on the place alone, so it does not crawl from frame to
+// frame, and what stands still costs no bytes.
 void encode(const std::filesystem::path& spool, const AVFrame& palette, const char* dither, Encoder& gif) {
     FilmReader reader(spool);
     FilterGraph graph(reader.codec(), fmt::format("paletteuse=dither={}:diff_mode=rectangle", dither),

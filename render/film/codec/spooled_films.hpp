@@ -1,11 +1,11 @@
 // Films that are made once all pictures are there, from an exact copy of the pictures on disk: films with a
 // cap on their bytes, and GIFs.
 //
-// A film with a cap is first made at its quality. When it fits, nothing more is done. If it does not,
-// two-pass encoding brings it to the cap, as long as the words on it can be read. How many bytes this needs
-// is found by encoding the film at the least legible quality. Encoding anew needs the pictures once more, and
-// they cannot be drawn again: the trajectory does not have the film's steps. So an exact copy of them, in the
-// pixels of the codec, is kept on disk until the film is complete.
+// A film with a cap is first made at its quality. If it fits, nothing more is done. If it does not, two-pass
+// encoding brings it to the cap, as long as the words on it can be read. How many bytes this needs is found
+// by encoding the film at the least legible quality. Encoding anew needs the pictures once more, and they
+// cannot be drawn again, since the trajectory lacks the film's steps. So an exact copy of them (the "spool"),
+// in the pixels of the codec, is kept on disk until the film is complete.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@
 
 namespace grainreel {
 
-// A folder next to the film for files that are needed while it is made. It is removed together with the
-// writer. If another folder has got its name meanwhile, that one is left alone.
+// A folder next to the film for files that are needed while it is made. It is removed when this object is
+// destroyed, unless another folder has its name by then.
 class WorkFolder {
   public:
     // Throws RunError.

@@ -32,7 +32,7 @@ std::vector<std::int64_t> ordered(std::vector<std::int64_t> steps) {
     return steps;
 }
 
-// The scene with the laws that are run.
+// The scene with the laws that the other engine uses.
 FilmedScene as_carried(FilmedScene scene, const CarriedScene& carried) {
     static_cast<Scene&>(scene) = carried.scene;
     return scene;
@@ -204,11 +204,13 @@ bool EngineRun::hand_over() {
     return true;
 }
 
-// Prepares to go on from the restart file. What the dump has of later steps will come again.
+// Prepares to go on from the restart file. Later steps are cut off from the dump, since the engine will write
+// them again.
 void EngineRun::take_up() {
     const HandoverFacts facts = read_handover(place());
     trim_dump(facts.dump, *restart_);
-    // The earlier output belongs to the earlier start of the engine: an error in it is no error of this one.
+    // The output of the engine's earlier start is moved away, so that an error in it is not taken for a new
+    // one.
     std::error_code ignored;
     fs::rename(place() / EngineJob::kOutput, place() / "engine.before.txt", ignored);
     back_ = std::make_unique<ReturnedRun>(folder(), scene_, carried_.plan, facts, desk_.record.version);

@@ -22,8 +22,8 @@ namespace grainreel {
 // averaged; rising.
 std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
-// Adds the steps of the film's pictures to carried.dumps. The trajectory's steps are left out when both
-// together would interrupt the engine's run too often.
+// Adds the steps of the film's pictures to carried.dumps, the steps that the engine writes. The trajectory's
+// steps are left out if all these together would interrupt the engine's run too often.
 void want_pictures(CarriedScene& carried, const FilmedScene& scene);
 
 class EngineRun final : public FilmRun {

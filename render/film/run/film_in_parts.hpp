@@ -32,8 +32,8 @@ class FilmInParts {
     bool is_part() const { return wanted_.number > 0; }
     // The pictures that are drawn here, and the frames that they become.
     const FilmPart& here() const { return here_; }
-    // The first picture that this part must know, since trails begin there. Without trails it is the part's
-    // own first picture.
+    // The first picture whose frame this part must take: the one where the trails on its own first picture
+    // begin. Without trails, its own first picture.
     std::int64_t known_from() const;
     FilmExtent extent() const;
     std::string folder_name() const;  // "-part-03", which is added to the run's name
@@ -52,11 +52,11 @@ class FilmInParts {
     FilmPart here_;
 };
 
-// A checksum by which parts of one run are known: of scene.toml, the moments, and the grains of the first and
-// the last moment that the run kept.
+// A checksum that is the same for parts of the same run: of scene.toml, the moments, and the grains of the
+// first and the last moment that the run kept.
 std::string checksum_of_run(const FrameArchive& frames, const std::string& scene);
-// A checksum by which parts of one film are known: of the scene as it is drawn, and of the moments and their
-// words.
+// A checksum that is the same for parts of the same film: of the scene as it is drawn, and of the moments and
+// their words.
 std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
                                  const std::vector<std::string>& captions);
 

@@ -66,7 +66,7 @@ void FolderFilm::describe(RunJson& record) const {
     record.raster_threads = wanted() ? threads_.raster : 0;
     record.encoder_threads = wanted() ? threads_.encoder : 0;
     record.film_frames = result_.frames;
-    if (film_) record.film_frames.reset();  // how much of it is on disk is known when it is closed
+    if (film_) record.film_frames.reset();  // how many are on disk is known only when the film is closed
     record.encoder = result_.encoder;
 }
 
@@ -96,7 +96,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double shown_for = 2;  // s of simulated time for which the caption stays
+constexpr double shown_for = 2;  // s of simulated time for which a caption about a change is shown
 
 // Whether each picture shows a single moment and nothing that a kept moment lacks.
 bool is_of_single_moments(const Film& film) {
@@ -106,8 +106,8 @@ bool is_of_single_moments(const Film& film) {
     return !spans && !needs_displacement(film.shows) && !needs_touches(film.shows);
 }
 
-// The first step before `end` at which the planned film differs from the pictures whose moments were kept;
-// `end` when there is none. A locked picture may have been left out.
+// The first step before `end` at which the planned film has another picture than the kept moments; `end` if
+// there is none. That a locked picture was left out is no difference.
 std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
                                const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t end) {
     const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);
@@ -127,8 +127,8 @@ std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
     return k < kept.size() ? std::min(end, kept[k]) : end;
 }
 
-// Adds a caption from `time` on. Captions do not overlap: one that is shown at that time ends there, and the
-// next one begins when it did before.
+// Adds a caption from `time` on, or a line to the caption that begins then. Captions do not overlap: one that
+// is shown at that time ends there, and the new one ends at the latest where the next one begins.
 void add_caption(FilmedScene& scene, double time, const std::string& text) {
     std::vector<FilmCaption>& captions = scene.film.captions;
     const auto next = std::find_if(captions.begin(), captions.end(),

@@ -50,7 +50,7 @@ class FolderFilm final : public SideWork {
 
     std::int64_t frames_done() const { return film_ ? film_->frames_done() : 0; }
     std::int64_t frames_planned() const { return frames_planned_; }
-    bool made() const { return made_; }  // a film lies in the folder and is closed
+    bool made() const { return made_; }  // whether a film lies in the folder and is closed
     const FilmResult& result() const { return result_; }
     std::string files_text() const;  // "movie.mp4 (4 frames), poster.png, "
 
@@ -72,7 +72,7 @@ class FolderFilm final : public SideWork {
     bool made_ = false;
 };
 
-// A run that fills a folder with a film, of frames that it does not compute itself.
+// A run that fills a folder with a film whose frames it does not compute itself.
 class FilmRun : public FolderRun {
   protected:
     FilmRun(const FilmRequest& request, RunListener& listener)
@@ -86,14 +86,14 @@ class FilmRun : public FolderRun {
 // Whether the run's folder has a film or the beginning of one.
 bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
 
-// How far the kept frames let a run with a film be resumed. Its film is drawn again: up to the checkpoint
-// from the kept moments of its pictures, and from there on as the run goes. So the run starts from its
-// beginning when pictures of its film show more than one moment, or when their moments were not kept. The
-// scene and the plan must outlive the result.
+// Up to where a run with a film can be resumed. Its film is drawn again: up to the checkpoint from the kept
+// moments of its pictures, and from there on as the run goes. So a run whose film shows more than one moment
+// in a picture, or whose moments were not kept, starts from its beginning. The scene and the plan must
+// outlive the result.
 FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan);
 
-// Adds a caption that says what has changed, from `time` (s of simulated time) on, and passes it on by
-// tell_engine(). Does nothing without a text.
+// Adds a caption about a change of the scene, from `time` (s of simulated time) on, and calls tell_engine().
+// Does nothing without a text.
 void add_caption_of_change(FilmedScene& scene, double time, const std::string& text);
 
 }  // namespace grainreel

@@ -44,7 +44,7 @@ std::unique_ptr<ForeignArchive> first_frames(const FollowRequest& what, RunListe
         try {
             if (auto frames = opened(what)) return frames;
         } catch (const UserError& not_yet) {
-            why = not_yet.what();  // a half-written header looks like a mistake
+            why = not_yet.what();  // may be no mistake but a header that is half written
         }
         nap(0.5, listener);
     }
@@ -129,7 +129,7 @@ void FollowRun::look_again() {
         now = opened(what_);
         if (!now) wrong_ = what_.from.string() + ": is not there any more, or holds no frame";
     } catch (const UserError& why) {
-        wrong_ = why.what();  // the file is half written, it seems; the next look sees more
+        wrong_ = why.what();  // the file may be half written; the next look sees more
     }
     if (!now) return;
     if (now->moments().size() < drawn_)
@@ -164,7 +164,7 @@ bool FollowRun::work() {
         }
         const Steady::time_point begin = Steady::now();
         look_again();
-        // Looking takes long where there are many files; the pause keeps it from taking all the time.
+        // Looking at many files takes long; the pause keeps it from taking all the time.
         nap(std::clamp(5 * seconds_since(begin), 0.5, 0.25 * what_.idle + 0.5), desk_.listener);
         if (desk_.listener.stop_signal() != 0) return false;
     }

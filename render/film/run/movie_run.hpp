@@ -48,7 +48,7 @@ class MovieRun final : public SceneFolderRun {
     const Pictures pictures_;
     FolderFilm film_;
     SceneRun source_;
-    CaptionHolds holds_;  // which frames film_times_ holds for captions
+    CaptionHolds holds_;  // tells how many frames film_times_ gets for a picture
     FilmTimesTable film_times_;
 };
 

@@ -17,8 +17,7 @@ namespace grainreel {
 
 namespace {
 
-// Throws when the film would go into the run's own folder: it is drawn from, and neither replaced nor written
-// to.
+// Throws when the film would go into the run's own folder, which is only read.
 void check_out(const FilmRequest& request, const std::filesystem::path& run) {
     std::error_code error;
     if (request.out && std::filesystem::equivalent(*request.out, run, error))
@@ -85,7 +84,7 @@ std::vector<Shot> RedrawRun::drawn() const {
 
 // Chooses the film's pictures between two moments.
 void RedrawRun::choose_pictures(const RenderRequest& what) {
-    constexpr double hair = 1e-9;  // s
+    constexpr double hair = 1e-9;  // s: tolerance of times
     const FilmOfRun& film = source_.film();
     const std::vector<Shot> all = film.shots();
     scene_.film.segments = source_.segments();
@@ -129,7 +128,7 @@ void RedrawRun::show_what_there_is() {
     }
 }
 
-// Chooses frames of the trajectory. They have a pace of their own.
+// Chooses frames of the trajectory, which the film shows one after another at its rate.
 void RedrawRun::choose_kept(const RenderRequest& what) {
     const std::vector<Frame> moments = chosen_moments(what, source_.record().frames());
     const std::optional<FilmSegment> segment = pacing_of(moments, scene_.drive, scene_.film.rate);

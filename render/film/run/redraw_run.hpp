@@ -1,5 +1,5 @@
-// Draws a film of a run that lies on disk. It is the run's film once more, with other words, from another
-// side, or cut; or it shows the frames of the trajectory one after another.
+// Draws a film of a run that lies on disk: the run's film once more, perhaps with other words, from another
+// side, or of a part of the time; or the frames of the trajectory one after another.
 #pragma once
 
 #include <optional>
@@ -48,7 +48,7 @@ class RedrawRun final : public FilmRun {
     bool kept_alone_ = false;                                     // only frames of the trajectory are drawn
     std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // numbers of shots
     std::vector<std::string>
-        captions_;  // for segments whose pictures are not where they should be; else empty
+        captions_;  // for segments with pictures at other moments than planned; else empty
 };
 
 }  // namespace grainreel

@@ -52,8 +52,8 @@ struct Chosen {
     std::optional<std::string> instead;  // a warning, when the moment stands for the one that was asked for
 };
 
-// Chooses the moment. A kept moment may stand for the wanted one only when it is no further away than the
-// kept moments are from each other.
+// Chooses the moment. A kept moment may stand for the wanted one only if it is no farther from it in time
+// than kept moments are from each other.
 Chosen choose(const RenderRequest& what, const RevisitedRun& source) {
     const RecordedRun& run = source.record();
     MomentRequest request{.at = what.at, .frame = what.frame, .frame_of_file = what.frame_of_file};
