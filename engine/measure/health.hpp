@@ -1,5 +1,5 @@
-// The health of a run. A state that is no longer physical stops it. The message names step, grain, place and
-// remedy.
+// Checks the health of a run: a state that is no longer physical stops it. The message names step, grain,
+// place and remedy.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Observers measure. They look at the state of a run and do not change it.
+// An observer measures something in a run: it looks at the state and changes nothing.
 //
 // An observer is a class in the folder of its subject, beside the formulas that it uses (for example
 // bed/bed_observers.hpp). Its name is listed in observer_list.hpp. Besides the virtual functions below it has

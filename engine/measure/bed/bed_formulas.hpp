@@ -1,7 +1,6 @@
-// Formulas for the bed as a whole. They tell its structure: the solid fraction, the directions of contacts
-// (Fabric) and the height of a single large grain; and its motion in a shaken container: when it leaves the
-// floor and lands (Flight), and after how many periods of the drive it repeats itself (PeriodMultiple). None
-// needs the step loop.
+// Formulas for the bed as a whole: its solid fraction, the directions of its contacts (Fabric), the height of
+// a single large grain, when the bed leaves the floor and lands (Flight), and after how many periods of the
+// drive it repeats itself (PeriodMultiple). None needs the step loop.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Reads STL, ASCII and binary.
+// Reads the triangles of an STL file, ASCII or binary.
 #include <fmt/format.h>
 
 #include <bit>

@@ -1,6 +1,6 @@
-// The chapters of a scene file. A chapter is the code for one table, such as [drive], or for a few that
-// belong together: it adds their keys to the list of all keys, reads them and writes them back. The chapters
-// of [film] are in render/scene/keys. Internal to the reader and the writer of scenes.
+// The chapters of a scene file: the code for one table each, such as [drive], or for a few that belong
+// together. A chapter adds its keys to the list of all keys, reads them and writes them back. The chapters of
+// [film] are in render/scene/keys. Internal to the reader and the writer of scenes.
 #pragma once
 
 #include <cstddef>

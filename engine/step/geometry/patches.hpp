@@ -1,4 +1,4 @@
-// Where a grain touches a mesh. There is one contact for each connected patch of the surface within the
+// Finds where a grain touches a mesh. There is one contact for each connected patch of the surface within the
 // grain's reach, however the surface is cut into triangles.
 //
 // A triangle touches when its nearest point is closer to the grain's centre than the radius. Touching

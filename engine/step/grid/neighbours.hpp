@@ -1,6 +1,6 @@
-// Neighbour lists with a skin. They hold every pair closer than r_i + r_j + skin once, under the grain with
-// the lower index. They also hold the grains near walls. The lists are valid until grains and walls have
-// moved too far for the skin.
+// Neighbour lists with a skin: all grains and walls that are less than a certain gap, the skin, from contact.
+// They hold every pair closer than r_i + r_j + skin once, under the grain with the lower index. The lists are
+// valid until grains and walls have moved too far for the skin.
 #pragma once
 
 #include <cstdint>
