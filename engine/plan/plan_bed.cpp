@@ -137,8 +137,8 @@ Region box_of(const Container& c, const SceneMesh* vessel) {
     return box;
 }
 
-// Height (m) of the top of the grains that start in the region. Where gravity is along z, it is the top of
-// a loose crowd.
+// Height (m) of the top of the grains that start in the region. Where gravity is along z, it is the top of a
+// loose crowd of grains.
 double top_of_region(const Scene& scene) {
     const Region& region = *scene.start.region;
     if (up_of(scene) != Vec3(0, 0, 1)) return highest_corner(scene, region.low, region.high);

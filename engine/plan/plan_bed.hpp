@@ -21,8 +21,8 @@ double lowest_wall(const Scene& scene);
 double highest_corner(const Scene& scene, const Vec3& low, const Vec3& high);
 double lowest_corner(const Scene& scene, const Vec3& low, const Vec3& high);
 
-// How far (m) the highest grain falls at the start, onto a bed of this depth (m). From a region, and in
-// empty space with meshes, it falls to the lowest wall.
+// How far (m) the highest grain falls at the start: onto a bed of this depth (m) or, from a start region, to
+// the lowest wall. 0 in empty space with meshes, where all grains are fed.
 double start_drop(const Scene& scene, double depth);
 
 // How far (m) grains fall from the container, or from their start region, to a mesh further below.

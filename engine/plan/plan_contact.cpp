@@ -168,8 +168,8 @@ void plan_walton_braun(const BedPlan& bed, PairPlan& pair, const PairContact& co
     pair.unloading_stiffness = pair.loading_stiffness / (pair.restitution * pair.restitution);
     pair.contact_time =
         pi / 2 * (1 + pair.restitution) * std::sqrt(pair.effective_mass / pair.loading_stiffness);
-    // Elastic grains without a dashpot have this contact time to the last bit. So they get the same step
-    // and move the same way.
+    // A spring-dashpot with restitution 1 has exactly this contact time. So such grains get the same step
+    // under both laws, and move the same way.
     if (pair.restitution == 1) pair.contact_time = linear_contact_time(pair);
 }
 

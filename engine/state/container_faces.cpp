@@ -142,7 +142,7 @@ std::vector<Face> tray_faces(const Scene& scene) {
 
 namespace {
 
-// Width (m) of a gap that leaves nothing of the floor. The walls' lower edges are then the edges of the
+// Half-width (m) of a gap that leaves nothing of the floor. The walls' lower edges are then the edges of the
 // outlet.
 constexpr double kNoFloorLeft = 1e9;
 // Relative width of the floor that rounding may leave where outlet and floor are equally wide in the scene.

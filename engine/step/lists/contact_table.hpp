@@ -101,8 +101,8 @@ class ContactTable {
             }
         });
     }
-    // The step since the last sort() in which contact c began, for checkpoints. The bits are inverted (~) if
-    // the contact has parted.
+    // The step in which contact c began, counted from the last sort(), for checkpoints; 0 for sorted
+    // contacts. The bits are inverted (~) if the contact has parted.
     std::int32_t age(std::int32_t c) const;
     static std::int32_t began(std::int32_t age) { return age < 0 ? ~age : age; }
     // restore() adds contact k of `kept`, whose tag is its age. Contacts must come in the order of age, first
