@@ -1,5 +1,5 @@
 // Estimates the work of the engine for a run, and keeps the measured speed of this machine. Work is counted
-// in steps of a grain in the lattice by which the machine is measured (lattice_speed.hpp); each grain there
+// in steps of a grain in the lattice by which the machine is measured (lattice_speed()); each grain there
 // has six contacts and is at rest.
 //
 // The cost of a grain's step depends on its number of contacts. A bed at rest has 4.5 contacts for each

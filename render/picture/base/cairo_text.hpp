@@ -1,6 +1,6 @@
 // Draws texts on Cairo surfaces. Pango measures and sets them; halos and plates keep them legible over a
 // picture. Hinting is off, so that letters neither jump nor depend on the screen. Only files of
-// render/picture may include this header, since no other room knows Cairo's headers.
+// render/picture may include this header, since no other folder knows Cairo's headers.
 #pragma once
 
 #include <cairo.h>

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double degrees = std::numbers::pi / 180;
 
-// degrees between the directions of an orbit that are sampled for the framing. Between two of them the
-// outline exceeds what they show by less than 1e-5 of its size.
+// degrees between the directions of an orbit that are sampled for the framing. Between two samples the
+// outline is larger than in these by less than 1e-5 of its size.
 constexpr double sample_angle = 0.5;
 constexpr int key_samples = 720;
 

@@ -18,9 +18,9 @@
 namespace grainreel {
 namespace {
 
-// As a share of the container's height. Where the part is higher than that, the whole container is shown.
+// As a share of the container's height. If the picture should reach higher, the whole container is shown.
 constexpr double almost_all = 0.88;
-constexpr double steepest = 60;  // degrees: a camera that looks down more steeply shows the whole container
+constexpr double steepest = 60;  // degrees: a camera that looks more steeply down or up shows all of it
 
 double upward(const FilmedScene& scene) {
     return std::abs(scene.drive.direction.z());

@@ -51,8 +51,9 @@ class Sketch {
     }
     bool is_turned() const { return turned_; }
     // How solid a part looks, from 0 for glass to 1. This is decided for the container at rest; otherwise a
-    // part whose plane the eye crosses would blink once a period. The order of painting, however, depends on
-    // the present frame. For a camera that moves, glass becomes solid over some degrees.
+    // part whose plane the eye crosses would blink once a period. (A container that turns is taken as it is
+    // in the present frame.) The order of painting, however, always depends on the present frame. For a
+    // camera that moves and a container that turns, glass becomes solid over some degrees.
     double solid(const Vec3& point, const Vec3& normal) const;
     // How much the end at positive x is the near one: 1, 0, or in between while near and far change places.
     double positive_end_is_near() const;

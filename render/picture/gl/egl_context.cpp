@@ -1,5 +1,5 @@
-// OpenGL contexts through libEGL, which is opened at run time (context.hpp). This is a file of its own
-// because of the macros that EGL's headers want.
+// OpenGL contexts through libEGL, which is opened at run time (opengl.hpp). This is a file of its own because
+// of the macros that EGL's headers need.
 #include <dlfcn.h>
 
 #define EGL_NO_PLATFORM_SPECIFIC_TYPES  // no X11

@@ -17,8 +17,8 @@ namespace {
 constexpr double longest = 0.14;         // share of the smaller side of the port
 constexpr double shortest = 9;           // pens (mark_pen())
 constexpr double thin = 1.6, thick = 3;  // pens, of shafts
-constexpr double along_sight =
-    0.25;  // least share of an arrow's length that is seen; below it a circle stands
+// Where a smaller share of an arrow's length is seen, a circle stands for the arrow.
+constexpr double along_sight = 0.25;
 
 constexpr double room = 10;  // pens: least distance from a grain's centre to the ends of arrows
 

@@ -15,8 +15,8 @@ namespace grainreel {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-constexpr int kPad = 64;     // numbers after a row that kernels may write to
-constexpr float kApart = 3;  // in depth, but in pixels: between samples farther apart there may be grains
+constexpr int kPad = 64;          // numbers after a row that kernels may write to
+constexpr float kApart = 3;       // pixels, of depth: a grain may be between samples that are farther apart
 constexpr float kOnThePlane = 1;  // pixels by which a line may lie behind a plane and still count as on it
 
 float depth_of(const Sight& sight, float near) {

@@ -135,7 +135,7 @@ std::vector<Vec3> mesh_reach(const FilmedScene& scene) {
 
 namespace {
 
-constexpr double kPatches = 6000;        // about as many patches has one mesh
+constexpr double kPatches = 6000;        // a mesh has about this many patches
 constexpr double kVesselOpacity = 0.12;  // share of the light that each wall takes
 constexpr int kMostAlong = 64;           // patches along the side of one triangle
 

@@ -9,7 +9,7 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_unlike = 3;  // if panels need scales that differ by more, each has its own scale
+constexpr double most_unlike = 3;  // if the panels' scales differ by a larger factor, each keeps its own
 
 // The plots of one panel: in rows under its port, or in a column beside it where panels are wide.
 enum class PlotsAt { none, below, beside };
