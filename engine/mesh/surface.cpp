@@ -130,7 +130,7 @@ void Surface::build_tree() {
     nodes_.reserve(mesh_.triangles.size());
     nodes_.push_back({{}, 0, count});
     for (std::size_t n = 0; n < nodes_.size();
-         ++n) {  // nodes_ grows meanwhile; parents stand before their children
+         ++n) {  // nodes_ grows meanwhile; parents come before their children
         const std::int32_t first = nodes_[n].first, size = nodes_[n].count;
         if (size <= leaf_size) continue;
         const int axis = longest_axis(items, first, first + size);

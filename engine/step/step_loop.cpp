@@ -27,7 +27,8 @@ StepLoop::StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& g
     check_meshes();
 }
 
-// Runs until step `from` + `count`, and lets grains leave.
+// Runs until step `from` + `count`. Where grains may leave, the threads stop, and the run goes on without
+// those that leave.
 void StepLoop::run(std::int64_t from, std::int64_t count, double step, double drag) {
     const std::int64_t to = from + count;
     while (from < to && grains_.size() > 0) {
@@ -216,7 +217,6 @@ std::array<double, kCosts> StepLoop::cost_shares() const {
     return shares;
 }
 
-// Shows contacts to observers.
 void StepLoop::visit_contacts(std::int64_t at_step,
                               const std::function<void(const ContactView&)>& visit) const {
     WallState walls;
