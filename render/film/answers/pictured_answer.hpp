@@ -54,8 +54,8 @@ class PixelPicker {
     // must outlive this object.
     PixelPicker(const Snapshot& snapshot, const FilmedScene& scene, double film_time);
 
-    // The ray that a pixel looks along; x, y: pixels from the picture's top left corner; the middle of a
-    // pixel lies at + 0.5. Throws UserError for a place outside the part of the picture that shows the bed.
+    // The ray through the middle of a pixel. x, y: its number, counted from 0 at the picture's top left
+    // corner. Throws UserError for a place outside the part of the picture that shows the bed.
     Ray ray(double x, double y) const;
     // Tells what is at a pixel, the nearest thing first. With `through`, what lies behind it is told too.
     // Throws as ray() does.

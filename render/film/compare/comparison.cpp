@@ -81,7 +81,7 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     leave_out_captions(what, all);
     share_colours(all.panels);
     share_reach(all.panels);
-    if (!common_of(all.panels).exaggerated)  // otherwise each panel has to say so itself
+    if (!common_of(all.panels).exaggerated)  // then each panel has to say so itself
         for (Panel& panel : all.panels)
             if (panel.scene.film.exaggerate != 1)
                 panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
@@ -96,8 +96,8 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     warn_of_missing_letters(all);
 }
 
-// The scene that stands for the whole film: its name and film are those of the first scene, and it has a
-// title only when all scenes have the same one.
+// The scene that stands for the whole film. It has the film of the first scene, a name made of all names, and
+// a title on the film only if all scenes have the same one.
 FilmedScene whole(const std::vector<FilmedScene>& scenes) {
     FilmedScene film = scenes.front();
     film.name.clear();

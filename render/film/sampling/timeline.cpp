@@ -169,7 +169,7 @@ std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive
 std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive) {
     if (moments.size() < 2 || !drive.present || same_phase(moments, drive)) return std::nullopt;
     const double frames = 1 / mean_interval(moments),
-                 f = drive.highest_frequency();  // frames for each simulated second
+                 f = drive.highest_frequency();  // both for each simulated second: frames, periods
     if (frames >= least_frames_a_period * f * (1 - hair)) return std::nullopt;
     return fmt::format(
         "{:.3g} frames a period are drawn: the {:.4g} Hz drive will seem to move at {:.4g} Hz; take one "
