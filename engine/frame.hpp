@@ -1,6 +1,6 @@
-// The output of the engine: the state of every grain and of the container at one step, and contacts as files
-// keep them. This header does not need laws or the step loop, so frames can be drawn and written without
-// them.
+// A Frame is the output of the engine: the state of every grain and of the container at one step. Also here:
+// contacts as files keep them. This header needs neither laws nor the step loop, so code that draws or writes
+// frames does not depend on them.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct FlowedOut {
     double mass = 0;  // kg
 };
 
-// The row in which rising ids have the wanted one; empty where they lack it.
+// The index of the wanted id in a list of rising ids; empty where the list lacks it.
 inline std::optional<std::size_t> row_of_id(const std::vector<std::int32_t>& ids, std::int64_t wanted) {
     const auto found = std::lower_bound(ids.begin(), ids.end(), wanted);
     if (found == ids.end() || *found != wanted) return std::nullopt;
@@ -75,8 +75,8 @@ struct Frame {
 
     std::optional<FlowedOut> flowed_out;  // since the run began; empty unless the film asks for it
 
-    // Earlier moments, by rising time, over which the picture is exposed, besides this one. Their own lists
-    // `exposed` are empty.
+    // Earlier moments, by rising time, that the exposure of the picture covers besides this one. Their own
+    // lists `exposed` are empty.
     std::vector<std::shared_ptr<const Frame>> exposed;
 
     std::size_t size() const { return id.size(); }

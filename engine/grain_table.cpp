@@ -46,7 +46,7 @@ void append(fmt::memory_buffer& row, const double* values, int count) {
     for (int i = 0; i < count; ++i) fmt::format_to(std::back_inserter(row), ",{}", values[i]);
 }
 
-// One row's cells, taken from the left; knows its place for messages.
+// The cells of one row, taken one after the other from the left. Messages name the line and the column.
 class GrainRow {
   public:
     GrainRow(const std::filesystem::path& path, int line, std::string_view text)
@@ -80,7 +80,7 @@ class GrainRow {
         if (at_ <= text_.size()) fail("the row has more columns than the header");
     }
 
-    // About the cell taken last.
+    // Throws UserError at the cell that was taken last.
     [[noreturn]] void reject(const std::string& what) {
         at_ = last_;
         fail(what);

@@ -1,5 +1,5 @@
-// The answer to a question: tables, the same for people, for programs and for spreadsheets; and their means
-// over moments.
+// The answer to a question about a run: tables, from which the output for people, programs and spreadsheets
+// is made. Also the means of such tables over several moments.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ struct AnswerColumn {
     std::string name;  // letters, digits and _
     Dimension dimension = Dimension::number;
     std::string about{};
-    // How means over moments treat the column. kKey: the column says which row it is. kThere: moments
-    // without a value do not count. The name of another column: that column weighs this one. Empty: it is a
+    // How a mean over moments treats the column. kKey: its value identifies the row. kThere: moments without
+    // a value do not count. The name of another column: that column holds the weights. Empty: the value is a
     // sum, and a moment without the row counts as 0.
     std::string weight{};
-    std::string unit{};  // the unit to show where Dimension has none for it: "m3"
+    std::string unit{};  // the unit to show if `dimension` has no unit of its own: "m3"
     static constexpr const char *kKey = "key", *kThere = "there";
 };
 
@@ -47,7 +47,7 @@ struct AnswerTable {
 struct AnswerMoment {
     double time = 0;  // s; NaN when it is not known
     std::int64_t step = 0;
-    std::string how;  // "kept moment 3 of 20", "brought back"
+    std::string how;  // where it comes from: "kept moment 3 of 20", "brought back" (computed again)
 };
 
 struct Answer {
@@ -70,7 +70,7 @@ std::vector<std::int32_t> grains_in(const Answer& answer);
 // (AnswerTable::has_mean) are left out.
 class MeanAnswer {
   public:
-    // most: number of rows of a list.
+    // most: number of rows in a list of largest values.
     explicit MeanAnswer(std::size_t most) : most_(most) {}
 
     void add(const Answer& answer, double time);  // time of the moment, s

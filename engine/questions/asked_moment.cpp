@@ -102,8 +102,8 @@ AskedMoment MomentFinder::last() const {
     return {moments[back].step, moments[back].time, back, back, true};
 }
 
-// The step that a picture of the run's film shows. The run kept one moment for each picture; where a
-// caption holds a picture, it counts as often as the film shows it.
+// The step that a frame of the run's film shows. The run kept one moment for each picture. A picture that is
+// held for a caption counts once for each frame in which the film shows it.
 std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
     const std::filesystem::path file = run_.frames().path() / kFilmMoments;
     std::error_code ignored;

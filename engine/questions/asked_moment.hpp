@@ -1,5 +1,5 @@
-// The moment that a question about a run means: one that the run kept, or one that is brought back from a
-// checkpoint.
+// The moment that a question about a run means. The run kept it in a file, or it is brought back: the engine
+// computes the run again from the last checkpoint before the moment.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace grainreel {
 
-// Which moment is meant. With none of the three values it is the last that there is, kept or in a
+// Which moment is meant. If none of the three values is given, it is the last moment that is kept or has a
 // checkpoint.
 struct MomentRequest {
     std::optional<double> at{};           // s
@@ -21,15 +21,15 @@ struct MomentRequest {
     std::optional<std::int64_t> frame{};  // number of the film's frame, from 0
     bool frame_of_file = false;           // `frame` counts the moments of an imported file, not of the film
     const char* at_option = "--at";       // option that gave `at`, for messages
-    // How many more frames the film shows the picture of this moment (time in s; called with rising times).
-    // Empty: each picture is one frame.
+    // For how many additional frames the film holds the picture of a moment (time in s). It is called with
+    // rising times. Empty: each picture is one frame.
     std::function<std::int64_t(double time)> held{};
 };
 
 struct AskedMoment {
     std::int64_t step = 0;
     double time = 0;                  // s
-    std::optional<std::size_t> kept;  // its place in the run's moments, where it was kept
+    std::optional<std::size_t> kept;  // index in the run's kept moments; empty if it was not kept
     std::size_t nearest = 0;          // index of the nearest kept moment
     bool last = false;                // whether it is the run's last moment
 };
@@ -48,21 +48,22 @@ class MomentFinder {
     // Does the same and adds how far grains moved in the last period of the drive (Frame::displacement), as
     // the film counts it. Throws UserError also where the run has no drive, or does not reach back so far.
     Snapshot brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher);
-    // Shows `see` kMomentsAPeriod moments for each of so many periods of the drive, the last of them at
-    // `moment`. They are brought back or, where `replay` is false, those that were kept meanwhile. Throws
-    // UserError without a drive, and where the run does not reach back so far.
+    // Calls `see` with moments of the last `periods` periods of the drive before `moment`, and with `moment`
+    // itself. With `replay` these are kMomentsAPeriod moments for each period, brought back; without it, the
+    // moments that the run kept in this time. Throws UserError without a drive, and where the run does not
+    // reach back so far.
     void over_periods(const AskedMoment& moment, double periods, bool replay, const ReplayWatcher& watcher,
                       const std::function<void(Snapshot)>& see);
     static constexpr int kMomentsAPeriod = 20;
     // Brings back the moments at the multiples of a time (s), from the run's first moment to its last, and
-    // shows them to `see`. The run is computed once more from its first checkpoint. Throws UserError where
+    // calls `see` with each. The run is computed once more from its first checkpoint. Throws UserError where
     // no checkpoint leads there, where the time is shorter than a step, and where there are more than a
     // million moments.
     void at_every(double interval, const ReplayWatcher& watcher,
                   const std::function<void(const Snapshot&)>& see);
     // Whether there is a checkpoint of the moment, or before it.
     bool can_bring_back(const AskedMoment& moment) const;
-    // Whether the moment is that of a checkpoint, so that it comes back at once.
+    // Whether the moment has a checkpoint of its own, so that no steps need to be computed.
     bool is_checkpoint(const AskedMoment& moment) const;
 
   private:

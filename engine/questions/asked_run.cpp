@@ -77,7 +77,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double same_place = 1e-4;  // over a grain's radius
+constexpr double same_place = 1e-4;  // as a share of a grain's radius
 
 std::vector<Touch> touches_of(const Simulation& run) {
     std::vector<Touch> touches;

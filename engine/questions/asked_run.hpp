@@ -1,6 +1,6 @@
-// What lies on disk and can be asked questions: frames, their scene and, for a run of grainreel,
-// checkpoints. A checkpoint brings back moments that were not kept, and forces. Nothing here changes a
-// file.
+// A run on disk about which questions are asked: its frames, their scene and, for a run of grainreel, its
+// checkpoints. From a checkpoint the engine can compute moments that were not kept, and forces. Nothing here
+// changes a file.
 #pragma once
 
 #include <cstddef>
@@ -61,8 +61,8 @@ class AskedRun {
     mutable std::optional<OwnCheckpoints> own_;  // set when they are first asked for
 };
 
-// A restored checkpoint, so that all that the run measured is known. Throws UserError where the file cannot
-// be used.
+// A checkpoint alone, asked as a run of one moment. The engine restores its state, so all that the run
+// measured is known. Throws UserError where the file cannot be used.
 class RestoredCheckpoint final : public AskedRun {
   public:
     explicit RestoredCheckpoint(const std::filesystem::path& file);
@@ -91,7 +91,7 @@ class ReachableMoments {
     ReachableMoments(const AskedRun& run, int threads);
 
     enum class Place { trajectory, film_moments, checkpoints, nowhere };
-    // Where a moment can be had. touches: the contacts of the moment are wanted too.
+    // Where a moment can be found. touches: the contacts of the moment are wanted too.
     Place place_of(std::int64_t step, bool touches) const;
 
     struct Found {
@@ -122,7 +122,7 @@ class ReachableMoments {
     std::unique_ptr<FrameArchive> film_moments_;
     std::map<std::int64_t, std::size_t> filmed_;  // place in film_moments.nc, by step
     std::optional<Replayer> replayer_;
-    bool proven_ = false;  // whether a replay was seen to go the run's way
+    bool proven_ = false;  // whether prove() has compared a replay with a kept moment
     std::vector<std::string> news_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Distance (m) from the grain's surface to the nearest of the faces that are meant.
+// Distance (m) from the grain's surface to the nearest of the faces for which `is_meant` is true.
 template <class IsMeant>
 std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, const IsMeant& is_meant) {
     std::vector<Face> faces = faces_of(s.scene);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Sums up what `see(grain, touch)` gives, for both grains of each touch.
+// For each of these grains the sum of value_of(touch) over its touches.
 template <class See>
 std::vector<double> over_touches(const Snapshot& s, const GrainList& grains, const See& value_of) {
     std::vector<double> sums(s.frame.size(), 0), values;

@@ -89,7 +89,7 @@ namespace {
 
 using Forces = std::vector<const ContactForce*>;
 
-// The point (m, now) about which the moment on a wall counts.
+// The present place (m) of the point about which the moment of force on a wall is taken.
 Vec3 point_of_moment(const Snapshot& s, std::int32_t wall) {
     const std::optional<std::size_t> mesh = mesh_of_wall(s.scene, wall);
     if (!mesh) return container_offset(s.scene, s.frame);
@@ -144,7 +144,7 @@ std::optional<BodyPose> turning_pose(const Snapshot& s, std::int32_t wall) {
     return s.frame.body(static_cast<std::size_t>(faces[face].body.number));
 }
 
-// A point (m) of the axis about which a body turns now, along which it may also move.
+// A point (m) on the axis about which a body turns now. The body may also move along this axis.
 Vec3 centre_of_turn(const BodyPose& pose) {
     const double square = pose.spin.squaredNorm();
     return square > 0 ? Vec3(pose.place + pose.spin.cross(pose.velocity) / square) : pose.place;

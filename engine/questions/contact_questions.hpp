@@ -1,5 +1,5 @@
-// The forces that an answer is about, where they act, and words about them for a picture; and sums of
-// contact forces.
+// The forces of contacts on a grain or a wall: where they act, words about them for a picture, and their
+// sums.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,8 @@ Vec3 contact_torque_on(const Snapshot& snapshot, std::int32_t id);
 // The number of the wall called "left slant" or "left_slant", as contacts count walls: -1 - face. Throws
 // UserError with a list of the walls.
 std::int32_t wall_number(const Snapshot& snapshot, std::string name);
-// The largest overlap over the smaller radius that the plan aims at. (run.overlap is over the diameter.)
+// The largest overlap that the plan aims at, divided by the smaller radius. (run.overlap is divided by the
+// diameter.)
 double overlap_limit(const Scene& scene);
 // "run.overlap allows 0.02 of the smaller radius".
 std::string overlap_limit_words(const Snapshot& snapshot);

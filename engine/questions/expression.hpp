@@ -4,9 +4,9 @@
 // grainreel has its own parser: the expression libraries at hand (muParser, exprtk) know plain numbers
 // only.
 //
-// The operators, those that bind least first: or; and; not; < <= > >= == != (a < b < c is a < b and b < c);
-// + -; * /; ^ with a plain whole number; functions abs, sqrt, min, max; touches(WHO), a condition; numbers,
-// names, parentheses.
+// The operators, from the weakest to the strongest: or; and; not; < <= > >= == !=; + -; * /; ^ with a plain
+// whole number. a < b < c means a < b and b < c. Operands are numbers, names, parentheses, the functions abs,
+// sqrt, min and max, and the condition touches(WHO).
 #pragma once
 
 #include <cstddef>
@@ -119,7 +119,7 @@ class ExpressionParser {
     std::size_t named(const std::string& name, std::size_t start);
     std::size_t add_word(const Vocabulary::Word& word);
     std::size_t quoted();
-    std::size_t inside();  // what stands in parentheses; the first of them has been read
+    std::size_t inside();  // reads up to the closing parenthesis; the opening one has been read
 
     std::optional<Op> comparing(bool& swapped);
     std::size_t compare(Op op, bool swapped, std::size_t left, std::size_t right, std::size_t start);

@@ -25,7 +25,7 @@ struct GrainColumn {
     bool is_species = false;
     bool costly = false;        // looks for neighbours, or for the surface of the bed
     std::string coloured_as{};  // word of film.colour.by that shows the same; empty for none
-    std::string also{};         // its other name, as the colouring has it
+    std::string also{};         // a second name, under which film.colour.by knows it
 };
 
 // All columns.
@@ -45,7 +45,7 @@ int column_called(const Snapshot& snapshot, const std::string& name);
 std::vector<double> values_of(const Snapshot& snapshot, int column, const GrainList& grains);
 std::vector<double> values_of(const Snapshot& snapshot, int column);
 
-// What a text needs that may be an expression, by the names in it; each once.
+// What the columns named in a text need of a snapshot, each once. The text may be an expression.
 std::vector<Needs> needs_of(std::string_view text);
 
 // The words of expressions: the columns, and the names of the scene's species.

@@ -168,7 +168,7 @@ AnswerTable walls_table(const Snapshot& s) {
     return table;
 }
 
-// Where the meshes are, and the container where it turns.
+// The table of where the meshes are, and the container if it turns.
 AnswerTable bodies_table(const Snapshot& s) {
     AnswerTable table{
         "bodies",

@@ -92,7 +92,7 @@ double sphere_below(double radius, double height) {
 }
 
 // Divides the bed from `low` up (m, in the container's frame) into `count` slices of equal height. Returns
-// for each slice the volume of its grains over the room inside the container; NaN where there is no room
+// for each slice the volume of its grains divided by the volume inside the container; NaN where that is 0
 // (below the floor, above the rim, in empty space). Grains that are glued to walls do not count.
 std::vector<double> solid_fractions(const Snapshot& s, double low, double height, std::size_t count) {
     std::vector<double> fractions(count, std::numeric_limits<double>::quiet_NaN());
@@ -198,8 +198,8 @@ double room_about(const Vec3& at, const Box& box, double period) {
     return room;
 }
 
-// Centres sorted into cells, the grains of a cell one after the other. A cell's width is a fraction of the
-// reach: with smaller cells fewer of the centres that are looked at are too far away.
+// Centres sorted into cells, those of one cell one after the other. A cell is narrower than the reach,
+// because then fewer centres are looked at that are too far away.
 class Neighbourhood {
   public:
     Neighbourhood(const Snapshot& s, const Box& box, double reach, double period)
@@ -248,7 +248,7 @@ class Neighbourhood {
     }
 
   private:
-    static constexpr int kParts = 3;  // cells, about, along the reach
+    static constexpr int kParts = 3;  // about so many cells are as long as the reach
 
     void sort(const std::vector<Vec3>& places) {
         std::vector<std::size_t> own;
@@ -296,7 +296,8 @@ Answer pair_distribution_answer(const Snapshot& s) {
     const double density = static_cast<double>(s.frame.size()) / volume;
     const Neighbourhood near(s, box, most, period);
     std::vector<double> pairs(bin_count + 1, 0), centres(bin_count, 0);
-    std::vector<std::size_t> whole(near.size());  // one for each centre: bins whose spheres lie in the box
+    std::vector<std::size_t> whole(
+        near.size());  // for each centre the number of bins whose spheres lie in the box
     for (std::size_t i = 0; i < near.size(); ++i) {
         const double room = room_about(near.place(i), box, period);
         whole[i] = static_cast<std::size_t>(std::clamp(room / width, 0.0, double(bin_count)));

@@ -1,5 +1,5 @@
 // Questions about a snapshot. Each answers with tables; numbers are SI. All throw UserError for what cannot
-// be asked; the text does not have the option's name.
+// be asked. The message does not name the option; the caller adds it.
 #pragma once
 
 #include <cstddef>
@@ -46,10 +46,10 @@ Answer profile_answer(const Snapshot& snapshot, const std::string& along);
 // Counts a column's values, by species, in `bins` equal bins from the smallest to the largest.
 Answer histogram_answer(const Snapshot& snapshot, const std::string& column, std::size_t bins);
 
-// Radial distribution g(r) of centres up to four mean diameters: partners found over those that a uniform
-// bed of as many grains would have in the box about all grains. A centre counts at r only if it is at least
-// that far from the surface of the box, so that all its partners lie inside (border correction: Ripley,
-// Statistical Inference for Spatial Processes, 1988).
+// Radial distribution g(r) of centres up to four mean diameters: the number of partners at r, divided by the
+// number in a uniform bed of as many grains in the box about all grains. A centre counts at r only if it is
+// at least that far from the surface of the box, so that all its partners lie inside (border correction:
+// Ripley, Statistical Inference for Spatial Processes, 1988).
 Answer pair_distribution_answer(const Snapshot& snapshot);
 
 // The grains that moved most between two moments of a run, in the container's frame: at most `most` of them,

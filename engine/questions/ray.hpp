@@ -1,4 +1,4 @@
-// What lies on a ray through a moment: grains, and the wall behind them.
+// What a ray through the bed at one moment meets: grains, and the wall behind them.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct Ray {
     Vec3 at(double t) const { return origin + t * direction; }
 };
 
-// The half of space that is kept: points p with normal . p >= distance.
+// A half of space that a cut keeps: the points p with normal . p >= distance.
 struct KeptHalf {
     Vec3 normal;
     double distance;  // m
@@ -33,7 +33,7 @@ struct GrainOnRay {
 };
 
 // The grains that the ray meets ahead of its origin, the nearest first. Only the part of a grain that lies
-// in all halves counts, as a cut bed is drawn.
+// in all kept halves counts, because the rest is not drawn.
 std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std::vector<KeptHalf>& kept);
 
 struct WallOnRay {
@@ -59,11 +59,11 @@ std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame
 // How the moment is drawn: what is cut away, and what can be seen through.
 struct AlongRay {
     std::vector<KeptHalf> kept;              // halves that a cut keeps
-    std::vector<std::int32_t> seen_through;  // species that hide nothing
+    std::vector<std::int32_t> seen_through;  // species that are drawn transparent, so that they hide nothing
 };
 
-// `shown` has the grains of the snapshot at the places where they are drawn. The nearest comes first.
-// through: also what lies behind the first.
+// `shown` has the grains of the snapshot at the places where they are drawn. The nearest comes first. With
+// `through` the answer goes on behind the first grain that is not transparent.
 Answer along_ray_answer(const Snapshot& snapshot, const Frame& shown, const Ray& ray, const AlongRay& along,
                         bool through);
 

@@ -1,4 +1,4 @@
-// One moment of a run, as questions see it.
+// One moment of a run with all that is known about it, for questions.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@ struct SnapshotForces {
     std::vector<Vec3> acceleration;
 };
 
-// What a question may need and a snapshot may lack. forces: what only a moment that was brought back has.
-// period: how far grains moved in the last period of the drive (Frame::displacement). Some files of other
-// programs have no velocities or spins.
+// What a question may need and a snapshot may lack. forces: SnapshotForces, which only a moment that was
+// brought back (computed again from a checkpoint) has. period: how far grains moved in the last period of the
+// drive (Frame::displacement). Some files of other programs have no velocities or spins.
 enum class Needs { nothing, contacts, forces, period, velocities, spins };
 
 struct Snapshot {
@@ -60,11 +60,9 @@ std::optional<std::size_t> mesh_of_wall(const Scene& scene, std::int32_t wall);
 // The species of a grain ("small") or, for a wall's number, its name ("floor"), as in contacts.nc.
 std::string name_of_body(const Snapshot& snapshot, std::int32_t id);
 
-// How far each grain came in a period of the drive.
-
-// Sets the way from `before` to the grains' places now, divided by the number of periods between; NaN for a
-// grain that was not there before. `depth` (m, along x) is the length after which a periodic container
-// repeats; 0 for none.
+// Sets Frame::displacement: how far each grain moved in a period of the drive. It is the vector from its
+// place in `before` to its place now, divided by the number of periods in between; NaN for a grain that was
+// not there before. `depth` (m, along x) is the length after which a periodic container repeats; 0 for none.
 void set_displacement(Frame& now, const Frame& before, int periods, double depth);
 
 // The same grains in two frames. Ids rise in both, and some grains may have come or gone between them.

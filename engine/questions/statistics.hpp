@@ -1,5 +1,5 @@
 // Plain statistics of numbers: their mean and spread, the confidence interval of a mean, and histograms.
-// Values that are NaN are left out.
+// Values that are not finite are left out.
 #pragma once
 
 #include <algorithm>
@@ -68,11 +68,11 @@ class Histogram {
 
     // All functions throw UserError for what cannot be asked.
     void add(const Snapshot& snapshot);
-    // Counts in so many equal bins, from the smallest value of all moments to the largest. Counts are means
-    // over the moments.
+    // Counts the values in `bins` equal bins, from the smallest value of all moments to the largest. Counts
+    // are means over the moments.
     Answer answer(std::size_t bins) const;
 
-    static constexpr std::size_t kMostValues = 50'000'000;  // kept until the bins are known
+    static constexpr std::size_t kMostValues = 50'000'000;  // values are kept until the bins are known
 
   private:
     const std::string name_;

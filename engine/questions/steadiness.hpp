@@ -21,21 +21,21 @@
 
 namespace grainreel {
 
-constexpr std::size_t kRowsWithoutDrive = 5;                  // in a batch of MSER
+constexpr std::size_t kRowsWithoutDrive = 5;                  // rows in a batch of MSER, without a drive
 constexpr std::size_t kLeastBatches = 10, kMostBatches = 20;  // batches in the test of drift
-constexpr double kSignificance = 0.05;                        // as a share of the test of drift, two-sided
+constexpr double kSignificance = 0.05;                        // level of the test of drift, two-sided
 
 struct Steadiness {
     enum class Verdict { steady, drifts, too_short };
     Verdict verdict = Verdict::too_short;
-    double from = std::numeric_limits<double>::quiet_NaN();  // s, where the rest begins
+    double from = std::numeric_limits<double>::quiet_NaN();  // s, where the transient ends
     std::size_t batches = 0;  // number of all batches; each has the rows of a period, or kRowsWithoutDrive
     std::size_t dropped = 0;  // batches dropped at the front
     std::size_t tested = 0;   // number of means in the test of drift
-    // Mean of the rest, and half the width of its 95 % interval (Student's t over the tested means).
+    // Mean after the transient, and half the width of its 95 % interval (Student's t of the tested means).
     double mean = std::numeric_limits<double>::quiet_NaN(), half_width = mean;
     double slope = mean;          // Sen's slope, the value's unit per s
-    double tau = mean, p = mean;  // Kendall's tau, and the probability of one as large without a trend
+    double tau = mean, p = mean;  // Kendall's tau; probability of a tau at least as large without a trend
 };
 
 // `times` (s) rise, and there are as many `values`; rows whose value is not finite are left out. `period`

@@ -19,8 +19,8 @@ struct ListedColumn {
     std::function<AnswerCell(std::size_t)> of;  // a grain's place in the frame
 };
 
-// Notes the ids of all grains found, for a picture, and adds a table of the first `most` of them with id,
-// species, place, and the columns in `more`. There is no table where `most` is 0.
+// Puts the ids of all grains found into the answer, for a picture, and adds a table of the first `most` of
+// them with id, species, place, and the columns in `more`. There is no table where `most` is 0.
 void add_grain_list(Answer& answer, const Snapshot& snapshot, const std::vector<std::size_t>& found,
                     std::size_t most, const std::vector<ListedColumn>& more);
 
