@@ -22,7 +22,7 @@ constexpr double kRestsBelow = 1e-4;     // in m g d: mean kinetic energy of a g
 constexpr double kNobodyAbove = 0.05;    // in m g d: kinetic energy of a single grain
 constexpr double kFewestTouching = 0.5;  // share of the grains
 
-// A plan with springs alone: the contacts are only looked at.
+// A plan in which contacts are mere springs. It serves a loop that only finds contacts and makes no step.
 Plan plan_to_look(const Scene& scene) {
     PairPlan spring;
     spring.model.normal = NormalForce::spring_dashpot;
@@ -165,8 +165,8 @@ void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts&
         return wall < faces ? scene.contact.wall[first]
                             : scene.contact.mesh[(wall - faces) * count_of_species + first];
     };
-    // Sums of forces over stiffness, times what they carry: of linear contacts, of Hertz' contacts, and of
-    // Hertz' contacts as if they were linear.
+    // Moments of the forces at a stiffness of 1: of linear contacts, of Hertz' contacts, and of Hertz'
+    // contacts as if they were linear.
     double linear = 0, hertz = 0, hertz_as_linear = 0, depths = 0, radii = 0, count = 0;
     for (const BedInFile::Overlap& o : bed.overlaps) {
         const auto first = static_cast<std::size_t>(bed.grains.species[o.first]);
@@ -198,7 +198,7 @@ namespace fs = std::filesystem;
 // Whether two grains are the same, up to rounding, where the container of the other run is displaced by
 // `offset`.
 bool same_grain(const Grains& one, std::size_t i, const Grains& other, std::size_t j, const Vec3& offset) {
-    constexpr double kRounding = 1e-9;  // over the radius
+    constexpr double kRounding = 1e-9;  // as a share of the radius
     const Place &here = one.place[i], &there = other.place[j];
     // A periodic depth may have wrapped x.
     const Vec3 apart = here.position - there.position - offset;
@@ -239,8 +239,7 @@ std::optional<StartOrigin> origin_of(const fs::path& checkpoint) {
                                {"start.keep_clock=true", name}};
         StartOrigin origin;
         origin.scene = read_scene_text(label->scene, checkpoint, sets, measurable_in);
-        // The file does not tell how its grains came to be; in a container the plan takes it that they
-        // fell.
+        // The file does not say how its grains came to be. In a container the plan assumes that they fell.
         if (origin.scene.container.shape != Container::Shape::none) origin.scene.start = {};
         origin.plan = make_plan(origin.scene, StartFacts());
         origin.around = make_surroundings(origin.scene, origin.plan);

@@ -1,4 +1,4 @@
-// The bed that a start file holds: whether it rests, and what its overlaps say about stiffness.
+// Examines the bed of grains in a start file: whether it rests, and what its overlaps say about stiffness.
 #pragma once
 
 #include <filesystem>
@@ -50,13 +50,13 @@ struct BedInFile {
     struct Overlap {
         std::size_t first;
         int second;      // index of a grain, or -1 - wall: faces first, then meshes
-        bool glued;      // at a grain that is glued to this face
+        bool glued;      // whether the overlap is with a grain that is glued to the face `second`
         double depth;    // m
         double radius;   // m, effective
         double carries;  // m: the part of moment_of_weights that a force of 1 N at this contact carries
     };
     std::vector<Overlap> overlaps;
-    double moment_of_weights = 0;  // J
+    double moment_of_weights = 0;  // J, the sum of weight times height (WeightMoments)
 
     // Says what keeps the bed from resting in this scene; empty when it rests. A bed rests when the mean
     // kinetic energy of a grain is at most 1e-4 m g d, no grain has more than 0.05 m g d, at least half of
@@ -64,7 +64,7 @@ struct BedInFile {
     // that is known.
     std::string moves_because;
     double fastest = 0;  // m/s, speed of the fastest grain
-    double falls = 0;    // m/s, the speed a grain may have when it has fallen to the lowest one
+    double falls = 0;    // m/s, largest speed of a grain after it has fallen to the height of the lowest one
 };
 
 // Throws UserError where the file cannot be read, or where its grains are impossible.

@@ -20,17 +20,18 @@ namespace grainreel {
 void take_histories(const Scene& scene, const Plan& plan, const Surroundings& around,
                     const StartOrigin& origin, const Grains& grains, StepLoop& loop);
 
-// Whether all contacts act alike in both plans, which have as many species; and whether any do.
+// Whether all kinds of contact, or any, act alike in both plans, which must have equally many species.
 bool all_act_alike(const Plan& one, const Plan& other);
 bool any_act_alike(const Plan& one, const Plan& other);
 // Whether this kind of contact acts alike in `other`; `pair` belongs to `one`.
 bool acts_alike_in(const Plan& other, const Plan& one, const PairPlan& pair);
 
-// Latches for contacts whose history is lost, in a bed at rest.
+// Latches for contacts whose history is lost, in a bed at rest: the largest overlap that a contact ever had,
+// which Walton and Braun's law remembers.
 
-// A bed that Walton and Braun's law has brought to rest lies on overlaps that impacts have left: with fresh
-// contacts it would push as hard as in these impacts. So each fresh contact gets the largest overlap a_max
-// that leaves it the share s of the force of a fresh one,
+// A bed that this law has brought to rest lies on overlaps that impacts have left. Fresh contacts would push
+// as hard there as in these impacts. So each fresh contact gets the largest overlap a_max that leaves it the
+// share s of the force of a fresh one,
 //
 //   K1 a_max - K2 (a_max - a) = s K1 a,
 //
@@ -40,9 +41,9 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
                  const std::function<bool(const PairPlan&)>& is_fresh, StepLoop& loop);
 
 // How much of the weight of a bed at rest each contact carries, by the virial theorem (Love 1927,
-// Mathematical Theory of Elasticity, note B). The forces on a grain add up to zero. Multiplied by the
-// grain's height and summed over all grains, they give: the moments of all contact forces (force times
-// height difference) equal those of the weights. Friction, which carries the smaller part, is left out.
+// Mathematical Theory of Elasticity, note B). The forces on a grain add up to zero. Multiply each sum by the
+// grain's height and add all grains: the moments of all contact forces (force times height difference) equal
+// those of the weights (weight times height). Friction, which carries the smaller part, is left out.
 
 class WeightMoments {
   public:

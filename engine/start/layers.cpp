@@ -48,7 +48,7 @@ class Room {
     const FreeSpace space;
 
   private:
-    // The margin after so many draws: a mesh or a region may leave nothing but narrow places.
+    // The margin shrinks with the number of draws, because a mesh or a region may leave only narrow places.
     double narrower(double margin, int draws) const {
         if (draws < kMostDraws * kMostDraws) return 0.5 * margin;
         throw UserError(fmt::format(
@@ -108,7 +108,7 @@ Grains place_in_layers(const Scene& scene) {
         const Species& species = scene.species[s];
         for (std::int64_t k = 0; k < species.count; ++k) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
-            const double off = scene.meshes.empty() ? 0.25 : 0.5;  // a sheet does not push back from beyond
+            const double off = scene.meshes.empty() ? 0.25 : 0.5;  // no mesh pushes a grain back to its side
             const double margin = std::min(off * radius, 0.25 * (top[s] - bottom[s]));
             const Vec3 centre = room.random_centre(bottom[s], top[s], margin, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);
@@ -204,7 +204,7 @@ void first_radii(Growing& g, double reach) {
     for (std::size_t i = 0; i < allowed.size(); ++i) g.set_radius(i, allowed[i]);
 }
 
-// The largest overlap, over the smaller wanted radius.
+// The largest overlap, divided by the smaller of the two wanted radii.
 double largest_overlap(const StepLoop& loop) {
     double largest = 0;
     loop.visit_contacts(
@@ -227,9 +227,9 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
 
     StepLoop loop(growth, still, grains, team);
     GrowthReport report;
-    // Small grains are light: with the step of grains of full size they would fly apart when they overlap.
-    // Planes push such grains back from beyond, but a sheet of triangles does not, so with meshes the step
-    // follows the masses.
+    // Small grains are light: with the step of grains of full size they would fly apart when they overlap. A
+    // plane pushes back a grain that went through it, but a sheet of triangles does not. So with meshes the
+    // step follows the present masses.
     const bool by_mass_now = !still.meshes.empty();
     for (;; ++report.cycles) {
         double smallest_share = 1;

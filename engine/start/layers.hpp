@@ -21,8 +21,8 @@ namespace grainreel {
 // longer. Grains may overlap freely: radius growth removes that.
 Grains place_in_layers(const Scene& scene);
 
-// Radius growth (findrad, integ1 and integ2 of the original program): grains grow from what the gaps allow
-// to their wanted radii, while overlaps push apart through the contact law.
+// Radius growth (findrad, integ1 and integ2 of the original program): grains begin with radii that fit into
+// the gaps and grow to their wanted radii, while the contact law pushes those that overlap apart.
 
 struct GrowthReport {
     std::int64_t steps = 0;

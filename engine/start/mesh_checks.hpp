@@ -21,11 +21,11 @@ void check_meshes(const Scene& scene, Plan& plan);
 // sides, and as far down as a free fall goes.
 void check_meshes_near(const Scene& scene, const Plan& plan);
 void check_feed_boxes(const Scene& scene);
-// Looks at 72 moments: of the first turn of a mesh that turns, else of the run. Against faces, it looks
-// whether a corner that was before a face gets behind it. Against another mesh, it looks whether edges of
-// one cross triangles of the other elsewhere than at rest. A crossing less deep than 1 % of the smallest
-// extent does not count, and neither does one at the rim of an open mesh, so that a drum and its end caps
-// may touch. Meshes that cross at rest may go on crossing there: a shaft may pass through a wall.
+// Looks at 72 moments of the first turn of a mesh that turns, and of the whole run for other meshes. No
+// corner of a mesh may get from the front of a face to its back, and no edge of a mesh may cross a triangle
+// of another mesh elsewhere than at rest. A crossing less deep than 1 % of the smallest extent does not
+// count, and neither does one at the rim of an open mesh, so that a drum and its end caps may touch. Meshes
+// that cross at rest may go on crossing there: a shaft may pass through a wall.
 void check_mesh_paths(const Scene& scene, Plan& plan);
 
 // The moments at which the motion of meshes is checked before a run.

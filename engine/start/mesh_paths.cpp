@@ -51,7 +51,7 @@ struct Paths {
         return all;
     }
 
-    // The key of what moves this mesh, for messages.
+    // The scene's key that makes this mesh move, for messages.
     std::string motion_key(std::size_t mesh) const {
         const SceneMesh& m = scene.meshes[mesh];
         return fmt::format("mesh[{}]{}", mesh, m.turn ? ".turn" : m.path ? ".path" : "");
@@ -66,8 +66,8 @@ std::string moment_text(const Paths& paths, const Body& body, std::int64_t step)
     return text;
 }
 
-// Checks corners against faces. A corner counts if it stands before all faces of the container (or before
-// the plane) at rest.
+// Checks corners against faces. A corner counts if at rest it is in front of all faces of the container (or
+// in front of the plane).
 class BeforeFaces {
   public:
     BeforeFaces(const Paths& paths, std::size_t mesh)

@@ -61,8 +61,8 @@ class RisingLayer {
           box_(fits_box_ ? extent_of(scene) : Extent{space_.low(), space_.high()}),
           lowest_(fits_box_ ? 0 : box_.low.z()) {}
 
-    // A condition on places, where the box is larger than the room: grains outside may touch nothing and
-    // yet be wrong.
+    // A condition on places, needed where the box is larger than the room: a grain outside the room is wrong
+    // even if it touches nothing.
     std::function<bool(const Vec3&)> where() const {
         if (fits_box_) return {};
         return [this](const Vec3& place) { return space_.holds(place, 0); };
@@ -167,7 +167,7 @@ RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around
 namespace {
 
 constexpr int kDraws = 200;
-constexpr double kGap = 1e-3;  // over the radius
+constexpr double kGap = 1e-3;  // as a share of the radius
 
 }  // namespace
 

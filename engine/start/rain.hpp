@@ -47,7 +47,7 @@ class FreePlaces {
     // grain counts as being there from now on.
     std::optional<Vec3> take(double radius, Random& random);
 
-    // Adds something more that is there.
+    // Adds one more grain that is there and must not be touched.
     void add(const Place& place) { near_.push_back(place); }
     // Allows from now on only places for which the condition holds.
     void only_where(std::function<bool(const Vec3&)> holds) { holds_ = std::move(holds); }

@@ -35,13 +35,13 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& kept,
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
                  const std::vector<std::int64_t>& given = {});
 
-// The two functions below throw UserError, at the scene's `start.file` or at the key that differs, when the
-// file is missing, damaged, of another version, or does not fit the scene. They check everything in the
-// file.
+// The functions below that read a checkpoint throw UserError, at the scene's `start.file` or at the key that
+// differs, when the file is missing, damaged, of another version, or does not fit the scene. They check
+// everything in the file.
 //
-// Goes on bit by bit: reads grains, the loop's lists and histories, and what each feed has given. The loop
-// belongs to these grains. `gathered` becomes what observers had gathered, which the caller still has to
-// check. may_change: the scene need not be that of the checkpoint.
+// Lets the run go on with the same bits: reads grains, the loop's lists and histories, and how many grains
+// each feed has given. The loop belongs to these grains. `gathered` becomes what observers had gathered,
+// which the caller still has to check. may_change: the scene need not be that of the checkpoint.
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
                                           StepLoop& loop, std::string& gathered,
                                           std::vector<std::int64_t>& given, bool may_change = false);
@@ -74,8 +74,8 @@ struct KeyDifference {
     std::string key;
     std::string then, now;  // as TOML; empty where the key is not there
 };
-// The differences between two texts of the scene's writer, in keys that decide only. Keys that somebody
-// wrote come before those that the plan chose.
+// The differences between two texts of the scene's writer, only in keys that decide the future. Keys that
+// somebody wrote come before those that the plan chose.
 std::vector<KeyDifference> deciding_differences(std::string_view then, std::string_view now);
 
 // Differences between the two texts in all keys of one table, such as "output".

@@ -84,7 +84,7 @@ struct Level {
     std::int64_t steps = 0;
 };
 
-// The time (s) of the quickest contact.
+// The duration (s) of the shortest contact.
 double contact_time(const Plan& plan) {
     double quickest = std::numeric_limits<double>::infinity();
     for (const std::vector<PairPlan>* kinds : {&plan.grain, &plan.wall, &plan.glued, &plan.mesh})
@@ -92,7 +92,8 @@ double contact_time(const Plan& plan) {
     return quickest;
 }
 
-// Drags from one under which no contact swings down to one as weak as settle() has, halved each time.
+// A falling series of drags, each half of the one before: from one under which no contact swings to one as
+// weak as that of settle().
 std::vector<Level> levels_of(const Plan& plan) {
     constexpr double kWeakest = 20;  // 1/s
     const double time = contact_time(plan);

@@ -32,7 +32,7 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
 // Relaxing: the bed of a start file rests under the laws of its own run, and comes to rest under those of
 // the scene before the drive starts.
 
-// No bed that comes to rest by changes of its overlaps alone needs longer than this (s).
+// A bed that only has to change its overlaps comes to rest within this time (s).
 constexpr double kRelaxLimit = 2;
 
 // Number of steps before the first one of settle(). In these a drag stops whatever a step sets in motion,

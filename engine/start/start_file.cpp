@@ -114,7 +114,7 @@ void check_grains_numbered(const Scene& scene, const Grains& grains) {
     }
 }
 
-// Compares but for rounding: the same density may have been read in another unit.
+// Compares up to rounding, because the same density may have been read in another unit.
 void check_masses(const Scene& scene, const Grains& grains) {
     const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-12 * a); };
     Grains one;
@@ -159,7 +159,8 @@ void check_grains_match(const Scene& scene, const Grains& grains) {
 namespace {
 
 constexpr double kTooDeep = 1.0 / 3;
-// Ends the message where the grains do not fit: a table does not say where the walls were.
+// The end of the message when grains do not fit. It names the container as a likely cause, because a table
+// does not say where the walls were.
 constexpr const char* kOtherContainer =
     "give the container of the run the file comes from, and the checkpoint of a run that did not end with a "
     "period";

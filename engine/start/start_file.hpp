@@ -32,7 +32,7 @@ void check_grains_numbered(const Scene& scene, const Grains& grains);
 // Throws UserError where the grains have other sizes than the scene says.
 void check_sizes_match(const Scene& scene, const Grains& grains);
 
-// Throws UserError where the grains of a species are not as many, or not as large, as the scene says.
+// Throws UserError where the number or the sizes of a species' grains are not those of the scene.
 void check_grains_match(const Scene& scene, const Grains& grains);
 
 // Throws UserError where grains have other masses than their species.

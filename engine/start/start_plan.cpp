@@ -63,8 +63,8 @@ bool is_at_rest(const BedInFile& bed) {
     return bed.moves_because.empty();
 }
 
-// The speed of impacts to expect. A bed at rest from an unknown run is taken to go on slowly, with a fall
-// of one diameter. One that moves hits the floor with the speed it has.
+// The speed of impacts to expect: at least that of the run the file comes from, if it is known. Otherwise a
+// bed at rest may fall by one diameter, and a bed that moves falls to its lowest grain.
 double expected_speed(const Scene& scene, const BedInFile& bed) {
     if (bed.origin) return std::max(bed.origin->plan.impact_speed, bed.fastest);
     if (!is_at_rest(bed)) return bed.falls;
