@@ -246,7 +246,7 @@ struct FilmUse {
     double drawing = 0;  // share of drawing in that time
 };
 
-// Time and bytes of a film of `most` frames, or of fewer when they take long.
+// Processor time of a film of `most` frames, or of fewer when they take long.
 FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const Frame& bed, int most,
                     const HeldSignals& signals) {
     const ProbeFolder folder;
