@@ -102,7 +102,7 @@ std::optional<Stop> Agenda::next() {
 namespace {
 
 constexpr double most_bytes = 40e6;
-constexpr double bytes_a_grain = 68 + 3 * 44;  // its row in one file, and three contacts in the other
+constexpr double bytes_a_grain = 68 + 3 * 44;  // its numbers in one file, and three contacts in the other
 constexpr int last_periods = 2, phases = 8;    // periods of the drive, and moments in each
 constexpr int between = 12;
 

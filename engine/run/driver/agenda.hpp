@@ -1,7 +1,6 @@
-// Says at which steps a run stops and why: the wishes of a film or of another program that go beyond the
-// run's files (FrameWishes), the earlier moments that its frames need (KeptMoments), for example for a
-// picture with an exposure time, and the agenda that merges these with rows of files and key moments, in
-// order of time.
+// At which steps a run stops, and why. FrameWishes: what a film or another program wants beyond the run's
+// files. KeptMoments: earlier moments that its frames need, for example for a picture with an exposure time.
+// Agenda: merges these with the rows of files and the key moments, in order of time.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +24,7 @@ Frame places_of(const Frame& frame);
 
 struct WantedMoment {
     std::int64_t step = 0;
-    bool whole = false;  // true for the whole frame, false for places_of() it
+    bool whole = false;  // whether the whole frame is kept, or only places_of() the frame
 };
 
 // Keeps earlier moments. A moment is kept until the last frame that needs it has been handed out.
@@ -49,7 +48,7 @@ class KeptMoments {
         std::int64_t last = 0;  // last frame that needs it
     };
     std::map<std::int64_t, Wanted> wanted_;                    // by step
-    std::map<std::int64_t, std::set<std::int64_t>> of_frame_;  // steps
+    std::map<std::int64_t, std::set<std::int64_t>> of_frame_;  // steps that the frame of a step needs
     std::map<std::int64_t, FramePtr> kept_;
 };
 

@@ -1,4 +1,5 @@
-// The pace of a run in wall time: steps at a stretch, times of its stages, and when checkpoints are due.
+// The pace of a run in wall time: how many steps it takes between two looks at the user's signals, the times
+// of its stages, and when checkpoints are due.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,7 @@ class Pace {
     }
 
   private:
-    static constexpr double stretch = 0.1;  // s, of wall time
+    static constexpr double stretch = 0.1;  // s, wanted wall time of a stretch
     static constexpr std::int64_t longest = std::int64_t{1} << 40;
     std::int64_t steps_ = 8;
 };
@@ -41,7 +42,7 @@ class RecentRate {
     double value() const { return seconds_ > 0 ? work_ / seconds_ : 0; }
 
   private:
-    static constexpr double memory = 2;  // s
+    static constexpr double memory = 2;  // s, after which old work counts only 1/e
     double work_ = 0, seconds_ = 0;
 };
 

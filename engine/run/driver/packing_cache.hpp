@@ -13,15 +13,15 @@
 
 namespace grainreel {
 
-// Path at which the packing of a key is, or would be. Empty if the user has no cache folder.
+// The path for the packing of a key, whether it is there or not. Empty if the user has no cache folder.
 std::filesystem::path place_of_packing(const std::string& key);
 
 // Notes that a packing has been used. Packings that were not used for the longest time are removed first.
 void note_packing_used(const std::filesystem::path& place);
 
-// Keeps the file that `write` writes under the name that it is given. Removes the packings that were not used
-// for the longest time while all together exceed the limit. Never throws. Returns the reason, in words, if
-// the packing could not be kept, else nothing.
+// Keeps a packing: calls `write` with the name of the file to write. While all packings together exceed the
+// limit, removes those that were not used for the longest time. Never throws. Returns the reason, in words,
+// if the packing could not be kept, else nothing.
 std::string keep_packing(const std::filesystem::path& place,
                          const std::function<void(const std::filesystem::path&)>& write);
 

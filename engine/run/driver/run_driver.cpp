@@ -56,8 +56,8 @@ void RunDriver::keep_former(const FolderLock& folder, bool hands_out, const std:
     former_kept_ = true;
 }
 
-// Gives up the saved former state once the run has gone past its former end. A run may also end exactly at
-// its former end, to finish its film. Its files are then whole again too.
+// Removes the saved former state once the run has gone past its former end. A run may also end exactly there,
+// to finish its film; its files are then whole again too.
 void RunDriver::let_former_go(bool at_its_end) {
     if (!former_kept_ || !(at_its_end || simulation_.step() > former_end_)) return;
     FormerRun::let_go(folder_->folder());

@@ -1,4 +1,4 @@
-// Runs one scene: packing, vibration up to the moments that are to be seen, and the files in the run's
+// Runs one scene: packs the grains, goes from one wanted frame to the next, and writes the files in the run's
 // folder. It prints nothing and draws nothing.
 //
 // Call use_folder(), pack(), start(), next() until it gives nothing, and close(), in this order.
@@ -33,7 +33,7 @@ class RunDriver {
 
     // Throws UserError for mistakes in scene or plan. Nothing is on disk then.
     RunDriver(const Scene& scene, const Plan& plan, int threads);
-    // A run that goes on in its folder. It is already packed.
+    // A run that goes on (is resumed) in its folder. It is already packed.
     RunDriver(const Scene& scene, const Plan& plan, ResumePoint point);
     RunDriver(const RunDriver&) = delete;
     RunDriver& operator=(const RunDriver&) = delete;
@@ -44,9 +44,9 @@ class RunDriver {
     void use_folder(const FolderLock& folder, const std::string& program_version,
                     const std::filesystem::path& previous = {});
     // Call this for a run that goes on, before use_folder(). It checks all files of the run, and keeps the
-    // former state until the run has gone past its former end. `hands_out` says whether frames will be handed
-    // out, so that film_moments.nc goes on. Throws UserError or RunError; nothing in the folder has changed
-    // then.
+    // state in which the folder is now until the run has gone past the step it had reached before (its former
+    // end). `hands_out` says whether frames will be handed out, so that film_moments.nc goes on. Throws
+    // UserError or RunError; nothing in the folder has changed then.
     void keep_former(const FolderLock& folder, bool hands_out, const std::string& program_version);
     // Whether the run goes on and has not yet reached its former end.
     bool is_behind_former() const { return former_kept_; }

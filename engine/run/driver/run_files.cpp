@@ -163,7 +163,7 @@ namespace {
 
 constexpr int most_periods = 10;
 constexpr double late_share = 0.1;  // as a share of a run without a drive
-constexpr double hair = 1e-3;       // as a share of a period, tolerance because rows are at whole steps
+constexpr double hair = 1e-3;       // tolerance as a share of a period, because rows are at whole steps
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// The growing files of one run (trajectory, contacts, measures, outflow), and means of the last measures.
+// The files of one run that grow row by row (trajectory, contacts, measures, outflow), and means of the last
+// measures.
 #pragma once
 
 #include <deque>
@@ -90,7 +91,8 @@ class RunFiles {
     // The rows of measures.csv; null unless they are kept.
     std::shared_ptr<const MeasureTable> measures() const { return table_; }
     std::optional<std::int64_t> outflow_rows() const;
-    // Outflow by outflow.csv until a time (s) that the run has reached; empty without such a file.
+    // The grains that left until a time (s) that the run has reached, by outflow.csv; empty without that
+    // file.
     std::optional<FlowedOut> flowed_out(double time) const;
     bool has_contacts() const { return contacts_.has_value(); }
     const std::optional<Measures>& first_measures() const { return first_; }

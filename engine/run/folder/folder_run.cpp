@@ -192,7 +192,7 @@ void FolderRun::page_is_missing(bool missing) {
     if (missing) desk_.record.missing.emplace_back(kPageIsMissing);
 }
 
-// In a hurry the page is left out; `resume` makes it.
+// If the user is in a hurry, the page is left out. `resume` makes it later.
 void FolderRun::stop_before_page() {
     if (desk_.record.missing.empty() || !desk_.folder->lock().is_there()) return;
     settle_status(true);

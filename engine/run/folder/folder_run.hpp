@@ -14,21 +14,20 @@
 
 namespace grainreel {
 
-// The request for a run that fills a folder.
-
-// Makes the page of the run in a folder, whose other files are closed, and returns the name of its file. It
-// calls go_on() with the share that is done. If that returns false, the page is left out, and nothing is
-// returned. Throws if the page cannot be made.
+// Makes the page of a run (report.html) in its folder, when all other files are closed, and returns the name
+// of the page's file. It calls go_on() with the share that is done. If that returns false, the page is left
+// out, and nothing is returned. Throws if the page cannot be made.
 using PageMaker = std::function<std::optional<std::string>(const std::filesystem::path& folder,
                                                            const std::function<bool(double)>& go_on)>;
 
+// What the caller wants of a run that fills a folder.
 struct RunRequest {
     std::optional<std::filesystem::path>
         out;                                // new or empty; if not set, base and the scene's name, numbered
     std::filesystem::path base = "output";  // folder for runs without `out`
     bool force = false;                     // whether a run in `out` is replaced
-    // Time in s. Packings that took so long or longer are kept in the user's cache folder, and found there.
-    // Without a value none are.
+    // Time in s. Packings that took at least so long are kept in the user's cache folder, and later runs find
+    // them there. Without a value nothing is kept or looked for.
     std::optional<double> keep_packings;
     PageMaker page;       // if empty, the run leaves no page
     std::string command;  // as typed, for run.json
@@ -72,8 +71,8 @@ class FolderRun {
   protected:
     FolderRun(RunRequest request, RunListener& listener);
 
-    // The work itself, after the folder has been made and before the end state is kept. Returns false if it
-    // was asked to stop.
+    // Does the work of the run. The folder is there, and the end state is kept afterwards. Returns false if
+    // it was asked to stop.
     virtual bool work() = 0;
     // The side work of the run, or null.
     virtual SideWork* side_work() { return nullptr; }

@@ -1,4 +1,4 @@
-// A scene run from its beginning to its end, in one call: for programs that use the engine as a library.
+// Runs a scene from its beginning to its end in one call, for programs that use the engine as a library.
 //
 //     const Scene scene = read_scene("hopper.toml", {}, measurable_in);
 //     RunSceneOptions how;
@@ -30,7 +30,7 @@ struct RunSceneOptions {
     // Threads of the engine; 0 for as many as the scene says, or as many as are useful. Their number does not
     // change the bits of the run.
     int threads = 0;
-    // s of simulated time between the frames that are looked at, from the start of the drive on, each at the
+    // Simulated time (s) between the frames that look() gets, from the start of the drive on, each at the
     // nearest step; 0 for no frames.
     double every = 0;
     // Called with each of these frames, on the calling thread. If it returns false, the run ends there in

@@ -1,5 +1,5 @@
-// Runs one scene in a folder, from the accepted scene to the closed files. The class is complete; code that
-// makes a film of the run derives from it.
+// Runs one scene in a folder, from the accepted scene to the closed files. The class can be used as it is;
+// code that makes a film of the run derives from it.
 //
 //     const Scene scene = read_scene("scene.toml", {}, measurable_in);
 //     SceneFolderRun run({.out = "output/mine"}, listener, scene, make_plan(scene));

@@ -148,8 +148,9 @@ Vec3 middle_of(const TriangleMesh& mesh, std::size_t triangle) {
     return sum / 3;
 }
 
-// For each triangle of the scene's mesh: its number in the file. Mending removes some triangles and keeps the
-// order of the others. It moves corners by at most 1e-5 of the extent.
+// For each triangle of the scene's mesh (`to`), its number in the file (`from`). When the scene's mesh was
+// mended, some triangles were removed, the others kept their order, and corners moved by at most 1e-5 of the
+// extent.
 std::vector<std::size_t> origins(const TriangleMesh& from, const TriangleMesh& to) {
     Vec3 low = Vec3::Constant(1e300), high = -low;
     for (const Vec3& vertex : from.vertices) low = low.cwiseMin(vertex), high = high.cwiseMax(vertex);

@@ -18,7 +18,7 @@
 
 namespace grainreel {
 
-// Finds the value that 99 of 100 values do not exceed, for any number of values and with little memory.
+// Finds the value that 99 of 100 values do not exceed. It needs little memory for any number of values.
 // Values are counted in 100 classes for each power of ten, so the answer is at most 2.4 % too large.
 class TopOfMost {
   public:

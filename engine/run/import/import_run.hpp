@@ -1,8 +1,8 @@
 // Turns frames of another program into the folder of a run: scene.toml, trajectory.nc, measures.csv, and
 // contacts.nc where contacts are known. After that everything works with it as with a run of ours.
 //
-// The copy costs as much disk space as the frames. In return no verb needs a second way for foreign files,
-// any moment is found at once, and damaged frames are found before the first picture.
+// The copy costs as much disk space as the frames. In return no command needs code of its own for files of
+// other programs, any moment is found at once, and damaged frames are found before the first picture.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Brings a run on disk back to one of its steps, bit by bit. The engine computes the steps again from the
-// nearest checkpoint before. The result does not depend on stops on the way, or on what was measured in the
-// first run.
+// Brings a run on disk back to one of its steps, with the same bits. The engine computes the steps again from
+// the nearest checkpoint before. The result does not depend on stops on the way, or on what was measured in
+// the first run.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ using ReplayWatcher = std::function<bool(double done)>;
 // UserError if there is no checkpoint.
 Plan plan_of_run(const Scene& scene, const std::filesystem::path& run);
 
-// A run with the scene that a checkpoint of it holds, as it was used; instruments and fields are left out.
+// The run at a checkpoint, with the scene that the checkpoint holds. Instruments and fields are left out.
 // Throws UserError if the checkpoint cannot be used.
 Simulation run_of_checkpoint(const std::filesystem::path& checkpoint, int threads);
 

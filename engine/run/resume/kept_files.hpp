@@ -1,5 +1,5 @@
-// The growing files of a run that goes on: how far they reach, and checks of all of them before any is
-// changed.
+// The files that grow in a run that goes on (is resumed): how far they reach, and checks of all of them
+// before any is changed.
 #pragma once
 
 #include <cstddef>

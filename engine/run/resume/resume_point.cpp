@@ -40,7 +40,7 @@ void check_same_files(const std::string& then, const Scene& scene, const Plan& p
 
 struct Limits {
     std::int64_t first = 0,
-                 film = 0;  // steps: where the run began, and the last checkpoint that serves its film
+                 film = 0;  // steps: the run's first one, and that of the last checkpoint its film can use
 };
 
 // Whether the run had ended at this checkpoint and is longer now. Its last record of fields may then have

@@ -27,10 +27,10 @@ struct ResumePoint {
     std::vector<AcceptedKey> accepted{};  // keys that were changed on the run's way up to there
 };
 
-// Returns the last step whose checkpoint serves a caller that needs all frames of the run again, for example
-// a film. Earlier frames come from film_moments.nc, which has frames at the steps `kept`; later frames come
-// as the run goes on. `first` is the step at which the run began, and `last` the step of its last checkpoint.
-// If `first` is returned, the run goes on from its beginning, without packing again.
+// For a caller that needs all frames of the run again, such as a film: returns the last step from which the
+// run may go on. Earlier frames are read from film_moments.nc, which has frames at the steps `kept`; later
+// frames come as the run goes on. `first` is the step at which the run began, and `last` the step of its last
+// checkpoint. If `first` is returned, the run goes on from its beginning, without packing again.
 using FramesReach =
     std::function<std::int64_t(const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t last)>;
 

@@ -58,7 +58,7 @@ void Simulation::Impl::take_grains() {
 }
 
 // Begins with the grains that were taken. Contacts of a checkpoint that follow the same law here keep their
-// histories. For the others, latches are set such that the bed rests.
+// histories. The others get latches (largest overlaps, held_histories.hpp) with which the bed rests.
 void Simulation::Impl::begin_with_taken() {
     set_orientations();
     make_loop();
@@ -125,13 +125,13 @@ bool Simulation::Impl::pack_rain(const PackingWatcher& watcher, PackingProgress&
     return report.finished;
 }
 
-// Begins the account of work and energy. The forces are those of the present state, so the first half kick is
-// right.
+// Begins the account of work and energy. The forces are computed for the present state, so that the first
+// half step of the velocities is right.
 void Simulation::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
-    if (std::isnan(start_energy)) start_energy = 0;  // the energy of a caller's law is never known
+    if (std::isnan(start_energy)) start_energy = 0;  // a caller's own contact law tells no energy
     step = 0;
     if (observers.need_wall_sums()) loop->tally_walls(wall_scale(scene, plan), step);
     open_when_due();

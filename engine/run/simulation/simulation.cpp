@@ -48,8 +48,8 @@ std::int32_t Simulation::Impl::insert(const std::vector<NewGrain>& more) {
 
 void Simulation::Impl::look_at_health() {
     check_state(limits, around, grains, *loop, step);
-    // The allowance is the energy of a hundredth of the bed's weight over a radius. Round-off, and closed
-    // loops of a law, then do not stop a bed at rest.
+    // The allowance is the work of a hundredth of the bed's weight along one radius. So a bed at rest is not
+    // stopped by round-off, or by energy that a law makes in closed loops.
     const Traffic& traffic = loop->traffic();
     const Kinetic kinetic = kinetic_energy(grains);
     const double work = wall_work(grains) + traffic.work_out;
@@ -229,8 +229,8 @@ namespace {
 
 constexpr double kLeastPatience = 20;  // looks
 
-// Time (s) for which a grain may wait for a place. It is twice the time of a fall through the container, so
-// that the grain before it has had time to leave the box, and at least some looks.
+// Time (s) for which a grain may wait for a place: twice the time of a fall through the container, so that
+// the grain before it can leave the feed's box, but at least kLeastPatience looks.
 double patience(const Scene& scene, double look) {
     const double gravity = scene.gravity.norm();
     const double height = scene.container.height - scene.container.base();

@@ -1,4 +1,5 @@
-// One scene in motion: packing, then the step loop, with health checks. The output is frames and measures.
+// A simulation of one scene: it packs the grains, makes steps with checks of health, and gives frames and
+// measures.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,7 @@ struct ContactForce {
 
     Vec3 on_second() const { return normal_force * normal + tangential; }  // N
     Vec3 on_first() const { return -on_second(); }
-    // Bodies may also touch without a force: springs that are latched, and grains that part.
+    // Bodies may also touch without a force, for example when they part after a plastic impact.
     bool pushes() const { return normal_force != 0 || !tangential.isZero(0); }
     // Whether friction is at its limit, so that the surfaces slide.
     bool slides() const {
