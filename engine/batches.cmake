@@ -1,14 +1,14 @@
-# Compiles source files of a library together, several a batch (CMake's UNITY_BUILD): what they share, headers and the
-# templates of the standard library, is then worked out once a batch, which halves the time of the build. Unnamed
-# namespaces of a batch are one, so files whose helpers would meet there are put into different batches: a helper's name
-# must not be a word of another file of its batch. That is found out whenever CMake runs. Where an edit makes two
-# helpers meet, the compiler says so: rename one, or run `cmake --preset release` for other batches.
-# A file that defines macros, goes through vector targets or replaces operator new stays alone.
+# Compiles source files of a library together in batches (CMake's UNITY_BUILD). Headers and templates that they share
+# are then compiled once for each batch, which halves the time of the build. The unnamed namespaces of a batch become
+# one, so files with clashing helpers get different batches: the name of a helper must not occur as a word in another
+# file of its batch. This is checked whenever CMake runs. If an edit makes two helpers clash, the compiler says so:
+# rename one, or run `cmake --preset release` to get other batches.
+# A file that defines macros, is compiled for several vector targets or replaces operator new stays alone.
 # -DGRAINREEL_BATCH=1 compiles every file by itself.
 set(GRAINREEL_BATCH 8 CACHE STRING "Source files of the program that are compiled together")
 set(GRAINREEL_BATCH_BYTES 48000)
 
-# What a source's unnamed namespaces name: `functions`, and `others` (types and constants).
+# Finds the names in a source's unnamed namespaces: `functions`, and `others` (types and constants).
 function(grainreel_helpers text functions others)
   set(called "")
   set(named "")
@@ -63,8 +63,8 @@ function(grainreel_meets out text functions others)
   set(${out} OFF PARENT_SCOPE)
 endfunction()
 
-# Types of the headers beside `sources` join those of the targets before: files that call a type of their own alike
-# would make it ambiguous.
+# Adds the types in the headers beside `sources` to those of the targets before. A file with a type of its own of the
+# same name would make the name ambiguous.
 function(grainreel_header_types out sources)
   get_property(types GLOBAL PROPERTY GRAINREEL_HEADER_TYPES)
   set(folders "")
@@ -87,7 +87,7 @@ function(grainreel_header_types out sources)
   set(${out} "${types}" PARENT_SCOPE)
 endfunction()
 
-# Puts the sources of `target` into batches, but for those of the folders after APART, whose code must stay as fast.
+# Puts the sources of `target` into batches, except those in the folders after APART, whose code must stay as fast.
 function(grainreel_together target)
   cmake_parse_arguments(PARSE_ARGV 1 given "" "" "APART")
   if(GRAINREEL_BATCH LESS 2)
@@ -152,7 +152,7 @@ function(grainreel_together target)
     list(APPEND others_${place} ${others})
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${place})
   endforeach()
-  # A batch includes its sources, whose types may have members of unnamed namespaces.
+  # GCC warns of types with members from unnamed namespaces, which are harmless in the sources that a batch includes.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

@@ -1,4 +1,4 @@
-// Frames on disk as other programs see them: files that are read and written, and readers of the caller.
+// The library's functions for frames on disk: reads and writes files, and adds the caller's own readers.
 #include "engine/library/internal.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Public values made from those of the program, and the other way round.
+// Converts values of the program into public ones of the library, and back.
 #include "engine/library/internal.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// Between the public types of the library, in grainreel::v1, and those of the program, in grainreel. Include
-// this before any public header: the macro below keeps the names of v1 out of grainreel. The library's
-// sources need it, and nothing else does.
+// Converts between the public types of the library, in grainreel::v1, and those of the program, in grainreel.
+// Only the library's sources include this header, before any public header: the macro below keeps the names
+// of v1 out of grainreel.
 #pragma once
 
 #ifndef GRAINREEL_LIBRARY_SOURCE
@@ -45,6 +45,7 @@ auto told(const Call& call) -> decltype(call()) {
     }
 }
 
+// inside() makes a value of the program from a public one, outside() a public one from that of the program.
 Vec3 inside(const Vector& v);
 Vector outside(const Vec3& v);
 Quaternion inside(const Rotation& r);
@@ -71,11 +72,11 @@ struct FrameFile::Impl {
     std::unique_ptr<FrameArchive> archive;
 };
 
-// A caller's contact law as the step loop calls it: a LawKernel that calls the law, a contact at a time. It
-// must outlive all loops that run it.
+// A caller's contact law in the form that the step loop can run: a LawKernel that calls the law for one
+// contact after the other. It must outlive all loops that run it.
 class OwnLaw {
   public:
-    // Throws Error where the law wants more numbers a contact than it may have.
+    // Throws Error where the law wants to keep more numbers for a contact than it may.
     explicit OwnLaw(std::shared_ptr<const ContactLaw> law);
     OwnLaw(const OwnLaw&) = delete;
     OwnLaw& operator=(const OwnLaw&) = delete;

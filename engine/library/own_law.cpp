@@ -1,4 +1,4 @@
-// Calls a contact law of the library's user for each contact, in the place of the program's own kernels.
+// Calls a contact law of the library's user for each contact, where the program would run a law of its own.
 #include "engine/library/internal.hpp"
 
 #include <array>
@@ -26,8 +26,8 @@ Vec3 vector_at(const Row* rows, int c) {
     return {rows[0][c], rows[1][c], rows[2][c]};
 }
 
-// Turns a vector along with its contact as the program's laws do (engine/laws/friction-inl.hpp): by Cayley's
-// rotation, and then without its part along the normal.
+// Turns a vector along with its contact as the program's laws do (engine/laws/friction-inl.hpp): rotates it
+// by Cayley's rotation and then removes its part along the normal.
 Vec3 carried(const Vec3& vector, const Vec3& turn, const Vec3& normal) {
     const Vec3 once = turn.cross(vector), twice = turn.cross(once);
     const Vec3 turned = vector + (once + twice) * (2 / (1 + turn.squaredNorm()));

@@ -1,4 +1,4 @@
-// Scenes as other programs see them: read, planned and run.
+// The library's functions for scenes: reads, plans and runs them.
 #include "engine/library/internal.hpp"
 
 #include <fmt/format.h>

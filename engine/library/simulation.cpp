@@ -1,4 +1,4 @@
-// A scene in motion as other programs see it, step by step.
+// The library's Simulation, with which another program runs a scene step by step.
 #include "engine/library/internal.hpp"
 
 #include <algorithm>
