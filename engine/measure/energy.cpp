@@ -63,6 +63,16 @@ Vec3 velocity_of_wall(const Surroundings& around, const std::vector<BodyPose>& m
                         : meshes[wall - faces].velocity_at(c.point);
 }
 
+// Spin (rad/s) of the wall of a contact. `pose` is the pose of the drive.
+Vec3 spin_of_wall(const Surroundings& around, const std::vector<BodyPose>& meshes, const ContactView& c,
+                  const Pose& pose) {
+    const auto wall = static_cast<std::size_t>(-1 - c.second);
+    const std::size_t faces = around.faces.size();
+    if (wall >= faces) return meshes[wall - faces].spin;
+    const Body& body = around.faces[wall].body;
+    return body.has_own_motion() ? body.at(pose).spin : Vec3(0, 0, 0);
+}
+
 }  // namespace
 
 EnergyBalance::EnergyBalance(const Surroundings& around, const Grains& grains, const StepLoop& loop,
@@ -106,6 +116,7 @@ void EnergyBalance::look(std::int64_t step) {
         if (c.second >= 0) return;
         const Vec3 on_wall = c.normal_force * c.normal + c.tangential;
         powers_.walls -= on_wall.dot(velocity_of_wall(around_, meshes, c, pose));
+        if (!c.rolling.isZero(0)) powers_.walls -= c.rolling.dot(spin_of_wall(around_, meshes, c, pose));
     });
     // Grains::wall_work counts the last force for a whole step, but half of that is still to come.
     note_traffic();

@@ -127,13 +127,16 @@ DriveSchedule::Now drive_now(const Drive& drive, double cycles) {
 
 DrivePeaks drive_peaks(const Drive& drive) {
     const double omega = 2 * std::numbers::pi * drive.frequency;
-    DrivePeaks peaks{drive.frequency, drive.amplitude, drive.speed(), drive.amplitude * omega * omega};
+    // Without a ramp the sine may begin anywhere, and the container begins in its place at rest.
+    const double farthest = 1 + (drive.ramp > 0 ? 0 : std::abs(std::sin(2 * std::numbers::pi * drive.phase)));
+    DrivePeaks peaks{drive.frequency, farthest * drive.amplitude, drive.speed(),
+                     drive.amplitude * omega * omega};
     if (!drive.changes()) return peaks;
     const DriveSchedule schedule(drive);
     peaks = {};
-    const auto take = [&](double frequency, const Envelope& most) {
+    const auto take = [&](double frequency, const Envelope& most, double from_rest) {
         peaks.frequency = std::max(peaks.frequency, frequency);
-        peaks.offset = std::max(peaks.offset, most.offset);
+        peaks.offset = std::max(peaks.offset, from_rest * most.offset);
         peaks.speed = std::max(peaks.speed, most.speed);
         peaks.acceleration = std::max(peaks.acceleration, most.acceleration);
     };
@@ -141,11 +144,12 @@ DrivePeaks drive_peaks(const Drive& drive) {
         const DriveSchedule::Piece& piece = schedule.pieces()[i];
         const bool changes = schedule.times().stretches()[i].changes();
         for (int k = 0; changes && k <= looks_at_change; ++k)
-            take(0, envelope_of(schedule.change(i).at(static_cast<double>(k) / looks_at_change)));
+            take(0, envelope_of(schedule.change(i).at(static_cast<double>(k) / looks_at_change)), farthest);
         if (changes || piece.kind == Kind::rest) continue;
         const double amplitude = amplitude_of(piece.acceleration, piece.frequency);
-        take(piece.frequency, {(piece.kind == Kind::taps ? 2 : 1) * amplitude,
-                               amplitude * 2 * std::numbers::pi * piece.frequency, piece.acceleration});
+        take(piece.frequency,
+             {amplitude, amplitude * 2 * std::numbers::pi * piece.frequency, piece.acceleration},
+             piece.kind == Kind::taps ? 2 : farthest);
     }
     return peaks;
 }

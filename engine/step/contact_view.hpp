@@ -18,6 +18,7 @@ struct ContactView {
     double normal_force;     // N
     Vec3 tangential;         // N, on second
     Vec3 torque_on_first;    // N m
+    Vec3 rolling;            // N m, torque of the resistance to rolling on second; 0 without
     Vec3 torque_on_second;   // N m; not set for a wall
     double stored_energy;    // J, energy that unloading would give back
     double sideways_energy;  // J, the part of it in tangential and rolling springs

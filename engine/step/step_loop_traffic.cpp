@@ -246,7 +246,7 @@ void StepLoop::tally_walls(const WallScale& scale, std::int64_t step) {
         if (c.second >= 0) return;
         const std::int32_t wall = -1 - c.second;
         members_[0].tally.add(wall, c.normal_force * c.normal + c.tangential, c.normal_force,
-                              arm_at(around_, static_cast<std::size_t>(wall), pose, c.point));
+                              arm_at(around_, static_cast<std::size_t>(wall), pose, c.point), c.rolling);
     });
 }
 

@@ -184,5 +184,18 @@ TEST(DriveStageMessages, WordForWord) {
     }
 }
 
+// Without a ramp the container begins in its place, where the sine may be anywhere: z = a (sin(w t + p) - sin
+// p).
+TEST(DrivePeaks, WithoutARampTheContainerMayGoTwiceItsAmplitude) {
+    Drive drive = read_text(wedge_text).drive;
+    drive.ramp = 0;
+    drive.phase = 0.75;  // turns; sin p = -1
+    EXPECT_NEAR(drive_peaks(drive).offset, 2 * drive.amplitude, 1e-15);
+    drive.phase = 0.5;
+    EXPECT_NEAR(drive_peaks(drive).offset, drive.amplitude, 1e-15);
+    drive.phase = 0.75, drive.ramp = 2;
+    EXPECT_NEAR(drive_peaks(drive).offset, drive.amplitude, 1e-15);
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -240,7 +240,8 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     v.normal_force = of.force.normal[at];
     v.tangential = group.law->rubs ? vector(of.force.tangential) : Vec3::Zero();
     const Vec3 turning = v.normal.cross(v.tangential);
-    const Vec3 rolling = group.rolling ? vector(of.rolling.torque) : Vec3::Zero();
+    const Vec3 rolling = group.law->rubs && group.rolling ? vector(of.rolling.torque) : Vec3::Zero();
+    v.rolling = rolling;
     v.torque_on_first = v.torque_on_second = Vec3::Zero();
     if (group.law->rubs) v.torque_on_first = -of.touch.first_arm[at] * turning - rolling;
     if (group.law->rubs && group.of_pairs) v.torque_on_second = -of.touch.second_arm[at] * turning + rolling;

@@ -110,9 +110,12 @@ void note(const WallForces& in, int c, const Triple<L>& force) {
         const Row* const normal = chunk.touch->normal;
         const Vec3 out(normal[0].get(c + k, size), normal[1].get(c + k, size), normal[2].get(c + k, size));
         const double reach = grain.radius - 0.5 * chunk.touch->overlap.get(c + k, size);
+        Vec3 couple(0, 0, 0);
+        if (chunk.rolling)
+            for (int a = 0; a < 3; ++a) couple[a] = chunk.rolling->torque[a].get(c + k, size);
         in.walls.tally->add(face, Vec3(rows[0][k], rows[1][k], rows[2][k]),
                             chunk.force->normal.get(c + k, size),
-                            grain.position + reach * out - in.walls.faces[face].axis);
+                            grain.position + reach * out - in.walls.faces[face].axis, couple);
     }
 }
 

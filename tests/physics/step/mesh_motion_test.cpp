@@ -135,6 +135,56 @@ TEST(TurningDrum, DoesTheWorkOfRollingResistanceToo) {
     EXPECT_NEAR(facets.work, round.work, 0.01 * round.work);
 }
 
+// The angular momentum L of a ball about the origin, a point of the floor, changes by the torque of its
+// weight and by the opposite of the moment on the floor: dL/dt = x cross m g - M. The ball rolls and is
+// slowed down by its resistance to rolling alone.
+class FloorAtRest : public testing::TestWithParam<bool> {};
+
+TEST_P(FloorAtRest, TakesTheTorqueOfRollingResistance) {
+    PairPlan pair = walton_braun_pair(0.6, 0.5);
+    pair.rolling_friction = 0.2;
+    pair.model.rolls = true;
+    World w = make_world(pair, 2e-6);
+    if (GetParam())
+        add_mesh(w, "floor", square_mesh(0.2, 13));
+    else
+        w.around.faces = {floor_face()}, start_clock(w);
+    w.around.gravity = {0, 0, -kGravity};
+    w.grains.add(0, 0, Vec3(0.001, 0.002, kRadius - sphere_mass() * kGravity / kStiffness), kRadius,
+                 kDensity);
+    w.grains.motion[0].velocity = Vec3(0.1, 0.05, 0);
+    w.grains.motion[0].spin = Vec3(-0.05, 0.1, 0) / kRadius;
+    w.start();
+    const auto angular_momentum = [&] {
+        return Vec3(sphere_mass() *
+                    (w.position(0).cross(w.velocity(0)) + 0.4 * kRadius * kRadius * w.spin(0)));
+    };
+    WallScale scale;
+    scale.force = 0x1p-50;
+    scale.length = 0x1p-10;
+    w.loop->tally_walls(scale, 0);
+    const Vec3 before = angular_momentum(), weight(0, 0, -sphere_mass() * kGravity);
+    const int steps = 20000;
+    Vec3 of_weight(0, 0, 0);
+    for (int k = 0; k < steps; ++k) {
+        const Vec3 from = w.position(0);
+        w.run(1);
+        of_weight += w.plan.clock.step * (0.5 * (from + w.position(0))).cross(weight);
+    }
+    const WallSums sums = w.loop->wall_sums();
+    Vec3 moment;
+    for (int a = 0; a < 3; ++a)
+        moment[a] = static_cast<double>(sums.faces[0].moment[static_cast<std::size_t>(a)]) * scale.force *
+                    scale.length * w.plan.clock.step;
+    const Vec3 expected = of_weight - (angular_momentum() - before);
+    const double couple = 0.2 * kRadius * sphere_mass() * kGravity * steps * w.plan.clock.step;
+    EXPECT_LT((moment - expected).norm(), 0.01 * couple);
+    EXPECT_LT(w.velocity(0).norm(), 0.9 * Vec3(0.1, 0.05, 0).norm()) << "nothing resists";
+}
+
+INSTANTIATE_TEST_SUITE_P(, FloorAtRest, testing::Values(true, false),
+                         [](const auto& of) { return std::string(of.param ? "OfTriangles" : "OfAFace"); });
+
 // Ball and wall turn as one body about an axis far away: nothing slips, and the stored force stays.
 TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
     const double rate = 30;
