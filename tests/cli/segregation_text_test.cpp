@@ -36,9 +36,9 @@ TEST(SegregationText, SpeaksOfTheLargestAndTheSmallestSpecies) {
                                               indices(0.25, 0.75, 0.7, 0.9), "the last 10 periods");
     EXPECT_EQ(text,
               "segregation, from the start to the mean over the last 10 periods: mean height of b minus c, "
-              "over the bed's height, from -0.50 to +0.25; "
+              "divided by the bed's height, from -0.50 to +0.25; "
               "probability that b lies above c from 0.00 to 0.75 (1/2 is mixed); "
-              "unlike neighbours over chance from 0.10 to 0.70 (1 is mixed); "
+              "unlike neighbours, divided by what chance gives, from 0.10 to 0.70 (1 is mixed); "
               "Lacey mixing index from 0.20 to 0.90 (1 is mixed)");
     // If species have the same size, the first counts as big, as in measures.csv.
     EXPECT_THAT(segregation_text(of_sizes({1, 1}), indices(0, 0, 0, 0), indices(0, 0, 0, 0), "the last row"),

@@ -273,8 +273,8 @@ class LargestOverlap final : public Observer {
     static std::vector<ColumnGroup> columns(const Scene&) {
         return {{{{"largest_overlap", "largest overlap / radius"}},
                  "1",
-                 "largest overlap of a contact over the smaller radius (the plan's `run.overlap` is over the "
-                 "diameter)"}};
+                 "largest overlap of a contact, divided by the smaller radius (the plan's `run.overlap` is "
+                 "divided by the diameter)"}};
     }
     bool needs_contacts() const override { return true; }
     void begin(const ObservedState&) override { largest_ = 0; }
@@ -320,14 +320,13 @@ class Intruder final : public Observer {
     static constexpr const char* instrument = "intruder";
 
     static std::vector<ColumnGroup> columns(const Scene&) {
-        return {
-            {{{"intruder_level", "level of the intruder"}},
-             "1",
-             "of the one grain of the largest species: its top over the bed's surface around it, both above "
-             "the floor; 1 when it comes to the surface"},
-            {{{"rise_time_s", "rise time", Dimension::time}},
-             "s",
-             "when `intruder_level` first reached 1; NaN until then"}};
+        return {{{{"intruder_level", "level of the intruder"}},
+                 "1",
+                 "height of the top of the one grain of the largest species, divided by the height of the "
+                 "bed's surface around it; 1 when it comes to the surface"},
+                {{{"rise_time_s", "rise time", Dimension::time}},
+                 "s",
+                 "when `intruder_level` first reached 1; NaN until then"}};
     }
     Intruder(const Scene&, const Plan& plan) : rows_(plan) {}
 

@@ -19,8 +19,8 @@ class HeightDifference final : public Observer {
         return {{{{"height_difference", "height of big − small"}},
                  "1",
                  "`NAME_height_m` of the species of the largest mean diameter minus that of the smallest, "
-                 "over the height above the floor below which 95 % of all centres lie; of species all equal "
-                 "in size, the first minus the second"}};
+                 "divided by the height above the floor below which 95 % of all centres lie; if all species "
+                 "are equal in size, the first minus the second"}};
     }
     void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 1);

@@ -184,9 +184,9 @@ class Drum final : public Observer {
              "NaN where the axis stands"},
             {{{"froude_number", "Froude number"}},
              "1",
-             "square of the rate times the drum's radius over gravity, now; below 1e-4 the bed slumps, then "
-             "it "
-             "rolls and cascades, from about 0.1 on it cataracts, and at 1 it goes round with the drum "
+             "square of the present rate times the drum's radius, divided by gravity; below 1e-4 the bed "
+             "slumps, then it rolls and cascades, from about 0.1 on it cataracts, and at 1 it goes round "
+             "with the drum "
              "(Mellmann 2001)"}};
     }
     Drum(const Scene& scene, const Plan&) : drum_(turning_body(scene)), diameter_(mean_diameter(scene)) {}

@@ -79,7 +79,7 @@ PressureProfile::PressureProfile(const Scene& scene) {
         fields_.fields.push_back({"pressure_" + names[f],
                                   "pressure on " + faces[f].name,
                                   "Pa",
-                                  "mean normal force over area, of every step of the record",
+                                  "mean normal force of all steps of the record, divided by the area",
                                   {"height"}});
         faces_.push_back(f);
         area_.push_back(std::move(area));

@@ -37,7 +37,7 @@ class WallForces final : public Observer {
                  "`through`, a point of the axis"});
             groups.push_back({{{face + "_carries", "weight carried by " + face}},
                               "1",
-                              "the force along gravity over the weight of all grains"});
+                              "the force along gravity, divided by the weight of all grains"});
             const WallBody& body = walls.at(wall++);
             if (body.turns)
                 groups.push_back({{{face + "_torque_N.m", "torque on " + face, Dimension::moment}},

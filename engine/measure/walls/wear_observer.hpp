@@ -183,14 +183,15 @@ class Wear final : public Observer {
         set_.fields.push_back({pressure_field(name),
                                "pressure on " + scene.meshes[k].name,
                                "Pa",
-                               "mean normal force over area, of the record",
+                               "mean normal force divided by the area, for the record",
                                {axis.name}});
-        set_.fields.push_back({wear_field(name),
-                               "wear of " + scene.meshes[k].name,
-                               "J m-2",
-                               "work of the tangential forces over area, since the drive started until the "
-                               "end of the record",
-                               {axis.name}});
+        set_.fields.push_back(
+            {wear_field(name),
+             "wear of " + scene.meshes[k].name,
+             "J m-2",
+             "work of the tangential forces divided by the area, since the drive started until the "
+             "end of the record",
+             {axis.name}});
     }
     std::vector<std::vector<double>> presses() const {
         std::vector<std::vector<double>> all;

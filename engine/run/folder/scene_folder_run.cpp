@@ -204,11 +204,11 @@ std::string segregation_text(const Scene& scene, const Measures& from, const Mea
         };
         parts.push_back(fmt::format("{} from {} to {}{}", what, number(first), number(last), meaning));
     };
-    say(fmt::format("mean height of {} minus {}, over the bed's height,", big, small), "height_difference",
-        "", true);
+    say(fmt::format("mean height of {} minus {}, divided by the bed's height,", big, small),
+        "height_difference", "", true);
     say(fmt::format("probability that {} lies above {}", big, small), "big_above_small", " (1/2 is mixed)",
         false);
-    say("unlike neighbours over chance", "unlike_neighbours", " (1 is mixed)", false);
+    say("unlike neighbours, divided by what chance gives,", "unlike_neighbours", " (1 is mixed)", false);
     say("Lacey mixing index", "lacey", " (1 is mixed)", false);
     if (parts.empty()) return "";
     const bool differ = std::abs(to.at("unlike_neighbours") - to.at("lacey")) > wide_apart;
