@@ -109,7 +109,8 @@ constexpr double kAcross = 10.5;       // width of a part in diameters; it is th
 constexpr std::int64_t kFall = 30000;  // steps of the fall until the grains lie still, with drag
 constexpr double kDrag = 20;           // 1/s
 
-// Hertz and Mindlin, soft, so that the step is long: the cost of a step does not depend on the stiffness.
+// Grains with the laws of Hertz and Mindlin. They are soft, so that the step is long; the cost of a step does
+// not depend on the stiffness.
 Scene scene_of_part(int grains) {
     const double side = kAcross * kDiameter * std::sqrt(grains / static_cast<double>(kPart));
     return read_scene_text(fmt::format(R"(
@@ -208,7 +209,7 @@ BenchBed bed_of(const Scene& scene) {
     return bed;
 }
 
-// The default film's hopper; with more grains it is deeper.
+// The hopper of the default film, deeper for more grains.
 BenchBed wedge(int particles) {
     const double share = particles / 1620.0;
     const Scene scene = read_scene_text(wedge_scene(), "wedge.toml",
@@ -238,8 +239,8 @@ duration = 1
                                   name, {}));
 }
 
-// Small grains of 1 mm stand on a loose lattice in a box that is 40 of them wide. The big grain takes the
-// place of those that it would touch, low in the middle.
+// Small grains of 1 mm on a loose lattice, in a box that is 40 of them wide. One big grain low in the middle
+// takes the place of those that it would touch.
 constexpr double small = 0.001, apart = 1.1 * small, wide = 0.044;  // m
 
 BenchBed sea(int particles, double big) {

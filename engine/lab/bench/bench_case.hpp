@@ -1,4 +1,4 @@
-// The beds that `grainreel bench` times.
+// The beds of grains whose steps `grainreel bench` times.
 #pragma once
 
 #include <cstdint>
@@ -26,12 +26,13 @@ struct BenchCase {
     std::string name, about;
     int particles;            // number of grains unless the caller asks for another
     std::int64_t first_step;  // first step of the first phase; the drive starts at step 0
-    std::int64_t lead;        // steps before it that are not timed
-    double lead_drag;         // 1/s, during these steps
+    std::int64_t lead;        // steps before `first_step`, which are not timed
+    double lead_drag;         // 1/s, drag during these steps
     std::vector<BenchPhase> phases;
     BenchBed (*bed)(int particles);
-    // The side (m) after which the pattern repeats in x and y: more grains than `particles` are copies of a
-    // bed, side by side, with walls around all of them. nullptr where more grains make another bed.
+    // If more grains than `particles` are asked for, copies of the bed stand side by side, with walls around
+    // all of them. This gives the side (m) of one copy along x and y. nullptr where `bed` makes a larger bed
+    // instead.
     double (*side_of_copies)(const BenchBed& bed) = nullptr;
 };
 const std::vector<BenchCase>& bench_cases();
@@ -40,7 +41,8 @@ const std::vector<BenchCase>& bench_cases();
 // the bed, are put around all copies.
 BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k);
 
-// The peers' bed with their law, with ours, and without friction.
+// The bed on which other engines are measured (peers_bed.hpp), with their law, with ours, and without
+// friction.
 
 std::vector<BenchCase> peers_cases();
 

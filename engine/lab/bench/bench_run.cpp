@@ -46,7 +46,7 @@ struct Running {
         loop = std::make_unique<StepLoop>(bed.plan, bed.around, bed.grains, team);
         loop->restart();
     }
-    double run(std::int64_t steps, double drag = 0) {  // returns s
+    double run(std::int64_t steps, double drag = 0) {  // returns the time that it took, in s
         const double begin = seconds();
         loop->run(step, steps, bed.plan.clock.step, drag);
         step += steps;
@@ -67,8 +67,8 @@ class BenchRun {
         all_steps_ = case_.lead;
         for (const BenchPhase& phase : case_.phases) all_steps_ += phase.steps;
         all_steps_ *= request.repeats;
-        case_.bed(case_.particles);  // run once, so that memory which reading a scene takes for good (units,
-                                     // keys) does not count as the bed's
+        case_.bed(case_.particles);  // makes a bed first, because reading a scene takes some memory for good
+                                     // (units, keys), which must not count as the bed's
     }
 
     bool repeat(int repetition) {
@@ -90,9 +90,9 @@ class BenchRun {
     BenchResult& result() { return result_; }
 
   private:
-    // Many copies take too long for a whole phase, so they begin with a bed from the middle of the phase.
-    // Once their lists and histories exist, about as many grain-steps are timed as the single bed makes in
-    // the phase. A single copy is timed in the same way for comparison.
+    // Many copies of a bed would take too long for a whole phase, so they are made from the bed in the middle
+    // of the phase. Once their lists and histories exist, about as many grain-steps are timed as the single
+    // bed makes in the phase. A single copy is timed in the same way for comparison.
     bool time_phase(Running& run, const BenchPhase& phase, PhaseResult& result) {
         if (copies_ == 1) return advance(run, phase.steps, phase.name, 0, &result);
         if (!advance(run, phase.steps / 2, phase.name, 0, nullptr)) return false;
@@ -119,8 +119,8 @@ class BenchRun {
                        result_.threads, run.step);
     }
 
-    // Runs so many steps, and times them where there is a result. The clock of the stages slows the loop
-    // down, so only every fourth stretch has it, and that one does not count for the speed.
+    // Runs so many steps, and times them if `result` is not null. The loop's stages are timed only in every
+    // fourth stretch of steps, which does not count for the speed, because that slows the loop down.
     bool advance(Running& run, std::int64_t steps, const std::string& what, double drag,
                  PhaseResult* result) {
         run.loop->clear_costs();

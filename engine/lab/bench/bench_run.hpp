@@ -1,4 +1,4 @@
-// Times a case phase by phase: speed, and the stages that the time goes into.
+// Times the steps of a bench case phase by phase: its speed, and how much time each stage of a step takes.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct PhaseResult {
     std::string name;
     std::int64_t steps = 0;              // number of timed steps
     std::vector<double> particle_steps;  // grain-steps a second, one value for each repetition
-    // The same for a single copy in the same steps, where grains are copies of a bed.
+    // If the grains are copies of a bed: the same for a single copy in the same steps.
     std::vector<double> of_one_copy;
     std::int64_t listed = 0;             // pairs in the neighbour lists at the phase's end
     std::int64_t touching = 0;           // touching pairs at the phase's end
@@ -40,7 +40,7 @@ struct BenchResult {
     std::int64_t particles = 0;
     int threads = 0;
     Precision precision = Precision::full;
-    double bytes_per_particle = 0;  // heap in use at the end for all that the run asked for
+    double bytes_per_particle = 0;  // memory of the heap in use at the end, for each grain
     std::uint64_t state_hash = 0;   // hash of all places, velocities and spins at the end, by id
     std::vector<PhaseResult> phases;
 };
@@ -60,8 +60,8 @@ std::uint64_t hash_of_motion(const Grains& grains);
 
 // Grain-steps a second of a team of so many threads, on a cubic lattice of 1,728 spheres, each pressed a
 // little into its six neighbours (Walton-Braun corrected, incremental slip). It is the fastest of many
-// short stretches. Time is processor time over the number of threads, which includes their waiting for each
-// other; so other work of the machine counts little.
+// short stretches. Time is the processor time of all threads divided by their number. It includes their
+// waiting for each other, but hardly any other work of the machine.
 double lattice_speed(int threads);
 
 }  // namespace grainreel

@@ -152,8 +152,8 @@ Surroundings peers_surroundings(const PeersBed& bed, const Plan& plan) {
 namespace {
 
 constexpr int kOneBed = 10125, kBigOnes = 1125;
-constexpr double kSofter = 16;  // factor on springs; the heap's own weight presses grains in by less than 1 %
-constexpr double kTime = 0.16;  // s
+constexpr double kSofter = 16;  // springs are softer by this factor; even so, weight makes overlaps below 1 %
+constexpr double kTime = 0.16;  // s, of settling
 constexpr std::int64_t kLook = 500;  // steps between two calls of the watcher
 
 Plan soft_plan() {

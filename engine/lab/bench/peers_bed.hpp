@@ -18,8 +18,8 @@ struct PeersBed {
     std::vector<Vec3> small_ones, big_ones;  // m, centres; the box goes from 0 to `side`
 };
 
-// The lattices from which the bed falls, with random shifts, to the eight digits of the peers' own files
-// (their seed is 7).
+// The places from which the grains fall: lattices with random shifts, rounded to the eight digits of the
+// peers' own files (their seed is 7).
 PeersBed peers_bed(std::uint32_t seed = 7, int small_count = 9000, int big_count = 1125, double side = 0.02);
 
 // Diameters of the small and the big grains in m.

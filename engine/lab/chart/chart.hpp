@@ -1,5 +1,5 @@
-// The charts that `grainreel chart` can make: experiments on the methods themselves, as tables, and
-// pictures of them. A chart that was stopped goes on with its tables.
+// The charts that `grainreel chart` can make: tables of experiments on the program's methods, and pictures of
+// the tables. A chart that was stopped goes on from the rows in its tables.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@ namespace grainreel {
 
 struct ChartRequest {
     std::filesystem::path folder;  // made when missing; a chart that was stopped there goes on
-    bool quick = false;            // with fewer phases, steps, seeds and settings
+    bool quick = false;            // takes fewer phases, steps, seeds and settings
 };
 
-// Gets what is being done, and the share of all that is done. Returns false to stop.
+// Called with words for the present work, and the share of all work that is done. Returns false to stop.
 using ChartWatcher = std::function<bool(const std::string& what, double done)>;
 
 struct Chart {
@@ -48,7 +48,7 @@ class ChartWork {
     double pieces_, done_ = 0;
 };
 
-// A CSV file of results, written one by one; a chart that was stopped goes on with it.
+// A CSV file of results, written one by one. A chart that was stopped goes on with this file.
 
 // A number as a cell: six digits.
 std::string number(double value);

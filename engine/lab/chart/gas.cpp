@@ -77,7 +77,8 @@ std::string scene_text(const std::string& law, double restitution) {
            "[run]\nduration = 1\n";
 }
 
-// A gas whose energy is watched. Only with losses the balance looks at every contact after every step.
+// A gas whose energy is watched. With lossy contacts the balance of energy needs a look at every contact
+// after every step; without losses it does not.
 class Watched {
   public:
     Watched(const Plan& plan, std::uint64_t seed)
@@ -143,8 +144,8 @@ std::vector<GasEnergy> gas_energy(const Plan& plan, std::uint64_t seed, const st
 
 namespace {
 
-// Number of force evaluations a contact, the same as in the table of single contacts. `planned` has what
-// the plan chooses.
+// Number of force evaluations in a contact, as in the table of single contacts. Only the setting `planned`
+// takes the number that the plan chooses.
 constexpr double forces = 12;
 const GasSetting plain{"velocity Verlet", "walton-braun", {}, GasSetting::Corrected::no, forces};
 const GasSetting corrected{"with corrections", "walton-braun", {}, GasSetting::Corrected::yes, forces};

@@ -15,7 +15,7 @@ namespace grainreel {
 
 struct GasInCube {
     int side = 9;                  // cube root of the number of grains
-    double solid_fraction = 0.05;  // share of the volume that their centres can reach
+    double solid_fraction = 0.05;  // volume of the grains as a share of that which their centres can reach
     double speed = 0.3;            // m/s, root mean square of each component at the start
     std::uint64_t seed = 1;
 
@@ -35,8 +35,8 @@ struct Gas {
     void run_to(double seconds);
 };
 
-// How the step's errors change the energy of a gas of smooth grains. It must stay constant where impacts
-// are elastic, and fall by what impacts lose where they are nearly elastic.
+// How errors of the step change the energy of a gas of smooth grains. With elastic impacts the energy must
+// stay constant; with nearly elastic ones it must fall by what the impacts lose.
 
 // A gas of 216 grains; a tenth of the space is solid, and the walls have the same restitution.
 struct GasSetting {
@@ -50,8 +50,8 @@ Plan gas_plan(const GasSetting& setting, double restitution);
 
 struct GasEnergy {
     std::int64_t steps = 0;
-    // Shares of the initial energy. `lost` is what latching and dashpots took. `gained` is what the gas has
-    // beyond the rest, through errors of the step.
+    // Shares of the initial energy. `lost` is what latching (plastic unloading) and dashpots took. `gained`
+    // is the energy at this time minus (1 - lost): the error of the step.
     double gained = 0, lost = 0;
 };
 // The energy at these rising times, which are counted in contact times pi sqrt(m_eff / K) of the linear

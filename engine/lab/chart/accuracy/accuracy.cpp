@@ -30,8 +30,8 @@ std::vector<Method> methods() {
         {"Hertz-Mindlin", I::velocity_verlet, NormalForce::hertz, TangentialLaw::mindlin}};
 }
 
-// Numbers of force evaluations a contact; the steps of each method follow from them, so that methods
-// compare at equal cost.
+// Numbers of force evaluations in a contact. The number of steps of each method follows from them, so that
+// methods are compared at equal cost.
 std::vector<double> force_counts(bool quick) {
     if (quick) return {8, 12, 20, 40};
     return {6, 8, 10, 12, 16, 20, 28, 40, 80, 160};

@@ -1,6 +1,7 @@
-// `grainreel chart accuracy`: error against cost, one factor at a time. It has four tables with one result
-// a row: contacts.csv (single contacts), convergence.csv (tangential laws), gas.csv (elastic and nearly
-// elastic gases) and bed.csv (the small bed, every setting with every seed).
+// `grainreel chart accuracy`: the error of a run against its cost, when one setting at a time is changed. It
+// has four tables with one result in each row: contacts.csv (single contacts), convergence.csv (tangential
+// laws), gas.csv (elastic and nearly elastic gases) and bed.csv (the small bed, every setting with every
+// seed).
 #pragma once
 
 #include "engine/lab/chart/chart.hpp"
@@ -19,8 +20,9 @@ std::size_t convergence_pieces(bool quick);
 // Commands for gnuplot that draw convergence.csv into `convergence`, as svg or png by the variable `form`.
 const char* convergence_drawing();
 
-// `grainreel chart savings`: what a scene saves that does without friction, moving walls, a second species
-// and the like. It has one table, savings.csv: the cost of a grain's step with each and without.
+// `grainreel chart savings`: how much time a scene saves if it has no friction, no moving walls, no second
+// species and the like. It has one table, savings.csv: the cost of a grain's step with and without each of
+// these.
 
 bool run_savings(const ChartRequest& request, const ChartWatcher& watcher);
 std::string savings_drawing();

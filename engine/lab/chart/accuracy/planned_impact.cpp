@@ -109,7 +109,7 @@ Vec3 DrivenContact::turn_of(const Move& move) const {
 void DrivenContact::move(const Move& move) {
     const Vec3 turn = turn_of(move);
     normal_ = move.normal;
-    constexpr double step = 1;  // s, turns slips into velocities; laws without a dashpot do not use it
+    constexpr double step = 1;  // s, so that slips are velocities too; laws without a dashpot do not use it
     for (int axis = 0; axis < 3; ++axis) {
         touch_.normal[axis].set(0, move.normal[axis], law_.number_size);
         touch_.velocity[axis].set(0, move.slip[axis] / step, law_.number_size);

@@ -12,7 +12,7 @@ namespace grainreel {
 struct ImpactScene {
     double restitution = 0.9, friction = 0;
     double speed = 0.3;                        // m/s
-    double size_ratio = 1, density_ratio = 1;  // second grain over first; the first has bench_radius
+    double size_ratio = 1, density_ratio = 1;  // of the second grain to the first, which has bench_radius
     bool wall = false;                         // a plane in place of the second grain
 };
 
@@ -26,8 +26,8 @@ double usual_step();
 struct Impact {
     Vec3 velocity[2], spin[2];             // m/s, rad/s, after the impact; zero for the plane
     double energy = 0, energy_before = 0;  // J
-    double momentum_change = 0;            // change of the total momentum, over that of the first grain
-    double angular_change = 0;  // change of the total angular momentum about the origin, over momentum x
+    double momentum_change = 0;            // of the total momentum, divided by that of the first grain
+    double angular_change = 0;  // of the total angular momentum about the origin, divided by momentum times
                                 // radius of the first grain
 };
 // Makes the impact: the first grain flies at the second, or down on the plane, at `angle` (rad) from the
@@ -44,7 +44,7 @@ class DrivenContact {
     struct Move {
         Vec3 normal{0, 0, 1};  // unit, from i to j, at the end of the step
         double overlap = 0;    // m, at the end of the step
-        Vec3 slip{0, 0, 0};    // m, of i over j during the step
+        Vec3 slip{0, 0, 0};    // m, of i relative to j during the step
         double twist = 0;      // rad, about the normal, during the step
     };
     void move(const Move& move);

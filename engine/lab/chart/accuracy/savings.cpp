@@ -1,5 +1,5 @@
-// Measures what the savings of the step loop save: the cost of a step on a lattice of grains, with each and
-// without.
+// Measures how much the step loop saves when a scene lacks something, such as friction: the cost of a step on
+// a lattice of grains, with and without it.
 #include "engine/lab/chart/accuracy/accuracy.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ SmallWorld& build(SmallWorld& world) {
     return world;
 }
 
-// Cost (ns of one thread) of a step of a grain.
+// Time (ns of one thread) that one step takes, divided by the number of grains.
 double cost(SmallWorld& world, std::int64_t steps) {
     const auto begin = std::chrono::steady_clock::now();
     world.run(steps);
@@ -109,7 +109,7 @@ std::vector<Saving> savings() {
 
 struct Measured {
     double with = 1e9, without = 1e9;  // ns for a step of a grain, the best of all rounds
-    double low = 1e9, high = 0;        // smallest and largest ratio without / with, over the rounds
+    double low = 1e9, high = 0;        // smallest and largest ratio without / with, of all rounds
 };
 
 // The two are timed in turns, so that other work of the machine slows both alike.

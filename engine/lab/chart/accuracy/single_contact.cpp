@@ -85,8 +85,7 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
             pushed += world.grains.load[0].force.squaredNorm() > 0;
         }
         const double e = (world.grains.motion[1].velocity - world.grains.motion[0].velocity).x() / speed;
-        // Grains come back in spatial order; on a line that is the order of their places, so [1] is the one
-        // ahead.
+        // The loop sorts grains by place. On a line, [1] is therefore the one ahead.
         errors.restitution = std::max(errors.restitution, std::abs(std::abs(e) - restitution));
         errors.contact_time = std::max(errors.contact_time, std::abs(pushed / steps - 1));
     }
@@ -96,7 +95,7 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
 namespace {
 
 struct Rebound {
-    double velocity, spin;  // over the speed before the impact
+    double velocity, spin;  // divided by the speed before the impact
 };
 
 Rebound oblique(const Method& method, double restitution, double steps, double angle) {
@@ -133,7 +132,8 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
 
 namespace {
 
-// Tangential velocity over the initial push at 24 times, evenly spread over three contact times.
+// Tangential velocity divided by that of the initial push, at 24 times evenly spread over three contact
+// times.
 std::vector<double> shear(const Method& method, std::int64_t steps_between, double contact) {
     const double length = contact / (8 * static_cast<double>(steps_between));
     SmallWorld world(pair_of(method, 1, mass()), length, method.integrator);
@@ -229,7 +229,7 @@ Impactors impactors_of(const Plan& plan, const PairPlan& pair, const Species& a,
     const double mass = sphere_mass_of(two.first.radius, two.first.density);
     const double other = sphere_mass_of(two.second.radius, two.second.density);
     two.effective_mass = two.wall ? mass : mass * other / (mass + other);
-    // Where the plan has no speed of impacts, the speed is taken at which the overlap is the allowed one.
+    // If the plan has no speed of impacts, this is the speed that makes the allowed overlap.
     two.speed = plan.impact_speed > 0
                     ? plan.impact_speed
                     : pair.allowed_overlap * std::sqrt(pair.loading_stiffness / two.effective_mass);

@@ -29,7 +29,8 @@ std::string box(int grains, double duration) {
         grains, 2 * bench_radius, bench_density, duration);
 }
 
-// Kinetic energy of a grain of a bed at rest, over m g d. Throws when the health check stops the run.
+// Mean kinetic energy of a grain of a bed at rest, divided by m g d. Throws when the health check stops the
+// run.
 double restlessness(double step, int grains) {
     constexpr double stiffness = 2000;  // N/m
     const double unit = std::sqrt(bench_mass() / stiffness);
@@ -82,8 +83,8 @@ direction = [0, 1, 0]
 trajectory = false
 )";
 
-// How far a grain moves in a period, over its diameter; the mean from the end of the tenth period to the
-// end of the last.
+// How far a grain moves in a period, divided by its diameter: the mean from the end of the tenth period to
+// the end of the last.
 double creep_of(LeverArms arms, int seed, int periods) {
     constexpr int settled = 10;
     const Scene scene = read_scene_text(
@@ -114,8 +115,8 @@ Finding creep(LeverArms arms, bool quick) {
     return finding;
 }
 
-// The largest overlap seen, over the largest that the plan expects. Throws when the health check stops a
-// run.
+// The largest overlap seen, divided by the largest that the plan expects. Throws when the health check stops
+// a run.
 Finding hard_shaking(bool quick) {
     Finding finding;
     finding.theory = 1;
@@ -181,9 +182,9 @@ std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period,
     return whole;
 }
 
-// A ball at rest on a plate below 1 g: its largest speed relative to the plate over a omega, in every
-// twentieth of the first three periods. Where the drive starts at once, the plate hits the ball at a omega,
-// and the ball leaves at e times that.
+// A ball at rest on a plate that is shaken below 1 g: its largest speed relative to the plate, divided by
+// a omega, in every twentieth of the first three periods. If the drive starts without a ramp, the plate hits
+// the ball at a omega, and the ball leaves at e times that.
 Finding kick(double ramp) {
     constexpr double e = 0.9, level = 0.9;
     constexpr int steps = 40000, points = 60;
@@ -209,8 +210,8 @@ Finding kick(double ramp) {
 }
 
 // Error of a ball on a spring and a dashpot on the plate, long after the start: the largest distance from
-// the steady swing a (K + i c w) / (K - m w^2 + i c w), over the amplitude. The frequency is a fifth of the
-// natural one.
+// the steady swing a (K + i c w) / (K - m w^2 + i c w), divided by the amplitude. The frequency of the drive
+// is a fifth of the natural one.
 double steady_error(int steps_a_period) {
     const double omega = 2 * pi * frequency, natural = 5 * omega, damping = natural;  // 1/s
     PairPlan pair;
@@ -263,7 +264,7 @@ std::vector<Experiment> drive_experiments() {
 }
 
 // Round-off: a bead at rest on a plate sinks in by m g / K. When a unit in the last place of its position
-// is as large as that, the contact force is a lottery. The bead is 3 mm of glass at 0.3 m from the origin,
+// is as large as that, the contact force is random. The bead is a glass ball of 3 mm, 0.3 m from the origin,
 // as in a hopper.
 
 namespace {
@@ -281,7 +282,7 @@ double last_place(bool in_single) {
 }
 
 // Error |N / (m g) - 1| of a bead at rest on a spring with a dashpot, root mean square over time. The plate
-// is `shift` of a last place higher.
+// is higher than `height` by `shift` units in the last place.
 double force_error(double stiffness, bool in_single, double shift) {
     const double mass = sphere_mass_of(radius), natural = std::sqrt(stiffness / mass);
     PairPlan pair;
@@ -314,8 +315,8 @@ double worst_error(double stiffness, bool in_single) {
     return worst;
 }
 
-// The stiffness at which half of the force is error. By theory the error is then half a last place, over an
-// overlap of one last place.
+// The stiffness at which half of the force is error. By theory the position is then wrong by half a unit in
+// the last place, at an overlap of one unit.
 Finding rounding(bool in_single) {
     Finding finding;
     const double limit = weight() / last_place(in_single);  // N/m

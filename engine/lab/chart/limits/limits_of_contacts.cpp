@@ -1,5 +1,5 @@
-// How well one impact is kept at the step that the plan chooses: restitution from nearly 0 to nearly 1,
-// sizes and masses far apart, and what happens when the step is too long.
+// How accurate one impact is at the step that the plan chooses: restitution from nearly 0 to nearly 1, sizes
+// and masses far apart, and what happens when the step is too long.
 
 #include <algorithm>
 #include <numbers>
@@ -59,7 +59,7 @@ Finding masses(bool quick) {
                           [](ImpactScene& impact, double ratio) { impact.density_ratio = ratio; });
 }
 
-// Change of momentum and of angular momentum (the larger of the two) in oblique impacts with friction.
+// Change of momentum or of angular momentum, whichever is larger, in oblique impacts with friction.
 Finding momenta(bool) {
     Finding finding;
     finding.theory = 1e-11;
@@ -80,7 +80,7 @@ Finding momenta(bool) {
     return finding;
 }
 
-// Error of the slip after an oblique impact, over the speed; the reference is the same impact with a
+// Error of the slip after an oblique impact, divided by the speed. The reference is the same impact with a
 // hundredth of the step. Schemes that mix time levels go wrong here from a size ratio of 3 on (Vyas et al.,
 // Comput. Phys. Commun. 310, 109524).
 Finding oblique_sizes(bool quick) {
@@ -111,8 +111,8 @@ Finding oblique_sizes(bool quick) {
     return finding;
 }
 
-// Plain Verlet's error, the largest over 200 phases, beside the figures that were derived by hand
-// (docs/reference/accuracy.md).
+// Plain Verlet's error, the largest of 200 phases of the first touch, and the numbers that were derived by
+// hand (docs/reference/accuracy.md).
 Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, bool quick) {
     const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun, TangentialLaw::none};
     Finding finding;
@@ -151,9 +151,9 @@ std::vector<Experiment> restitution_experiments() {
          }}};
 }
 
-// Detachment: grains that meet the next one before they have left the last one lose too little energy. A
-// column falls on a plate; it is compared with the same column with instant contacts (Luding et al. 1994,
-// Phys. Rev. E 50, 4113).
+// Detachment: a grain that meets the next one before it has left the last one loses too little energy. A
+// column of grains falls on a plate and is compared with the same column whose contacts take no time (Luding
+// et al. 1994, Phys. Rev. E 50, 4113).
 
 namespace {
 
@@ -172,16 +172,17 @@ PairPlan contact_of(NormalForce law, double e, double effective_mass) {
 constexpr int column_of = 8;
 constexpr double speed = 0.3;  // m/s
 
-// A column of balls with instant contacts, one after the other.
+// A column of balls whose contacts take no time and come one after the other. Speeds are in units of the
+// speed of the fall.
 class HardColumn {
   public:
     HardColumn(double gap, double e) : e_(e) {
         for (int k = 0; k < column_of; ++k) {
-            height_.push_back((k + 1) * gap);  // over the plate, without the diameters of the balls below
+            height_.push_back((k + 1) * gap);  // above the plate, without the diameters of the balls below
             velocity_.push_back(-1);
         }
     }
-    // Kinetic energy over that before, when no more balls meet.
+    // Kinetic energy when no more balls meet, divided by that at the start.
     double energy_left() {
         while (meet_next()) {
         }
@@ -242,12 +243,12 @@ Experiment detachment(NormalForce law, double e, const std::string& name) {
             "check warns of soft contacts", [=](bool quick) {
                 const double time = pi / 2 * (1 + e) * std::sqrt(0.5 * bench_mass() / bench_stiffness);
                 Finding finding;
-                finding.theory = 1;  // about
+                finding.theory = 1;  // only a rough value
                 for (const double gap : logarithmic(0.02, 50, quick ? 12 : 40)) {
                     const double soft = soft_energy_left(law, e, gap * time * speed);
                     const double hard = HardColumn(gap, e).energy_left(), excess = soft / hard;
                     finding.curve.push_back({1 / gap, soft, hard});
-                    if (excess > 1.2) finding.measured = 1 / gap;  // the shortest contact that fails
+                    if (excess > 1.2) finding.measured = 1 / gap;  // at last: the shortest contact that fails
                 }
                 // At an overlap of 1 % a grain crosses its own diameter in some 30 contact times.
                 const Plan plan = plan_of(ImpactScene());

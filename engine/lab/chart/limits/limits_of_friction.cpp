@@ -1,7 +1,7 @@
-// Oblique impacts with friction from none to infinite, at walls and in corners: energy is never gained, and
-// the closed forms of sticking and of sliding are met. (In a widely used engine, wall friction with history
-// could add 34 % of kinetic energy at a grazing impact, with friction 0.5 and 76 degrees from the normal,
-// as of 2026.)
+// Oblique impacts with friction from none to infinite, at walls and in corners: no impact gains energy, and
+// the results agree with the formulas of sticking and of sliding. (In a widely used engine, wall friction
+// with history could add 34 % of kinetic energy at a grazing impact, with friction 0.5 and 76 degrees from
+// the normal, as of 2026.)
 
 #include <algorithm>
 #include <numbers>
@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double gain = 1;  // energy after over energy before, which nothing may exceed
+constexpr double gain = 1;  // most that the energy after an impact, divided by that before, may be
 const std::vector<double> phases = {0.05, 0.25, 0.45, 0.65, 0.85};
 
 ImpactScene on_wall(double restitution, double friction) {
@@ -55,7 +55,7 @@ Finding gain_by_friction(bool) {
     return finding;
 }
 
-// The slip after an impact over that before, at 45 degrees and a hundredth of the step.
+// The slip after an impact divided by that before, at 45 degrees and a hundredth of the step.
 Finding sticking(bool) {
     constexpr double e = 0.9, ratio = 0.8;  // K0/K1 by default
     const double stuck = std::cos(std::sqrt(3.5 * ratio) * pi / 2 * (1 + e));
@@ -68,15 +68,14 @@ Finding sticking(bool) {
         const Impact after = make_impact(impact, plan, plan.clock.step / 100, pi / 4, 0.5);
         const double slip =
             (after.velocity[0].y() + bench_radius * after.spin[0].z()) / (impact.speed * std::sin(pi / 4));
-        const double slid = 1 - 3.5 * friction * (1 + e);  // throughout while tan 45 >= 3.5 mu (1 + e)...
+        const double slid = 1 - 3.5 * friction * (1 + e);  // if it slides all the time (small friction)
         finding.curve.push_back({friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : unknown});
         finding.measured = slip;
     }
     return finding;
 }
 
-// Energy after an impact with sliding throughout: Delta v_t = mu (1 + e) v_n, r Delta omega = 2.5 Delta
-// v_t.
+// Energy after an impact that slides all the time: Delta v_t = mu (1 + e) v_n, r Delta omega = 2.5 Delta v_t.
 double sliding_energy(double e, double friction, double angle) {
     const double push = friction * (1 + e) * std::cos(angle);
     return std::pow(e * std::cos(angle), 2) + std::pow(std::sin(angle) - push, 2) +
@@ -152,8 +151,8 @@ std::vector<Experiment> friction_experiments() {
          [](bool quick) { return grazing_in_a_corner(1, quick); }}};
 }
 
-// The tangential force along a path: rotated with the contact, led round a closed loop of normal and
-// tangential force, and over cycles that end where they began.
+// The tangential force of a contact that is moved along a given path: it turns as a whole, goes round a
+// closed loop of normal and tangential motion, or goes through cycles that end where they began.
 
 namespace {
 
@@ -176,7 +175,7 @@ PairPlan contact_of(TangentialLaw tangential, double mu) {
 // Change of the tangential force T of a loaded contact that turns as one body, in n steps a turn, about an
 // axis through the contact.
 struct Turned {
-    double length_change = 0, direction_error = 0;  // over |T|; rad
+    double length_change = 0, direction_error = 0;  // divided by |T|; rad
 };
 Turned turn_round(const Vec3& axis, int steps, int turns) {
     DrivenContact contact(contact_of(TangentialLaw::incremental_slip, friction));
@@ -203,13 +202,13 @@ Finding turning_length(bool) {
     constexpr int turns = 20;
     for (const int steps : {12, 24, 50, 100, 200, 500, 1000}) {
         finding.measured = turn_round(axis, steps, turns).length_change;
-        finding.theory = std::numeric_limits<double>::epsilon() * steps * turns;  // a last place a step
+        finding.theory = std::numeric_limits<double>::epsilon() * steps * turns;  // one rounding in each step
         finding.curve.push_back({static_cast<double>(steps), finding.measured, finding.theory});
     }
     return finding;
 }
 
-// Cayley's rotation lags behind by angle^3 / 12 a step.
+// In each step Cayley's rotation lags behind by angle^3 / 12.
 Finding twisting_direction(bool) {
     Finding finding;
     for (const int steps : {12, 24, 50, 100, 200, 500, 1000}) {
@@ -225,9 +224,9 @@ Finding twisting_direction(bool) {
 
 // ---- closed loops ----
 
-// Energy that a contact makes in a closed loop, over the work of the slip forwards. It is loaded by a slip
-// at the overlap `high` and unloaded by the same slip back at `low`, and is elastic along the normal (Elata
-// & Berryman 1996, Mech. Mater. 24, 229).
+// Energy that a contact makes in a closed loop, divided by the work of the slip forwards. The contact slips
+// forwards at the overlap `high` and by as much backwards at `low`, and is elastic along the normal (Elata &
+// Berryman 1996, Mech. Mater. 24, 229).
 double made_in_a_loop(TangentialLaw law, double low, double high) {
     constexpr int steps = 4000;
     DrivenContact contact(contact_of(law, friction));
@@ -299,11 +298,12 @@ Experiment loop_of(TangentialLaw law, const std::string& name, const std::string
 
 // ---- ratcheting ----
 
-// The slip that the spring keeps from each cycle, over d0 p. Two touching grains go through cycles that end
-// where they began: the overlap is d0 (1 + cos(psi) / 2) while they turn by p sin(psi), either as one body
-// (`swing`) or each in its place (`roll`). Arms of the full radius count d dp too much when the grains
-// swing, and arms to the contact plane when they roll; each gives pi/2 (derived; on the consequences see
-// McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77, 031304).
+// The slip that the tangential spring still has after a cycle, divided by d0 p. Two touching grains go
+// through cycles that end where they began: the overlap is d = d0 (1 + cos(psi) / 2) while they turn by
+// p sin(psi), either as one body (`swing`) or each in its place (roll). A turn by dp counts as too much slip,
+// by d dp, with arms of the full radius when the grains swing, and with arms to the contact plane when they
+// roll. Either makes pi/2 in a cycle (derived; on the consequences see McNamara, Garcia-Rojo & Herrmann 2008,
+// Phys. Rev. E 77, 031304).
 double slip_a_cycle(LeverArms arms, bool swing, int steps) {
     constexpr double depth = 1e-3 * bench_radius, swings = 0.1;
     constexpr int cycles = 10;

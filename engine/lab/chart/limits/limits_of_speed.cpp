@@ -14,8 +14,8 @@ namespace grainreel {
 
 namespace {
 
-// Two equal grains meet head-on. Gives the speed after over that before, below zero where they went through
-// each other. `speed` is in units of 2 r sqrt(K / m_eff), `step` in units of sqrt(m_eff / K).
+// Two equal grains meet head-on. Gives the speed after the impact divided by that before, below zero where
+// they went through each other. `speed` is in units of 2 r sqrt(K / m_eff), `step` of sqrt(m_eff / K).
 double after_head_on(double speed, double step, double phase) {
     const double frequency = std::sqrt(bench_stiffness / (0.5 * bench_mass()));
     const double closing = speed * 2 * bench_radius * frequency, length = step / frequency;
@@ -30,7 +30,8 @@ double after_head_on(double speed, double step, double phase) {
     return (world.velocity(1) - world.velocity(0)).x() / closing;
 }
 
-// The speed that the plan allows, over 2 r sqrt(K1/m_eff): allowed overlap over diameter.
+// The speed of impacts that the plan expects, in units of 2 r sqrt(K1/m_eff). It is the allowed overlap
+// divided by the diameter.
 double usual_speed() {
     const ImpactScene impact;
     const Plan plan = plan_of(impact);
@@ -75,14 +76,14 @@ Finding through_a_wall(bool) {
     return finding;
 }
 
-// A meeting that lies between two steps is not seen. The way along which grains overlap is 2 (r_i + r_j)
-// long.
+// Two fast grains may pass each other between two steps without an overlap at either. They overlap along a
+// way of 2 (r_i + r_j).
 Finding past_each_other(bool quick) {
     Finding finding;
     finding.theory = 1;
-    const auto missed = [&](double chord) {  // chord: the way of a step over 2 (r_i + r_j). Returns the share
-                                             // of phases at which the meeting is missed
-        constexpr double step = 1e-3;        // forces hardly matter here
+    const auto missed = [&](double chord) {  // share of phases at which the meeting is missed. chord: way of
+                                             // a step divided by 2 (r_i + r_j)
+        constexpr double step = 1e-3;  // forces hardly matter here
         const int phases = quick ? 20 : 100;
         int count = 0;
         for (int phase = 0; phase < phases; ++phase)
@@ -109,9 +110,9 @@ std::size_t touching_by_search(const Grains& grains, double period) {
     return count;
 }
 
-// Grains of two sizes fly through each other and a moving floor. Gives the smallest share, over the steps,
-// of touching pairs and wall contacts that the loop has in its lists. `way` is the way of a step over the
-// skin.
+// Grains of two sizes fly through each other and a moving floor. For each step the share of touching pairs
+// and wall contacts that the loop has in its lists is found; gives the smallest of these. `way` is how far a
+// grain moves in a step, divided by the skin of the lists.
 double share_listed(double way, int steps) {
     constexpr double half = 0.012, step = 1e-5;
     SmallWorld world(latching_pair(1e-9, 1), step);
@@ -171,8 +172,8 @@ std::vector<Experiment> speed_experiments() {
              "lists are renewed before forces; no setting", listing}};
 }
 
-// Contacts that last too long for their drive: a deep bed moves like jelly on its plate, and a plate turns
-// round during an impact.
+// Contacts that last too long for their drive: a deep bed moves like jelly on its plate, and a plate reverses
+// its motion during an impact.
 
 namespace {
 
@@ -182,7 +183,7 @@ constexpr double speed = 0.3;  // m/s, of an impact
 
 // ---- a soft bed: the top of a column of elastic grains, shaken so gently that nothing comes apart ----
 
-// Swing of the top over that of the plate: cos(q/2) / cos((n + 1/2) q) with sin(q/2) = (omega / 2)
+// Amplitude of the top divided by that of the plate: cos(q/2) / cos((n + 1/2) q) with sin(q/2) = (omega / 2)
 // sqrt(m/K) (derived).
 double chain_gain(int count, double omega) {
     const double q = 2 * std::asin(0.5 * omega * std::sqrt(bench_mass() / bench_stiffness));
@@ -238,18 +239,18 @@ Finding soft_column(bool quick) {
     }
     finding.theory = last_that_holds(
         0.01, 0.2, 40, [&](double share) { return chain_gain(count, omega_of(share)) < doubled; });
-    finding.usual = 0.1 / pi;  // the plan: f h t_c <= 0.1 d, t_c about pi sqrt(m/K)
+    finding.usual = 0.1 / pi;  // the plan keeps f h t_c <= 0.1 d, where t_c is about pi sqrt(m/K)
     return finding;
 }
 
-// ---- a plate that turns round during an impact; plate's top speed = speed of the ball, elastic ----
+// ---- a plate that reverses its motion during an elastic impact; its top speed is the speed of the ball ----
 
 double plate_velocity(double omega, double phase, double t) {
     return speed * std::cos(omega * t + phase);
 }
 
-// Closed form of the ball's velocity after the impact: y'' = -W^2 (y - a sin(wt + p)) + constant, until the
-// ball is no longer in the plate.
+// Formula for the ball's velocity after the impact: y'' = -W^2 (y - a sin(wt + p)) + constant, until the ball
+// no longer overlaps the plate.
 double rebound_by_theory(double natural, double omega, double phase) {
     const double swing = speed / omega * natural * natural / (natural * natural - omega * omega);
     const double start = speed / omega * std::sin(phase);  // the plate's place at t = 0, which is subtracted
@@ -292,19 +293,19 @@ double rebound_measured(double natural, double omega, double phase) {
     return world.velocity(0).z();
 }
 
-// Error of the rebound, over the speed, at the worst phase. The reference is a plate whose velocity does
-// not change during the impact.
+// Error of the rebound at the worst phase of the drive, divided by the speed. The reference is a plate whose
+// velocity does not change during the impact.
 Finding drive_near_contact(bool quick) {
     constexpr double off = 0.1;
     const double natural = std::sqrt(bench_stiffness / bench_mass());
     const int phases = quick ? 8 : 24;
-    const auto errors = [&](double share) {  // share: t_c f, t_c = pi / natural
+    const auto errors = [&](double share) {  // share: of a period of the drive that the contact time takes
         const double omega = 2 * natural * share;
         CurvePoint point{share, 0, 0};
         for (int k = 0; k < phases; ++k) {
             const double phase = 2 * pi * (k + 0.5) / phases, plate = plate_velocity(omega, phase, 0);
             const double closing = speed + plate, rigid = speed + 2 * plate;
-            if (closing < 0.2 * speed) continue;  // such a ball hardly meets the plate
+            if (closing < 0.2 * speed) continue;  // the ball would hardly hit the plate
             point.value =
                 std::max(point.value, std::abs(rebound_measured(natural, omega, phase) - rigid) / speed);
             point.theory =

@@ -56,7 +56,8 @@ double growth_of(SmallWorld& world, const Disturbance& disturbance) {
     return std::pow(now / from, 0.5 / static_cast<double>(world.step - since));
 }
 
-// Finds the limit, over sqrt(m / K), and the curve of growth against the step over the limit of theory.
+// Finds the longest stable step, in units of sqrt(m / K), and the curve of growth against the step. The
+// curve's steps are divided by the limit of theory.
 template <class Build>
 Finding find_limit(const Build& build, const Disturbance& disturbance, double theory,
                    Integrator integrator = Integrator::velocity_verlet) {
@@ -101,7 +102,7 @@ std::unique_ptr<SmallWorld> column(int count, double plate_stiffness, double ste
 
 // Two grains between soft plates: omega^2 = (2 K + K_plate) / m.
 Experiment pair_limit(Integrator integrator) {
-    constexpr double plate = 0.01;  // stiffness of the plates over K
+    constexpr double plate = 0.01;  // stiffness of the plates divided by K
     return {"step: pair by " + word_of(integrator, integrator_words), "step / sqrt(m/K)", Failure::loud,
             "health check; the plan's step; check warns above the stable limit", [=](bool) {
                 return find_limit(
@@ -119,7 +120,8 @@ Finding chain_limit(bool) {
         along_z, theory);
 }
 
-// A latched contact swings on K2 about a force below its peak: omega^2 = 2 K2 / m for the pair.
+// A contact that was unloaded to a force below its peak swings with the unloading stiffness K2: omega^2 =
+// 2 K2 / m for the pair.
 Finding unloading_limit(bool) {
     constexpr double e = 0.5, plate = 0.01;
     const auto build = [](double step) {
@@ -187,7 +189,7 @@ Finding bed_limit(bool quick, const PairPlan& pair, double theory) {
         return world;
     };
     Finding finding = find_limit(build, {{1, 1, 1}, 1000}, theory);
-    for (CurvePoint& point : finding.curve) point.theory = unknown;  // many modes: theory gives no curve
+    for (CurvePoint& point : finding.curve) point.theory = unknown;  // no curve, because there are many modes
     return finding;
 }
 
