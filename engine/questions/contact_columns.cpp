@@ -155,7 +155,7 @@ std::vector<GrainColumn> contact_columns() {
         {"pressure", Dimension::pressure,
          "a third of the trace of the stress of its contacts, over its volume", grainreel::pressure},
         {"sliding", number, "contacts whose friction is all used up", sliding},
-        {"largest_overlap", number, "of its contacts, over the smaller radius", largest_overlap},
+        {"largest_overlap", number, "of its contacts, divided by the smaller radius", largest_overlap},
         {"elastic_energy", energy, "that its contacts would give back; half of it where it is shared",
          elastic_energy},
     };

@@ -111,23 +111,24 @@ AnswerTable sum_table(const Snapshot& s, std::int32_t wall, const Forces& on_wal
     const Vec3 down = s.scene.gravity.norm() > 0 ? s.scene.gravity.normalized() : Vec3(0, 0, -1);
     AnswerCell share;
     if (weight > 0) share = force.dot(down) / weight;
-    return {"wall",
-            "What the grains do to it",
-            {{"contacts", Dimension::number, "that push"},
-             {"force_x", Dimension::force, ""},
-             {"force_y", Dimension::force, ""},
-             {"force_z", Dimension::force, ""},
-             {"normal_force", Dimension::force, "sum of all normal forces"},
-             {"moment_x", Dimension::moment,
-              mesh_of_wall(s.scene, wall) ? "about a point of its axis, or its position"
-                                          : "about the container's origin"},
-             {"moment_y", Dimension::moment, ""},
-             {"moment_z", Dimension::moment, ""},
-             {"weight_share", Dimension::number, "its force along gravity over the weight of all grains"},
-             {"force", Dimension::force, "magnitude of the force; with --average the mean of magnitudes"}},
-            {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
-              moment.y(), moment.z(), share, force.norm()}},
-            true};
+    return {
+        "wall",
+        "What the grains do to it",
+        {{"contacts", Dimension::number, "that push"},
+         {"force_x", Dimension::force, ""},
+         {"force_y", Dimension::force, ""},
+         {"force_z", Dimension::force, ""},
+         {"normal_force", Dimension::force, "sum of all normal forces"},
+         {"moment_x", Dimension::moment,
+          mesh_of_wall(s.scene, wall) ? "about a point of its axis, or its position"
+                                      : "about the container's origin"},
+         {"moment_y", Dimension::moment, ""},
+         {"moment_z", Dimension::moment, ""},
+         {"weight_share", Dimension::number, "its force along gravity, divided by the weight of all grains"},
+         {"force", Dimension::force, "magnitude of the force; with --average the mean of magnitudes"}},
+        {{static_cast<std::int64_t>(on_wall.size()), force.x(), force.y(), force.z(), normal, moment.x(),
+          moment.y(), moment.z(), share, force.norm()}},
+        true};
 }
 
 // The pose of a wall's body, if that body can turn or move by itself. Containers that only shake are left
@@ -309,17 +310,18 @@ AnswerTable touching_pairs_table(const Snapshot& s) {
     }
     AnswerCell largest, mean;
     if (!all.empty()) largest = most, mean = sum / static_cast<double>(all.size());
-    return {"touching",
-            "All that touch, grains at walls too (shares are of the smaller radius)",
-            {{"touching", Dimension::number, "pairs, and grains at walls"},
-             {"contacts", Dimension::number, "those of them that push, as in all other answers"},
-             {"largest_share", Dimension::number,
-              "overlap over the smaller radius, as largest_overlap of measures.csv", AnswerColumn::kThere},
-             {"mean_share", Dimension::number, "of all that touch", "touching"},
-             {"limit_share", Dimension::number, "what run.overlap allows; that is over the diameter",
-              AnswerColumn::kThere}},
-            {{static_cast<std::int64_t>(all.size()), pushing, largest, mean, overlap_limit(s.scene)}},
-            true};
+    return {
+        "touching",
+        "All that touch, grains at walls too (shares are of the smaller radius)",
+        {{"touching", Dimension::number, "pairs, and grains at walls"},
+         {"contacts", Dimension::number, "those of them that push, as in all other answers"},
+         {"largest_share", Dimension::number,
+          "overlap divided by the smaller radius, as largest_overlap of measures.csv", AnswerColumn::kThere},
+         {"mean_share", Dimension::number, "of all that touch", "touching"},
+         {"limit_share", Dimension::number, "what run.overlap allows; that is divided by the diameter",
+          AnswerColumn::kThere}},
+        {{static_cast<std::int64_t>(all.size()), pushing, largest, mean, overlap_limit(s.scene)}},
+        true};
 }
 
 }  // namespace

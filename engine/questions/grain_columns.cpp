@@ -300,7 +300,7 @@ std::vector<GrainColumn> motion_columns() {
         {"moved", length, "distance from its place in the container then", of_each<moved>},
         {.name = "period_displacement",
          .dimension = length,
-         .about = "how far it came in the last period of the drive",
+         .about = "how far it moved in the last period of the drive",
          .of = of_each<period_displacement>,
          .needs = Needs::period,
          .coloured_as = "displacement",

@@ -124,8 +124,9 @@ std::vector<double> solid_fractions(const Snapshot& s, double low, double height
 // Adds the column of solid fractions. Where the floor alone moves, heights above it are not heights in the
 // container.
 void add_solid_fraction(const Snapshot& s, const Bins& all, bool above_floor, AnswerTable& table) {
-    table.columns.push_back({"solid_fraction", Dimension::number,
-                             "volume of the parts of grains that are there, over the room in the container"});
+    table.columns.push_back(
+        {"solid_fraction", Dimension::number,
+         "volume of the parts of grains that are there, divided by the room in the container"});
     const double container = container_offset(s.scene, s.frame).z(),
                  zero = above_floor ? floor_offset(s.scene, s.frame).z() : 0;
     const std::vector<double> fractions =

@@ -61,7 +61,7 @@ const KeyTable<Run>& run_table() {
             .written_at(of_time),
         quantity("overlap", &R::overlap, Dimension::number, {0, 0.1, true, false},
                  note("0.01; by `accuracy`"),
-                 "Wanted largest overlap over the smaller diameter; sets the stiffness.")
+                 "Wanted largest overlap, divided by the smaller diameter; sets the stiffness.")
             .usually(usual_overlap)
             .written_at(of_method),
         choice("integrator", &R::integrator, integrator_words, initial(),
