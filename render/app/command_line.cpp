@@ -1,6 +1,7 @@
 #include "render/app/command_line.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -78,7 +79,7 @@ void add_verb(CLI::App& app, Verb& verb) {
 std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
     auto app = std::make_unique<CLI::App>(about_program, "grainreel");
     app->require_subcommand(1);
-    app->set_version_flag("--version", version_text());
+    app->set_version_flag("--version", std::function<std::string()>(version_text));
     app->formatter(std::make_shared<ShortFormatter>());
     app->get_formatter()->column_width(28);
     app->footer(
