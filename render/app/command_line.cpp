@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <functional>
 #include <initializer_list>
 #include <sstream>
 #include <string>
@@ -138,7 +139,7 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
     auto app = std::make_unique<CLI::App>(about_program, "grainreel");
     app->require_subcommand(1);
-    app->set_version_flag("--version", version_text());
+    app->set_version_flag("--version", std::function<std::string()>(version_text));
     app->formatter(std::make_shared<ShortFormatter>());
     app->get_formatter()->column_width(28);
     app->footer(

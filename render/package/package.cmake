@@ -47,10 +47,14 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
-# What is linked is found in the binary. What the program opens while it runs is named by hand: OSMesa, libavfilter,
-# fonts, and the table of units, which its library brings along.
+# What is linked is found in the binary. What the program opens while it runs is named by hand: OSMesa, FFmpeg, fonts,
+# and the table of units, which its library brings along. Debian calls FFmpeg's packages by the major version.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6, libavfilter8, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6, fonts-dejavu-core")
+foreach(library libavutil libavcodec libavformat libswscale libavfilter)
+  string(REGEX MATCH "^[0-9]+" major "${FFMPEG_${library}_VERSION}")
+  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", ${library}${major}")
+endforeach()
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libegl1, fonts-noto-core, fonts-noto-cjk, python3-xarray, lammps, openmpi-bin")
 

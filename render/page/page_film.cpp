@@ -109,7 +109,6 @@ std::string size_text(std::size_t bytes) {
 
 PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::optional<std::int64_t> frames,
                    const PageProgress& progress, std::size_t most_bytes) {
-    quiet_ffmpeg();
     PageFilm film;
     if (scene.film.format == FilmFormat::png) return film;
     const Codec& codec = codec_of(scene.film.format);
@@ -122,6 +121,7 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
                 fmt::format("The film is not on this page, since {} is not in the run's folder.", name);
         return film;
     }
+    quiet_ffmpeg();
     film.file = name;
     if (const std::string damage = damage_of(folder / name, frames); !damage.empty()) {
         film.note = fmt::format("The film is not on this page, since {} is damaged ({}).", name, damage);
@@ -168,9 +168,9 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
 }
 
 std::vector<std::uint8_t> page_poster(const fs::path& folder) {
-    quiet_ffmpeg();
     std::error_code ignored;
     if (!fs::exists(folder / "poster.png", ignored)) return {};
+    quiet_ffmpeg();
     try {
         FilmReader reader(folder / "poster.png");
         AVFrame* picture = reader.next();

@@ -12,7 +12,7 @@ cd "$build"
 cpack -B "$here/made" >"$here/cpack.log" 2>&1 || { cat "$here/cpack.log"; fail "cpack ended with $?"; }
 package=$(echo "$here"/made/grainreel_*.deb)
 (($(stat -c %s "$package") < 10000000)) || fail "$package is larger than 10 MB"
-for needed in libosmesa6 libavfilter8 libnetcdf19 libudunits2-0 fonts-dejavu-core; do
+for needed in libosmesa6 libav{util57,codec59,format59,filter8} libswscale6 libnetcdf19 libudunits2-0 fonts-dejavu-core; do
     dpkg-deb -f "$package" Depends | grep -qw -- "$needed" || fail "it does not depend on $needed"
 done
 dpkg-deb -x "$package" "$here/root"

@@ -17,10 +17,10 @@
 #include "build_info.hpp"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/avutil.h>
-#include <libswscale/swscale.h>
+#include <libavcodec/version.h>
+#include <libavformat/version.h>
+#include <libavutil/ffversion.h>
+#include <libswscale/version.h>
 }
 
 #include "engine/files/netcdf/netcdf_file.hpp"
@@ -34,8 +34,15 @@ std::string three(unsigned major, unsigned minor, unsigned patch) {
     return fmt::format("{}.{}.{}", major, minor, patch);
 }
 
-std::string ffmpeg(unsigned version) {
-    return three(AV_VERSION_MAJOR(version), AV_VERSION_MINOR(version), AV_VERSION_MICRO(version));
+// FFmpeg is opened when a film is made or read, so these are the versions that we were built with. The verb
+// doctor tells those that are opened.
+std::vector<std::pair<std::string, std::string>> ffmpeg_of_build() {
+    return {
+        {"FFmpeg", FFMPEG_VERSION},
+        {"libavformat",
+         three(LIBAVFORMAT_VERSION_MAJOR, LIBAVFORMAT_VERSION_MINOR, LIBAVFORMAT_VERSION_MICRO)},
+        {"libavcodec", three(LIBAVCODEC_VERSION_MAJOR, LIBAVCODEC_VERSION_MINOR, LIBAVCODEC_VERSION_MICRO)},
+        {"libswscale", three(LIBSWSCALE_VERSION_MAJOR, LIBSWSCALE_VERSION_MINOR, LIBSWSCALE_VERSION_MICRO)}};
 }
 
 }  // namespace
@@ -46,10 +53,6 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"Eigen", three(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
         {"Highway", three(HWY_MAJOR, HWY_MINOR, HWY_PATCH)},
         {"NetCDF", netcdf_version()},
-        {"FFmpeg", av_version_info()},
-        {"libavformat", ffmpeg(avformat_version())},
-        {"libavcodec", ffmpeg(avcodec_version())},
-        {"libswscale", ffmpeg(swscale_version())},
         {"libmicrohttpd", MHD_get_version()},
         {"libpng", png_get_libpng_ver(nullptr)},
         {"Pango", pango_version_string()},
@@ -78,6 +81,8 @@ std::string version_text() {
                     build_info::flags, vector_instructions());
     text += "libraries";
     for (const auto& [name, version] : library_versions()) text += fmt::format("\n  {:<15}{}", name, version);
+    for (const auto& [name, version] : ffmpeg_of_build())
+        text += fmt::format("\n  {:<15}{} when built", name, version);
     return text;
 }
 

@@ -9,7 +9,8 @@
 
 namespace grainreel {
 
-// Name and version of every library in use, shared ones as loaded.
+// Name and version of every library in use, shared ones as loaded. FFmpeg is not among them:
+// ffmpeg_versions().
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 // Where the program is: "installed in /usr/bin" or "built in /home/me/grainreel/build/release".

@@ -23,6 +23,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/codec/codec.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/picture/gl/opengl.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/film.hpp"
@@ -76,6 +77,19 @@ Finding film_format(const std::string& name, FilmFormat format) {
     return finding;
 }
 
+// "5.1.9 (libavformat 59.27.100, libavcodec 59.37.100, libswscale 6.7.100)"
+std::string ffmpeg_text() {
+    std::string text, parts;
+    for (const auto& [name, version] : ffmpeg_versions()) {
+        if (text.empty()) {
+            text = version;
+            continue;
+        }
+        parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", name, version);
+    }
+    return fmt::format("{} ({})", text, parts);
+}
+
 std::optional<fs::path> on_the_path(const std::string& program) {
     const char* path = std::getenv("PATH");
     std::string folders = path ? path : "";
@@ -126,8 +140,17 @@ std::vector<Finding> find_drawing() {
     return found;
 }
 
+// FFmpeg and the formats that it makes; without it they are not asked for one by one.
 std::vector<Finding> find_films() {
-    std::vector<Finding> found;
+    Finding ffmpeg{"FFmpeg", "", true, true, "without it there are no films, but PNG pictures"};
+    try {
+        ffmpeg.state = ffmpeg_text();
+    } catch (const std::exception& problem) {
+        ffmpeg.state = problem.what();
+        ffmpeg.good = false;
+        return {ffmpeg};
+    }
+    std::vector<Finding> found = {ffmpeg};
     for (const auto& [word, format] : film_format_words) {
         if (format == FilmFormat::png) continue;  // the format png has no encoder
         found.push_back(film_format(std::string(word), format));

@@ -138,9 +138,11 @@ OpenCodec open_codec(const Codec& codec, const CodecSettings& settings) {
             throw RunError(fmt::format("film: {} refused size {}x{}, {:g} frames/s, {}: {}", setup.name,
                                        settings.width, settings.height, av_q2d(settings.rate), words,
                                        ffmpeg_error(code)));
-        open.description = fmt::format("{} ({}), {}{} thread{}", setup.name, LIBAVCODEC_IDENT,
-                                       words.empty() ? "" : words + ", ", settings.threads,
-                                       settings.threads == 1 ? "" : "s");
+        const unsigned version = avcodec_version();
+        open.description = fmt::format("{} (Lavc{}.{}.{}), {}{} thread{}", setup.name,
+                                       AV_VERSION_MAJOR(version), AV_VERSION_MINOR(version),
+                                       AV_VERSION_MICRO(version), words.empty() ? "" : words + ", ",
+                                       settings.threads, settings.threads == 1 ? "" : "s");
         return open;
     }
     no_encoder(codec);

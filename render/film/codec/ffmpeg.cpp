@@ -1,12 +1,5 @@
 #include "render/film/codec/ffmpeg.hpp"
 
-extern "C" {
-#include <libavfilter/avfilter.h>
-#include <libavfilter/buffersink.h>
-#include <libavfilter/buffersrc.h>
-#include <libavutil/pixdesc.h>
-}
-
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <array>
@@ -20,6 +13,45 @@ extern "C" {
 #include "engine/base/error.hpp"
 
 namespace grainreel {
+
+namespace {
+
+struct LibraryName {
+    const char* name;
+    int major;  // of the headers; the libraries of another one have other structs
+};
+
+LibraryName library_name(FfmpegLibrary library) {
+    switch (library) {
+        case FfmpegLibrary::avutil:
+            return {"avutil", LIBAVUTIL_VERSION_MAJOR};
+        case FfmpegLibrary::avcodec:
+            return {"avcodec", LIBAVCODEC_VERSION_MAJOR};
+        case FfmpegLibrary::avformat:
+            return {"avformat", LIBAVFORMAT_VERSION_MAJOR};
+        case FfmpegLibrary::swscale:
+            return {"swscale", LIBSWSCALE_VERSION_MAJOR};
+        case FfmpegLibrary::avfilter:
+            break;
+    }
+    return {"avfilter", LIBAVFILTER_VERSION_MAJOR};
+}
+
+// A library that is open already is only looked up. None is ever closed: codecs have threads of their own.
+void* open_library(FfmpegLibrary library) {
+    const auto [name, major] = library_name(library);
+    if (void* const opened = dlopen(fmt::format("lib{}.so.{}", name, major).c_str(), RTLD_NOW)) return opened;
+    throw RunError(
+        fmt::format("film: FFmpeg's lib{0} cannot be opened ({2}); on Debian: apt-get install lib{0}{1}",
+                    name, major, dlerror()));
+}
+
+}  // namespace
+
+void* ffmpeg_function(FfmpegLibrary library, const char* name) {
+    if (void* const found = dlsym(open_library(library), name)) return found;
+    throw RunError(fmt::format("film: FFmpeg is not as it should be ({}); install it again", dlerror()));
+}
 
 namespace {
 
@@ -75,11 +107,25 @@ void free_codec(AVCodecContext* codec) {
 }
 
 void quiet_ffmpeg() {
-    static std::once_flag once;
-    std::call_once(once, [] {
+    [[maybe_unused]] static const bool quiet = [] {
+        for (const FfmpegLibrary library :
+             {FfmpegLibrary::avutil, FfmpegLibrary::avcodec, FfmpegLibrary::avformat, FfmpegLibrary::swscale})
+            open_library(library);
         av_log_set_callback(collect);
         ::setenv("SVT_LOG", "1", 0);  // SVT-AV1 prints past FFmpeg's log; with 1 it prints errors only
-    });
+        return true;
+    }();
+}
+
+std::vector<std::pair<std::string, std::string>> ffmpeg_versions() {
+    const auto text = [](unsigned version) {
+        return fmt::format("{}.{}.{}", AV_VERSION_MAJOR(version), AV_VERSION_MINOR(version),
+                           AV_VERSION_MICRO(version));
+    };
+    return {{"FFmpeg", av_version_info()},
+            {"libavformat", text(avformat_version())},
+            {"libavcodec", text(avcodec_version())},
+            {"libswscale", text(swscale_version())}};
 }
 
 std::string ffmpeg_error(int code) {
@@ -97,39 +143,6 @@ void check(int code) {
     if (code < 0) throw RunError(fmt::format("film: a filter of FFmpeg failed: {}", ffmpeg_error(code)));
 }
 
-// libavfilter is loaded when the first filter is needed. It brings some sixty libraries of its own, which
-// would take a third of the start of every command (17 of 58 ms).
-class Library {
-    void* const library_ =
-        dlopen(fmt::format("libavfilter.so.{}", LIBAVFILTER_VERSION_MAJOR).c_str(), RTLD_NOW);
-
-    template <class Function>
-    Function* find(Function*, const char* name) const {
-        void* const found = library_ ? dlsym(library_, name) : nullptr;
-        if (found) return reinterpret_cast<Function*>(found);
-        throw RunError(
-            fmt::format("film: FFmpeg's libavfilter is missing ({}); install it again", dlerror()));
-    }
-
-  public:
-#define GRAINREEL_FIND(function) \
-    decltype(&::function) function = find(decltype (&::function)(nullptr), #function)
-    GRAINREEL_FIND(avfilter_graph_alloc);
-    GRAINREEL_FIND(avfilter_graph_free);
-    GRAINREEL_FIND(avfilter_graph_parse2);
-    GRAINREEL_FIND(avfilter_inout_free);
-    GRAINREEL_FIND(avfilter_graph_config);
-    GRAINREEL_FIND(avfilter_graph_get_filter);
-    GRAINREEL_FIND(av_buffersrc_add_frame_flags);
-    GRAINREEL_FIND(av_buffersink_get_frame);
-#undef GRAINREEL_FIND
-};
-
-const Library& library() {
-    static const Library loaded;
-    return loaded;
-}
-
 std::string source(const char* name, int width, int height, int pixels) {
     return fmt::format("buffer@{}=video_size={}x{}:pix_fmt={}:time_base=1/1", name, width, height, pixels);
 }
@@ -137,11 +150,11 @@ std::string source(const char* name, int width, int height, int pixels) {
 }  // namespace
 
 void FilterGraph::Free::operator()(AVFilterGraph* graph) const {
-    library().avfilter_graph_free(&graph);
+    avfilter_graph_free(&graph);
 }
 
 FilterGraph::FilterGraph(const AVCodecContext& codec, const std::string& filter, const AVFrame* second)
-    : graph_(library().avfilter_graph_alloc()) {
+    : graph_(avfilter_graph_alloc()) {
     check(graph_ ? 0 : AVERROR(ENOMEM));
     graph_->nb_threads = 1;
     std::string text = source("first", codec.width, codec.height, codec.pix_fmt);
@@ -153,34 +166,34 @@ FilterGraph::FilterGraph(const AVCodecContext& codec, const std::string& filter,
     }
     AVFilterInOut *inputs = nullptr, *outputs = nullptr;
     const int code =
-        library().avfilter_graph_parse2(graph_.get(), (text + ",buffersink@out").c_str(), &inputs, &outputs);
-    library().avfilter_inout_free(&inputs);
-    library().avfilter_inout_free(&outputs);
+        avfilter_graph_parse2(graph_.get(), (text + ",buffersink@out").c_str(), &inputs, &outputs);
+    avfilter_inout_free(&inputs);
+    avfilter_inout_free(&outputs);
     check(code);
-    check(library().avfilter_graph_config(graph_.get(), nullptr));
-    source_ = library().avfilter_graph_get_filter(graph_.get(), "buffer@first");
-    sink_ = library().avfilter_graph_get_filter(graph_.get(), "buffersink@out");
+    check(avfilter_graph_config(graph_.get(), nullptr));
+    source_ = avfilter_graph_get_filter(graph_.get(), "buffer@first");
+    sink_ = avfilter_graph_get_filter(graph_.get(), "buffersink@out");
     if (!second) return;
-    AVFilterContext* still = library().avfilter_graph_get_filter(graph_.get(), "buffer@second");
+    AVFilterContext* still = avfilter_graph_get_filter(graph_.get(), "buffer@second");
     const AvFramePtr copy(av_frame_clone(second));
     check(copy ? 0 : AVERROR(ENOMEM));
     copy->pts = 0;
-    check(library().av_buffersrc_add_frame_flags(still, copy.get(), 0));
-    check(library().av_buffersrc_add_frame_flags(still, nullptr, 0));
+    check(av_buffersrc_add_frame_flags(still, copy.get(), 0));
+    check(av_buffersrc_add_frame_flags(still, nullptr, 0));
 }
 
 void FilterGraph::push(AVFrame& frame) {
     frame.pts = pushed_++;
-    check(library().av_buffersrc_add_frame_flags(source_, &frame, AV_BUFFERSRC_FLAG_KEEP_REF));
+    check(av_buffersrc_add_frame_flags(source_, &frame, AV_BUFFERSRC_FLAG_KEEP_REF));
 }
 
 void FilterGraph::end() {
-    check(library().av_buffersrc_add_frame_flags(source_, nullptr, 0));
+    check(av_buffersrc_add_frame_flags(source_, nullptr, 0));
 }
 
 AvFramePtr FilterGraph::pull() {
     AvFramePtr frame(av_frame_alloc());
-    const int code = library().av_buffersink_get_frame(sink_, frame.get());
+    const int code = av_buffersink_get_frame(sink_, frame.get());
     if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return nullptr;
     check(code);
     return frame;

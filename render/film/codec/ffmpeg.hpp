@@ -2,14 +2,12 @@
 // films use these.
 #pragma once
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libswscale/swscale.h>
-}
-
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "render/film/codec/ffmpeg_functions.hpp"
 
 namespace grainreel {
 
@@ -40,8 +38,13 @@ using ScalerPtr = std::unique_ptr<SwsContext, FfmpegDeleter>;
 using InputPtr = std::unique_ptr<AVFormatContext, InputDeleter>;
 using OutputPtr = std::unique_ptr<AVFormatContext, OutputDeleter>;
 
-// From now on FFmpeg and its codecs print nothing; their errors are kept for ffmpeg_error.
+// Opens FFmpeg's libraries, but for the one of filters. From now on they and their codecs print nothing;
+// their errors are kept for ffmpeg_error. Throws RunError where a library is missing.
 void quiet_ffmpeg();
+
+// Names and versions of FFmpeg and its libraries, as loaded. Opens them, and throws RunError where one is
+// missing.
+std::vector<std::pair<std::string, std::string>> ffmpeg_versions();
 
 // "No space left on device" for a negative return code of FFmpeg, with the last error line that FFmpeg logged
 // since the previous call, if any.
@@ -53,7 +56,9 @@ class AvOptions {
     AvOptions() = default;
     AvOptions(const AvOptions&) = delete;
     AvOptions& operator=(const AvOptions&) = delete;
-    ~AvOptions() { av_dict_free(&dictionary_); }
+    ~AvOptions() {
+        if (dictionary_) av_dict_free(&dictionary_);  // an empty one calls nothing: FFmpeg may be missing
+    }
     void set(const std::string& key, const std::string& value) {
         av_dict_set(&dictionary_, key.c_str(), value.c_str(), 0);
     }
@@ -63,15 +68,7 @@ class AvOptions {
     AVDictionary* dictionary_ = nullptr;
 };
 
-}  // namespace grainreel
-
 // One filter of libavfilter between frames that go in and frames that come out.
-
-struct AVFilterGraph;
-struct AVFilterContext;
-
-namespace grainreel {
-
 class FilterGraph {
   public:
     // Frames have the size and pixels of `codec`. second: a still picture for the filter's second input, if

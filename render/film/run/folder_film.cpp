@@ -9,6 +9,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/resume/kept_files.hpp"
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
@@ -18,7 +19,9 @@ namespace grainreel {
 void FolderFilm::check(const FilmedScene& scene, std::int64_t frames) const {
     if (request_.to_stdout && !(request_.film && scene.film.format == FilmFormat::y4m))
         throw UserError("--out -: stdout takes a film in y4m alone; add --format y4m, or name a folder");
-    if (request_.film) check_max_size(scene, frames);
+    if (!request_.film) return;
+    check_max_size(scene, frames);
+    if (scene.film.format != FilmFormat::png) quiet_ffmpeg();  // told before a packing that takes minutes
 }
 
 void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr start, DrawerMaker draw) {
@@ -43,6 +46,8 @@ void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr 
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
                  : std::make_unique<FilmMaker>(scene, film);
     desk_.record.gl = film_->drawer();
+    if (film.film && scene.film.format != FilmFormat::png)
+        for (auto& library : ffmpeg_versions()) desk_.record.libraries.push_back(std::move(library));
     desk_.listener.detail("drawn with " + desk_.record.gl);
 }
 

@@ -28,7 +28,7 @@ class FolderFilm final : public SideWork {
     const FilmRequest& request() const { return request_; }
     // Whether any pictures are asked for.
     bool wanted() const { return request_.film || request_.frames; }
-    // Checks what scene and options ask of the film's file. Throws UserError.
+    // Checks what scene and options ask of the film's file. Throws UserError; RunError without FFmpeg.
     void check(const FilmedScene& scene, std::int64_t frames) const;
     void use_threads(const ThreadPlan& threads) { threads_ = threads; }
     const ThreadPlan& threads() const { return threads_; }
