@@ -3,9 +3,18 @@
 #pragma once
 
 #include <exception>
+#include <new>
 #include <string>
 
 namespace grainreel {
+
+// What a failure says. The library's own word for used up memory tells users nothing.
+inline std::string words_of(const std::exception& failure) {
+    if (dynamic_cast<const std::bad_alloc*>(&failure) == nullptr) return failure.what();
+    return "not enough memory: all that the machine or a limit (ulimit -v) gives is used up; take fewer "
+           "grains, "
+           "or a machine with more";
+}
 
 class FirstFailure {
   public:
@@ -17,7 +26,7 @@ class FirstFailure {
         try {
             action();
         } catch (const std::exception& problem) {
-            note(problem.what());
+            note(words_of(problem));
         }
     }
     bool any() const { return !what_.empty(); }

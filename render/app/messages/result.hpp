@@ -17,6 +17,11 @@ void print_result(std::string_view text);
 // visible on a terminal only.
 void print_exact(std::string_view text);
 
+// Opens what the program was started without of stdin, stdout and stderr (`>&-`), so that no file of a run
+// gets the number of a stream, and messages are not written into it. What is printed on such a stdout fails
+// in close_results(). To be called before anything is opened.
+void open_missing_streams();
+
 // To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader
 // that closes the pipe is no failure.
 void close_results();
