@@ -4,6 +4,7 @@
 #pragma once
 
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +24,13 @@ class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// What a failure says. The standard library's words for memory that is used up tell users nothing.
+inline std::string words_of(const std::exception& failure) {
+    if (dynamic_cast<const std::bad_alloc*>(&failure) == nullptr) return failure.what();
+    return "not enough memory: all that the machine or a limit (ulimit -v) gives is used up; take fewer grains, "
+           "or a machine with more";
+}
+
 // Remembers the first failure while the remaining work is still tried, so that a failed run keeps as much as
 // it can.
 class FirstFailure {
@@ -35,7 +43,7 @@ class FirstFailure {
         try {
             action();
         } catch (const std::exception& problem) {
-            note(problem.what());
+            note(words_of(problem));
         }
     }
     bool any() const { return !what_.empty(); }

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/run/driver/first_failure.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/stop_signal.hpp"
@@ -25,7 +26,7 @@ int status_of(const std::function<int()>& work, const std::function<void(const s
         tell(mistake.what());
         return user_mistake;
     } catch (const std::exception& failure) {
-        tell(failure.what());
+        tell(words_of(failure));
         return run_failed;
     }
 }
@@ -56,6 +57,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace grainreel
 
 int main(int argc, char** argv) {
+    grainreel::open_missing_streams();
     grainreel::ignore_write_signals();
     return grainreel::parse_and_run(argc, argv);
 }

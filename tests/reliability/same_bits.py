@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 """Are the files of a run the same, byte for byte, however it was made?
 
-    tests/reliability/same_bits.py PROGRAM [OTHER PROGRAM ...] [--out FOLDER] [--scenes NAME ...]
+    tests/reliability/same_bits.py PROGRAM [OTHER PROGRAM ...] [--out FOLDER] [--scenes NAME ...] [--instructions]
 
 Each scene runs once with PROGRAM on one thread. Then it runs on 2 and on 3 threads, once more with a stop on its way (Ctrl-C
 after 85 % of the time that the first run took, then `resume` goes on), and once with each OTHER PROGRAM: another compiler's,
-an installed one. final.csv, measures.csv, outflow.csv, contacts.nc and trajectory.nc are compared with the first run's; the
+an installed one. With --instructions it also runs as on processors that have AVX2, SSE4, or nothing beyond plain x86-64
+(instructions.cpp, which is loaded before the program, tells Highway so, and the C library leaves out its own code for AVX and
+FMA); that needs a compiler and Highway's headers. final.csv, measures.csv, outflow.csv, contacts.nc and trajectory.nc are compared with the first run's; the
 last two only for PROGRAM itself, because they name the build. Prints a table.
 Exit status: 0 all alike, 1 a file differs, 2 a mistake.
 """
 import argparse
+import os
 import signal
 import subprocess
 import sys
@@ -30,20 +33,46 @@ SCENES = {
 }
 
 
-def call(command, allowed=(0,)):
-    done = subprocess.run(command, capture_output=True, text=True)
+# What a processor has: what --version says of it, Highway's targets, and what the C library must do without.
+OLDER = "AVX512F,-AVX512VL,-AVX512DQ,-AVX512BW,-AVX512CD"
+INSTRUCTIONS = {
+    "AVX2": ("AVX2", OLDER),
+    "SSE4": ("SSE4", OLDER + ",-AVX2,-AVX,-FMA,-FMA4"),
+    "plain x86-64": ("plain", OLDER + ",-AVX2,-AVX,-FMA,-FMA4,-SSE4_2,-SSE4_1,-SSSE3"),
+}
+
+
+def processor(name, folder):
+    """The environment in which the program believes that it runs on such a processor."""
+    shim = folder / "instructions.so"
+    if not shim.exists():
+        source = Path(__file__).with_name("instructions.cpp")
+        subprocess.run(["g++", "-shared", "-fPIC", "-O1", source, "-o", shim], check=True)
+    targets, missing = INSTRUCTIONS[name]
+    return {**os.environ, "LD_PRELOAD": str(shim), "GRAINREEL_TEST_TARGETS": targets,
+            "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-" + missing}
+
+
+def instructions_of(program, env):
+    """The vector instructions that the program uses, in its own words."""
+    said = subprocess.run([program, "--version"], capture_output=True, text=True, env=env).stdout
+    return next((line.split(None, 1)[1] for line in said.splitlines() if line.startswith("vectors")), "?")
+
+
+def call(command, allowed=(0,), env=None):
+    done = subprocess.run(command, capture_output=True, text=True, env=env)
     if done.returncode not in allowed:
         sys.exit(f"{' '.join(command)}\n{done.stderr}")
 
 
-def run(program, scene, out, threads=1, stop_after=None):
+def run(program, scene, out, threads=1, stop_after=None, env=None):
     """Runs a scene into a folder; stop_after: seconds until Ctrl-C, after which it is resumed."""
     seconds, settings = SCENES[scene]
     bare = ["--quiet", "--no-report", "--threads", str(threads)]
     command = [str(program), "movie", scene, "--no-film", "--out", str(out), "--duration", f"{seconds:g} s", *bare]
     command += [word for setting in settings for word in ("--set", setting)]
     if stop_after is None:
-        call(command)
+        call(command, env=env)
         return out
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(stop_after)
@@ -66,12 +95,17 @@ def main():
     parser.add_argument("others", type=Path, nargs="*")
     parser.add_argument("--out", type=Path, help="keep the runs here [a temporary folder]")
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
+    parser.add_argument("--instructions", action="store_true", help="also as on processors with less")
     job = parser.parse_args()
     folder = job.out or Path(tempfile.mkdtemp(prefix="same_bits."))
     folder.mkdir(parents=True, exist_ok=True)
     variants = [("2 threads", job.program, {"threads": 2}), ("3 threads", job.program, {"threads": 3}),
                 ("resumed", job.program, {"stop_after": 0})]
     variants += [(str(other), other, {}) for other in job.others]
+    if job.instructions:
+        for name in INSTRUCTIONS:
+            env = processor(name, folder.resolve())
+            variants.append((f"{name} ({instructions_of(job.program, env)})", job.program, {"env": env}))
     print("| scene | " + " | ".join(name for name, _, _ in variants) + " |")
     print("|---|" + "---|" * len(variants))
     alike = True

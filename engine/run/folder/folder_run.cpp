@@ -50,7 +50,7 @@ FolderRun::Ended FolderRun::run() {
         desk_.failure.note(mistake.what());
     } catch (const std::exception& problem) {
         note_folder();
-        desk_.failure.note(problem.what());
+        desk_.failure.note(words_of(problem));
     }
     if ((stopped || desk_.failure.any()) && is_behind_former()) return end_as_before(mistaken);
     if (stopped) {
@@ -181,7 +181,7 @@ void FolderRun::make_page() {
         page_is_missing(false);
         write_record();
     } catch (const std::exception& problem) {
-        desk_.listener.warning(fmt::format("the run has no page: {}", problem.what()));
+        desk_.listener.warning(fmt::format("the run has no page: {}", words_of(problem)));
         page_is_missing(false);
         desk_.failure.attempt([&] { write_record(); });
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
+#include <fcntl.h>
 #include <unistd.h>
 #include <cerrno>
 #include <cmath>
@@ -231,6 +232,14 @@ void print_result(std::string_view text) {
 
 void print_exact(std::string_view text) {
     ::isatty(STDOUT_FILENO) != 0 ? print_result(text) : put(text);
+}
+
+void open_missing_streams() {
+    // open() gives the lowest free number, and these are tried from the lowest on. Stdout is opened for
+    // reading alone, so that printing fails as it does without a stdout.
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0) [[maybe_unused]]
+            const int opened = ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 void close_results() {

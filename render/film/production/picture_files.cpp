@@ -43,6 +43,12 @@ std::vector<PngText> texts_of(const std::string& scene, const std::string& title
             {"Software", "grainreel"}};
 }
 
+void make_frames_folder(const std::filesystem::path& run) {
+    const std::filesystem::path frames = run / "frames";
+    if (const std::error_code error = make_plain_folder(frames))
+        throw RunError(fmt::format("{}: cannot make the folder: {}", frames.string(), error.message()));
+}
+
 PictureFiles::PictureFiles(const FilmedScene& scene, const FilmOptions& options)
     : folder_(options.folder),
       check_folder_(options.check_folder),
@@ -58,12 +64,7 @@ PictureFiles::PictureFiles(const FilmedScene& scene, const FilmOptions& options)
       flashes_(scene.film.rate),
       flash_remedy_(flash_remedy(scene.film)) {
     if (!is_first_) first_time_ = options.extent.earlier.front();
-    if (frames_wanted_) {
-        const std::error_code error = make_plain_folder(folder_ / "frames");
-        if (error)
-            throw RunError(fmt::format("{}: cannot make the folder: {}", (folder_ / "frames").string(),
-                                       error.message()));
-    }
+    if (frames_wanted_) make_frames_folder(folder_);
     if (!options.film) return;
     film_ = make_film_writer(scene, {folder_, options.to_stdout, options.encoder_threads});
     if (!options.to_stdout) {

@@ -30,6 +30,9 @@ namespace grainreel {
 inline constexpr const char* kPageCopy = "movie_720.mp4";
 inline constexpr std::size_t kMostFilmOnPage = 6'000'000;  // bytes
 
+// Makes the folder of numbered pictures, or takes the one that is there. Throws RunError.
+void make_frames_folder(const std::filesystem::path& run);
+
 // Whether browsers play films of that format.
 bool plays_in_browsers(FilmFormat format);
 

@@ -11,6 +11,7 @@
 #include "engine/run/resume/kept_files.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_writer.hpp"
+#include "render/film/production/picture_files.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 
@@ -19,9 +20,16 @@ namespace grainreel {
 void FolderFilm::check(const FilmedScene& scene, std::int64_t frames) const {
     if (request_.to_stdout && !(request_.film && scene.film.format == FilmFormat::y4m))
         throw UserError("--out -: stdout takes a film in y4m alone; add --format y4m, or name a folder");
+    if (wanted()) check_addresses(scene.film);
     if (!request_.film) return;
     check_max_size(scene, frames);
     if (scene.film.format != FilmFormat::png) quiet_ffmpeg();  // told before a packing that takes minutes
+}
+
+void FolderFilm::make_frames_place(const FilmedScene& scene) const {
+    if (!request_.frames && !(request_.film && scene.film.format == FilmFormat::png)) return;
+    desk_.folder->lock().check_there();
+    make_frames_folder(desk_.folder->path());
 }
 
 void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr start, DrawerMaker draw) {

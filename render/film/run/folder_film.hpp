@@ -38,6 +38,9 @@ class FolderFilm final : public SideWork {
         extent_ = std::move(extent);
         frames_here_ = frames;
     }
+    // Makes the folder of numbered pictures where they are wanted. By it `resume` knows that they are, so a
+    // run makes it before its first checkpoint.
+    void make_frames_place(const FilmedScene& scene) const;
     // Opens the film; does nothing where no pictures are wanted. pictures: number of the whole film's
     // pictures. start: frame from which start heights are counted; null: the film's first picture. draw:
     // makes the drawer; empty for the Renderer.

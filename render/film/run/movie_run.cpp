@@ -80,6 +80,7 @@ std::string MovieRun::threads_text() const {
 }
 
 void MovieRun::start() {
+    film_.make_frames_place(source_.scene());
     if (request_.page) source_.keep_key_moments();
     source_.start(pictures_);
     film_.open(source_.scene(), source_.shots());

@@ -105,6 +105,9 @@ void check_schedule(const FilmedScene& scene, const std::vector<SegmentCount>& c
 // Throws UserError when film.max_size leaves so few bits for a pixel that nothing could be made out.
 void check_max_size(const FilmedScene& scene, std::int64_t frames);
 
+// Throws UserError when a limit of the process (`ulimit -v`) leaves too few addresses for a film's pictures.
+void check_addresses(const Film& film);
+
 // Warnings: words that the picture has no room for, letters that no font has, and films for a journal that
 // journals do not take.
 std::vector<std::string> film_warnings(const FilmedScene& scene, std::int64_t frames);
