@@ -1,7 +1,9 @@
 #include "engine/handover/bring_back.hpp"
 
 #include <fmt/format.h>
+#include <chrono>
 #include <limits>
+#include <thread>
 #include <utility>
 
 #include "engine/base/error.hpp"
@@ -13,6 +15,8 @@
 #include "engine/grain_table.hpp"
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
+#include "engine/handover/job_end.hpp"
+#include "engine/handover/returned_health.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/import/import_measures.hpp"
@@ -28,25 +32,64 @@ namespace {
 
 constexpr const char* made_names[] = {"measures.csv", "outflow.csv", "final.csv", "trajectory.nc"};
 
-// A folder that is removed at the end.
-struct PassingFolder {
-    explicit PassingFolder(const fs::path& folder) : path(folder / ".returning") {
-        std::error_code failed;
-        fs::remove_all(path, failed);
-        if (!fs::create_directory(path, failed))
-            throw RunError(fmt::format("{}: cannot be made: {}", path.string(), failed.message()));
-    }
-    ~PassingFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    const fs::path path;
-};
-
 bool is_newer(const fs::path& made, const fs::path& dump) {
     std::error_code missing;
     const auto when = fs::last_write_time(made, missing);
     return !missing && when >= fs::last_write_time(dump, missing) && !missing;
+}
+
+}  // namespace
+
+std::unique_ptr<ReturningFolder> ReturningFolder::take(const fs::path& folder, const std::string& name) {
+    const fs::path path = folder / name;
+    std::error_code failed;
+    fs::create_directory(path, failed);
+    if (!fs::is_directory(path, failed))
+        throw RunError(fmt::format("{}: cannot be made: {}", path.string(), failed.message()));
+    std::optional<FolderLock> lock = FolderLock::take(path, "");
+    if (!lock || !lock->is_there()) return nullptr;
+    // What a process left that was killed.
+    for (const fs::directory_entry& one : fs::directory_iterator(path, failed))
+        if (one.path().filename() != ".lock") fs::remove_all(one.path(), failed);
+    return std::unique_ptr<ReturningFolder>(new ReturningFolder(std::move(*lock)));
+}
+
+ReturningFolder::~ReturningFolder() {
+    std::error_code ignored;
+    fs::remove_all(path(), ignored);
+}
+
+void ReturningFolder::move_out() const {
+    std::error_code missing;
+    for (const char* name : made_names)
+        if (fs::exists(path() / name, missing)) fs::rename(path() / name, path().parent_path() / name);
+}
+
+namespace {
+
+// Waits while another process brings the run back. None if the watcher said so.
+std::unique_ptr<ReturningFolder> returning(const fs::path& folder,
+                                           const std::function<bool(double)>& watcher) {
+    while (true) {
+        if (auto made = ReturningFolder::take(folder)) return made;
+        if (!watcher(0)) return nullptr;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+}
+
+// Reads the whole dump. False if the watcher said so.
+bool read_back(ReturnedRun& run, const HandoverFacts& facts, const std::function<bool(double)>& watcher,
+               BroughtBack& back) {
+    try {
+        while (run.take_next())
+            if (!watcher(static_cast<double>(run.frames()) /
+                         static_cast<double>(std::max<std::int64_t>(run.frames(), facts.dumps))))
+                return false;
+    } catch (const RunError& unsound) {
+        if (run.last() == nullptr) throw;
+        back.news.emplace_back(unsound.what());
+    }
+    return true;
 }
 
 }  // namespace
@@ -62,13 +105,11 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
     if (is_newer(folder / "trajectory.nc", facts.dump)) return back;
     const Scene scene = read_scene(folder / "scene.toml", {}, measurable_in);
     const Plan plan = make_plan(scene);
-    const PassingFolder made(folder);
+    const std::unique_ptr<ReturningFolder> made = returning(folder, watcher);
+    if (!made || is_newer(folder / "trajectory.nc", facts.dump)) return back;
     {
-        ReturnedRun run(made.path, scene, plan, facts, version);
-        while (run.take_next())
-            if (!watcher(static_cast<double>(run.frames()) /
-                         static_cast<double>(std::max<std::int64_t>(run.frames(), facts.dumps))))
-                return back;
+        ReturnedRun run(made->path(), scene, plan, facts, version);
+        if (!read_back(run, facts, watcher, back)) return back;
         if (run.last() == nullptr)
             throw UserError(fmt::format("{}: has no whole frame so far", facts.dump.string()));
         back.frames = run.frames();
@@ -77,11 +118,8 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
         RunJson record;
         run.close(record);
     }
-    for (const char* name : made_names)
-        if (fs::exists(made.path / name, missing)) fs::rename(made.path / name, folder / name);
-    if (!back.whole)
-        back.news.push_back(fmt::format("{} has come to {:.4g} s of {:.4g} s; what there is is drawn",
-                                        name_of(facts.engine), back.until, plan.clock.time(facts.last)));
+    made->move_out();
+    if (!back.whole) back.news.push_back(came_so_far(folder, facts, back.until, plan.clock.time(facts.last)));
     return back;
 }
 
@@ -92,6 +130,12 @@ TrajectoryInfo info_of(const Scene& scene, const Plan& plan, const std::string& 
     info.contact_numbers = false;  // a dump does not have them
     info.orientation = false;
     return info;
+}
+
+// The columns, and that of the observer of overlaps, which sees contacts of our own step loop only.
+Measures::Names with_overlap(std::vector<std::string> names) {
+    names.emplace_back("largest_overlap");
+    return std::make_shared<const std::vector<std::string>>(std::move(names));
 }
 
 }  // namespace
@@ -109,7 +153,9 @@ struct ReturnedRun::Impl {
           bodies(bodies_of(scene)),
           trajectory(folder / "trajectory.nc", info_of(scene, plan, version)),
           measures(scene, plan.clock, FrameSupply()),
-          table(folder / "measures.csv", measures.names()) {
+          health(scene, plan),
+          names(with_overlap(measures.names())),
+          table(folder / "measures.csv", *names) {
         if (scene.container.outlet && !scene.container.tray) outflow.emplace(folder / "outflow.csv");
     }
 
@@ -175,6 +221,8 @@ struct ReturnedRun::Impl {
     const std::vector<Body> bodies;
     TrajectoryWriter trajectory;
     ImportMeasures measures;
+    ReturnedHealth health;
+    const Measures::Names names;
     MeasuresWriter table;
     std::optional<OutflowWriter> outflow;
     std::optional<Frame> last;
@@ -194,9 +242,12 @@ bool ReturnedRun::take_next() {
     if (m.last && rows->step - m.facts.shift <= m.last->step) return true;
     Frame frame = m.frame_of(*rows);
     const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);
+    const double overlap = m.health.look(frame);
     m.note_outflow(change.left, frame.step);
     m.trajectory.write(frame);
-    m.table.write(m.measures.row(frame, {}));
+    std::vector<double> row = m.measures.row(frame, {}).values();
+    row.push_back(overlap);
+    m.table.write({m.names, std::move(row)});
     m.last = std::move(frame);
     return true;
 }

@@ -8,8 +8,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/frame.hpp"
 #include "engine/handover/handover_folder.hpp"
@@ -22,14 +24,36 @@ struct BroughtBack {
     std::int64_t frames = 0;
     double until = 0;               // s, time of the last frame
     bool whole = false;             // whether the run has come to its end
-    std::vector<std::string> news;  // a line each
+    std::vector<std::string> news;  // what the user should know of a run that is not whole, a line each
 };
 
-// Writes trajectory.nc, measures.csv and final.csv beside the dump, unless they exist and are newer. watcher:
-// called with the share that is done; if it returns false, nothing is changed. Throws UserError where there
-// is no dump or it is of another run, and RunError for grains that were lost.
+// Writes trajectory.nc, measures.csv and final.csv beside the dump, unless they exist and are newer. If
+// another process does so, waits for it. watcher: called with the share that is done; if it returns false,
+// nothing is changed. A run that lost grains or got unsound (ReturnedRun) is brought back up to there, with a
+// line in `news`. Throws UserError where there is no dump or it is of another run, and RunError where no
+// frame of it is sound or files cannot be written.
 BroughtBack bring_back(const std::filesystem::path& folder, const std::string& version,
                        const std::function<bool(double)>& watcher);
+
+// A folder in the folder of a hand-over, in which the files of a run are made while its dump is read. No
+// other process uses it meanwhile, and it is removed at the end.
+class ReturningFolder {
+  public:
+    // None while another process has the folder of that name. Throws RunError where it cannot be made.
+    static std::unique_ptr<ReturningFolder> take(const std::filesystem::path& folder,
+                                                 const std::string& name = ".returning");
+    ~ReturningFolder();
+    ReturningFolder(const ReturningFolder&) = delete;
+    ReturningFolder& operator=(const ReturningFolder&) = delete;
+
+    const std::filesystem::path& path() const { return lock_.folder(); }
+    // Moves the run's files into the folder of the hand-over, in place of those that are there.
+    void move_out() const;
+
+  private:
+    explicit ReturningFolder(FolderLock lock) : lock_(std::move(lock)) {}
+    FolderLock lock_;
+};
 
 // Makes the files of a run of ours (trajectory.nc, measures.csv, outflow.csv, final.csv) from the dump of
 // another engine, while it grows or at once.
@@ -42,7 +66,8 @@ class ReturnedRun {
     ~ReturnedRun();
 
     // Writes the next whole frame of the dump; false where there is none so far. Throws UserError for a dump
-    // that does not fit the deck, and RunError for grains that were lost.
+    // that does not fit the deck, and RunError for grains that were lost and a state that is not sound
+    // (ReturnedHealth); no frame from there on may be taken.
     bool take_next();
     // Writes final.csv of the last frame, and what run.json says about the files.
     void close(RunJson& record);

@@ -19,6 +19,10 @@ std::string deck_name(PeerEngine engine);  // "in.lammps"
 std::string dump_name(PeerEngine engine);  // "lammps.dump"
 // "lammps.restart", to which a point and the engine's step are added.
 std::string restart_name(PeerEngine engine);
+// The file that LIGGGHTS writes when a signal asks it to end has its step between these, and is whole once
+// its output says so.
+inline constexpr const char *forced_begin = "restart_forced_liggghts_", *forced_end = ".data";
+inline constexpr const char* forced_words = "Forced restart written";
 // "restart 1000 lammps.restart.*", so that about ten are written.
 std::string restart_line(const CarriedScene& carried);
 

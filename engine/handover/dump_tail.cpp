@@ -165,6 +165,29 @@ std::optional<std::int64_t> newest_restart(const fs::path& folder, PeerEngine en
     return newest;
 }
 
+void take_forced_restarts(const fs::path& folder, const fs::path& output) {
+    bool whole = false;
+    std::ifstream said(output);
+    for (std::string line; !whole && std::getline(said, line);)
+        whole = line.find(forced_words) != std::string::npos;
+    std::vector<fs::path> forced;
+    std::error_code missing;
+    for (const fs::directory_entry& one : fs::directory_iterator(folder, missing))
+        if (one.path().filename().string().starts_with(forced_begin)) forced.push_back(one.path());
+    const std::string begin = forced_begin, end = forced_end;
+    for (const fs::path& one : forced) {
+        const std::string name = one.filename().string();
+        if (whole && name.ends_with(end))
+            fs::rename(
+                one,
+                folder / fmt::format("{}.{}", restart_name(PeerEngine::liggghts),
+                                     name.substr(begin.size(), name.size() - begin.size() - end.size())),
+                missing);
+        else
+            fs::remove(one, missing);
+    }
+}
+
 void trim_dump(const fs::path& dump, std::int64_t step) {
     DumpTail tail(dump);
     std::uintmax_t kept = 0;

@@ -10,6 +10,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/decks.hpp"
+#include "engine/handover/job_end.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/text/toml_text.hpp"
@@ -216,9 +217,18 @@ command -v "$engine" > /dev/null || {{
 if [ "$(id -u)" = 0 ]; then  # Open MPI refuses root otherwise
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
-{restart}mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1
+rm -f {status}
+{restart}mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
+job=$!
+trap 'kill "$job" 2> /dev/null' HUP INT TERM  # the ranks end with this script
+wait "$job"
 status=$?
-[ $status = 0 ] || {{ echo "run.sh: {name} ended with $status; the end of out.{key}:" >&2; tail -n 5 out.{key} >&2; }}
+while kill -0 "$job" 2> /dev/null; do  # a signal ended the wait
+    wait "$job"
+    status=$?
+done
+{forced}echo "$status" > {status}  # so that whoever follows the dump knows
+[ "$status" = 0 ] || {{ echo "run.sh: {name} ended with $status; the end of out.{key}:" >&2; tail -n 5 out.{key} >&2; }}
 exit $status
 )sh";
 
@@ -245,9 +255,21 @@ constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
     truncate -s "$size" {dump}
     set -- -var goes_on 1 -var restart {restart}."$step"
 else
-    rm -f {restart}.*  # of a run before
+    rm -f {restart}.* {end} {dump}  # of a run before
     set --
 fi
+)sh";
+
+// A restart file that a signal made LIGGGHTS write goes by the name of the others if it is whole.
+constexpr const char* forced_text = R"sh(for file in {begin}*; do
+    [ -e "$file" ] || continue
+    step=${{file#{begin}}}
+    if grep -q "{words}" out.liggghts; then
+        mv "$file" {restart}."${{step%{end}}}"
+    else
+        rm -f "$file"
+    fi
+done
 )sh";
 
 constexpr const char* slurm_text = R"sh(#!/bin/sh
@@ -257,6 +279,8 @@ constexpr const char* slurm_text = R"sh(#!/bin/sh
 #SBATCH --mem-per-cpu={memory}M
 #SBATCH --time={time}
 #SBATCH --output=slurm-%j.out
+# A minute before the time ends, run.sh ends the ranks and notes it.
+#SBATCH --signal=B:TERM@60
 # The cluster's modules, for instance:
 # module load openmpi {key}
 cd "${{SLURM_SUBMIT_DIR:-.}}" || exit 1
@@ -267,14 +291,19 @@ RANKS=${{SLURM_NTASKS:-{ranks}}} exec sh run.sh "$@"
 
 std::string run_script(const CarriedScene& carried) {
     const bool lammps = carried.engine == PeerEngine::lammps;
-    const std::string restart = fmt::format(restart_text, fmt::arg("restart", restart_name(carried.engine)),
-                                            fmt::arg("dump", dump_name(carried.engine)));
-    return fmt::format(run_text, fmt::arg("title", one_line(carried.scene.title)),
-                       fmt::arg("name", name_of(carried.engine)), fmt::arg("ranks", carried.ranks),
-                       fmt::arg("program", program_of(carried.engine)),
-                       fmt::arg("package", key_of(carried.engine)),
-                       fmt::arg("check", lammps ? lammps_check : ""), fmt::arg("restart", restart),
-                       fmt::arg("deck", deck_name(carried.engine)), fmt::arg("key", key_of(carried.engine)));
+    const std::string restart =
+        fmt::format(restart_text, fmt::arg("restart", restart_name(carried.engine)),
+                    fmt::arg("dump", dump_name(carried.engine)), fmt::arg("end", end_name));
+    const std::string forced =
+        fmt::format(forced_text, fmt::arg("begin", forced_begin), fmt::arg("end", forced_end),
+                    fmt::arg("words", forced_words), fmt::arg("restart", restart_name(carried.engine)));
+    return fmt::format(
+        run_text, fmt::arg("forced", lammps ? "" : forced), fmt::arg("title", one_line(carried.scene.title)),
+        fmt::arg("name", name_of(carried.engine)), fmt::arg("ranks", carried.ranks),
+        fmt::arg("program", program_of(carried.engine)), fmt::arg("package", key_of(carried.engine)),
+        fmt::arg("check", lammps ? lammps_check : ""), fmt::arg("restart", restart),
+        fmt::arg("deck", deck_name(carried.engine)), fmt::arg("key", key_of(carried.engine)),
+        fmt::arg("status", status_name));
 }
 
 std::string slurm_script(const CarriedScene& carried) {

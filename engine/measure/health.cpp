@@ -157,6 +157,12 @@ void check_vessel(const HealthLimits& limits, const Surroundings& around, const 
 
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const StepLoop& loop, std::int64_t step) {
+    check_state(
+        limits, around, grains, [&](const auto& see) { loop.visit_contacts(step, see); }, step);
+}
+
+void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                 const ShowContacts& show, std::int64_t step) {
     const Pose pose = around.motion.at(step);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         if (!finite(grains, i)) {
@@ -174,7 +180,7 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
     }
     check_vessel(limits, around, grains, step);
     check_way_of_a_step(limits, grains, step);
-    loop.visit_contacts(step, [&](const ContactView& c) {
+    show([&](const ContactView& c) {
         if (c.overlap <= limits.overlap * c.smaller_radius) return;
         const bool wall = c.second < 0;
         const std::string other =
@@ -206,12 +212,18 @@ void EnergyWatch::check(double energy, double work, double through, double allow
     const double risen = balance - lowest_;
     const double rounding = kRounding * largest_through_;
     if (risen <= kTurnoverShare * (turnover + motion) + allowance + rounding) return;
+    throw RunError(energy_gained_text(limits, grains, step, risen,
+                                      fmt::format("{:.3g} J turned over so far", turnover)));
+}
+
+std::string energy_gained_text(const HealthLimits& limits, const Grains& grains, std::int64_t step,
+                               double gained, const std::string& beside) {
     const std::size_t fastest = fastest_of(grains);
-    throw RunError(fmt::format(
-        "{}: the grains gained {:.3g} J that no wall gave them ({:.3g} J turned over so far), and {} is the "
-        "fastest at {:.3g} m/s; take a smaller run.step",
-        moment(limits.clock, step), risen, turnover, grain_name(limits, grains, fastest),
-        grains.motion[fastest].velocity.norm()));
+    return fmt::format(
+        "{}: the grains gained {:.3g} J that no wall gave them ({}), and {} is the fastest at {:.3g} m/s; "
+        "take a smaller run.step",
+        moment(limits.clock, step), gained, beside, grain_name(limits, grains, fastest),
+        grains.motion[fastest].velocity.norm());
 }
 
 }  // namespace grainreel

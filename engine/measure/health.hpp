@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/clock.hpp"
+#include "engine/measure/observers.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
@@ -30,11 +31,18 @@ HealthLimits health_limits(const Scene& scene, const Plan& plan);
 // so fast that it may pass another between two steps.
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const StepLoop& loop, std::int64_t step);
+// The same where `show` shows the contacts, of which only the two bodies, overlap and smaller radius count.
+void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                 const ShowContacts& show, std::int64_t step);
 
 // Number of steps until the next look, such that no impact that overlaps too far begins and ends unseen.
 // There are many if the speeds are safe.
 std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                                 std::int64_t step);
+
+// The message for grains that gained energy (J) which no wall gave them; it names the fastest.
+std::string energy_gained_text(const HealthLimits& limits, const Grains& grains, std::int64_t step,
+                               double gained, const std::string& beside);
 
 // Watches the energy balance: without work done on them, grains can only lose energy.
 class EnergyWatch {

@@ -95,6 +95,7 @@ class Inspection {
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
                             option, asks_.run.string()));
+        bring_back_to_read(asks_.run, reporter);
         // Frames are counted in the file that was named, so it is read without its series.
         asks_.reading.one = true;
         if (foreign && asks_.draws()) return open_import(reporter);

@@ -30,18 +30,21 @@ fs::path folder_around(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+void bring_back_to_read(const fs::path& path, Reporter& reporter) {
+    if (!is_handover(path)) return;
+    const ShareWatcher watcher(reporter, Progress::Stage::paging);
+    const BroughtBack back =
+        bring_back(path, build_info::version, [&](double done) { return watcher("reading the dump", done); });
+    for (const std::string& line : back.news) reporter.warning(line);
+}
+
 RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
     if (!is_foreign(path)) {
         if (const std::string option = given_reading(reading); !option.empty())
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
                             option, path.string()));
-        if (is_handover(path)) {
-            const ShareWatcher watcher(reporter, Progress::Stage::paging);
-            const BroughtBack back = bring_back(
-                path, build_info::version, [&](double done) { return watcher("reading the dump", done); });
-            for (const std::string& line : back.news) reporter.info(line);
-        }
+        bring_back_to_read(path, reporter);
         return {path, path.parent_path(), false};
     }
     ImportRequest request;

@@ -27,6 +27,10 @@ struct RunToRead {
 // The folder that a file, a pattern or a folder lies in.
 std::filesystem::path folder_around(const std::filesystem::path& path);
 
+// Where the folder is of a hand-over, makes the run's files in it from the dump, unless they are there, and
+// tells what is to be known of a job that has not come to its end. Throws as bring_back() does.
+void bring_back_to_read(const std::filesystem::path& path, Reporter& reporter);
+
 // Finds the run, or imports the files and tells what was guessed and derived. Throws UserError when options
 // of add_reading() are given with a run of ours.
 RunToRead run_to_read(const std::filesystem::path& path, const ReadingOptions& reading, Reporter& reporter);

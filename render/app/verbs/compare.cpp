@@ -65,6 +65,7 @@ class Compare final : public Verb {
         film_.program = program_info();
         bool any_foreign = false;
         for (std::filesystem::path& input : request_.inputs) {
+            bring_back_to_read(input, reporter);
             if (!is_foreign(input)) continue;
             any_foreign = true;
             input = run_to_read(input, reading_, reporter).folder;

@@ -73,6 +73,7 @@ class Export final : public Verb {
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
                             option, run_.string()));
+        bring_back_to_read(run_, reporter);
         FrameRequest request;
         request.reading = reading_;
         const std::unique_ptr<FrameArchive> frames = open_frames(run_, request);

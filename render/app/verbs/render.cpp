@@ -1,7 +1,5 @@
 // The verb `render` draws a finished run again, as a film or as one picture. Moments that the run did not
 // keep are brought back from its checkpoints; the run itself is not changed.
-#include <chrono>
-#include <thread>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -9,7 +7,6 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
@@ -20,6 +17,7 @@
 #include "render/app/study/members/child.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/film_in_parts.hpp"
+#include "render/film/run/follow_job.hpp"
 #include "render/film/run/follow_run.hpp"
 #include "render/film/run/redraw_run.hpp"
 #include "render/film/run/still.hpp"
@@ -83,7 +81,8 @@ class Render final : public Verb {
         add_reading(parser, reading_);
         CLI::Option* follow = parser.add_flag(
             "--follow", follow_,
-            "Film files of another program while they grow, until no new frame comes or Ctrl-C");
+            "Film files of another program, or a scene that was handed over, while they grow: until the job "
+            "ends, nothing new comes, or Ctrl-C");
         parser
             .add_option("--idle", idle_,
                         "With --follow: end the film after this time in s without a new frame [60]")
@@ -108,8 +107,7 @@ class Render final : public Verb {
         check_print_size(request_.print, is_still(), "--at or --frame");
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
-        if (follow_ && !is_handover(request_.run)) return follow(reporter);
-        if (follow_) wait_for_job(reporter);
+        if (follow_) return is_handover(request_.run) ? follow_job(reporter) : follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
         if (read.imported) request_.beside = read.beside;
@@ -128,25 +126,11 @@ class Render final : public Verb {
   private:
     bool is_still() const { return request_.at || request_.frame; }
 
-    // Waits while the job to which a scene was handed over still writes. The job has ended when its last
-    // moment is there, or when nothing new has come for a while.
-    void wait_for_job(Reporter& reporter) const {
-        const HandoverFacts facts = read_handover(request_.run);
-        DumpTail dump(facts.dump);
-        Stopwatch idle;
-        std::int64_t step = 0;
-        while (step < facts.last + facts.shift && idle.seconds() < idle_ && reporter.stop_signal() == 0) {
-            if (const std::optional<DumpRows> rows = dump.next()) {
-                step = rows->step;
-                idle = Stopwatch();
-                Progress progress;
-                progress.stage = Progress::Stage::vibrating;
-                progress.done = static_cast<double>(step) / static_cast<double>(facts.last + facts.shift);
-                reporter.progress(progress);
-            } else {
-                std::this_thread::sleep_for(std::chrono::milliseconds(100));
-            }
-        }
+    int follow_job(Reporter& reporter) const {
+        FollowJob film(film_, {request_.run, {}, request_.sets, folder_around(request_.run), idle_},
+                       reporter);
+        keep_camera_file(camera_, film.scene().film.camera);
+        return tell_folder(film.run(), film_);
     }
 
     int follow(Reporter& reporter) const {

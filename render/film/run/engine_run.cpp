@@ -163,7 +163,7 @@ bool EngineRun::work() {
     }
     follow();
     const bool stopped = desk_.listener.stop_signal() != 0;
-    const std::string failure = stopped ? "" : job_.failure();
+    const std::string failure = !unsound_.empty() ? unsound_ : stopped ? "" : job_.failure();
     if (!failure.empty() && back_->frames() > 0)
         desk_.listener.info(fmt::format("{}; the film shows what there is", failure));
     if (back_->frames() > 0) {
@@ -216,7 +216,8 @@ void EngineRun::take_up() {
     back_ = std::make_unique<ReturnedRun>(folder(), scene_, carried_.plan, facts, desk_.record.version);
 }
 
-// Follows the engine until it has ended and all that it wrote is read.
+// Follows the engine until it has ended and all that it wrote is read. An engine whose run lost grains or got
+// unsound is stopped.
 void EngineRun::follow() {
     const auto timer = desk_.times.during("engine");
     desk_.listener.detail(job_.command());
@@ -224,20 +225,26 @@ void EngineRun::follow() {
     job_.start(place());
     bool told = false;
     while (job_.is_running()) {
-        if (desk_.listener.stop_signal() != 0 && !std::exchange(told, true)) job_.stop();
+        const bool ends = desk_.listener.stop_signal() != 0 || !unsound_.empty();
+        if (ends && !std::exchange(told, true)) job_.stop();
         desk_.folder->lock().check_there();
         if (!read_dump()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
         show_progress();
     }
     while (read_dump()) continue;
+    take_forced_restarts(place(), place() / EngineJob::kOutput);
 }
 
 bool EngineRun::read_dump() {
+    if (!unsound_.empty()) return false;
     try {
         return back_->take_next();
+    } catch (const RunError& wrong) {
+        unsound_ = wrong.what();
     } catch (const UserError& wrong) {
-        throw RunError(wrong.what());
+        unsound_ = wrong.what();
     }
+    return false;
 }
 
 void EngineRun::show_progress() {

@@ -60,6 +60,7 @@ class EngineRun final : public FilmRun {
     FilmedScene scene_;
     EngineJob job_;
     std::unique_ptr<ReturnedRun> back_;
+    std::string unsound_;  // why no more of the dump may be taken
     Stopwatch running_;
     FilmTimesTable film_times_;
 };

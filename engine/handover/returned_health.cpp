@@ -1,0 +1,233 @@
+#include "engine/handover/returned_health.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/base/error.hpp"
+#include "engine/handover/near_grains.hpp"
+#include "engine/measure/energy.hpp"
+#include "engine/measure/health.hpp"
+#include "engine/scene/drive_schedule.hpp"
+#include "engine/start/scene_surroundings.hpp"
+
+namespace grainreel {
+
+namespace {
+
+Grains grains_of(const Frame& frame, const Scene& scene) {
+    Grains grains;
+    grains.reserve(frame.size());
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto species = static_cast<std::size_t>(frame.species[i]);
+        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
+                   scene.species[species].density);
+        grains.motion[i].velocity = frame.velocity[i];
+        grains.motion[i].spin = frame.spin[i];
+    }
+    return grains;
+}
+
+// What is known of a contact. ContactView has ten times as many numbers, and a large bed has millions of these.
+struct Seen {
+    std::int32_t first, second;  // as in ContactView
+    bool glued;                  // second is a grain that is glued to this face
+    double overlap, smaller_radius;  // m
+};
+
+ContactView view_of(const Seen& seen) {
+    ContactView view{};
+    view.first = seen.first;
+    view.second = seen.second;
+    view.glued = view.triangle = -1;
+    view.overlap = seen.overlap;
+    view.smaller_radius = seen.smaller_radius;
+    return view;
+}
+
+// What a frame has in energy and momentum, for the comparison with the next one.
+struct Account {
+    std::int64_t step = 0;
+    double time = 0;      // s
+    double kinetic = 0;   // J, with spin
+    double stored = 0;    // J, in normal springs as if all were loading; never less than they give back
+    double momentum = 0;  // kg m/s, of all grains without regard to direction
+};
+
+// m/s, the largest speed of walls beside that of the drive.
+double own_speed(const Surroundings& around, const Plan& plan) {
+    double fastest = plan.wall_speed;
+    for (const Face& face : around.faces) fastest = std::max(fastest, face.body.velocity.norm());
+    for (const MeshWall& mesh : around.meshes) fastest = std::max(fastest, mesh.body.velocity.norm());
+    return fastest;
+}
+
+constexpr double kSlack = 2;             // times what walls can give, which holds for one rigid body
+constexpr double kShareOfMotion = 0.05;  // of the kinetic energy, as in our own runs
+
+}  // namespace
+
+struct ReturnedHealth::Impl {
+    Impl(const Scene& scene_in, const Plan& plan_in)
+        : scene(scene_in),
+          plan(plan_in),
+          limits(health_limits(scene, plan)),
+          around(make_surroundings(scene, plan)),
+          peaks(drive_peaks(scene.drive)) {}
+
+    void find_contacts(const Grains& grains, std::int64_t step);
+    void find_walls(const Grains& grains, const Pose& pose, std::int32_t grain);
+    double stored_in(const Grains& grains) const;
+    const PairPlan& pair_of(const Grains& grains, const Seen& contact) const;
+    Account account_of(const Grains& grains, const Frame& frame) const;
+    void check_energy(const Grains& grains, const Account& now, std::int64_t step) const;
+    double fallen(const Grains& grains, double& mass, double& lift) const;
+
+    const Scene& scene;
+    const Plan& plan;
+    const HealthLimits limits;
+    Surroundings around;
+    const DrivePeaks peaks;
+    bool opened = false;
+    std::vector<Seen> contacts;
+    Grains before;  // the grains of the frame before, by rising id
+    Account then;
+};
+
+// Finds the contacts with faces and meshes.
+void ReturnedHealth::Impl::find_walls(const Grains& grains, const Pose& pose, std::int32_t grain) {
+    const Place& place = grains.place[grain];
+    const auto faces = static_cast<std::int32_t>(around.faces.size());
+    for (std::int32_t f = 0; f < faces; ++f) {
+        const double overlap =
+            place.radius -
+            distance_at(around.faces[static_cast<std::size_t>(f)], pose, place.position).distance;
+        if (overlap > 0) contacts.push_back({grain, -1 - f, false, overlap, place.radius});
+    }
+    for (std::size_t m = 0; m < around.meshes.size(); ++m) {
+        const MeshWall& mesh = around.meshes[m];
+        const Vec3 at_rest = mesh.body.at(pose).at_rest(place.position);
+        const auto nearest = mesh.surface->nearest(at_rest, place.radius);
+        if (!nearest) continue;
+        const double overlap = place.radius - std::sqrt(nearest->point.squared);
+        contacts.push_back({grain, -1 - faces - static_cast<std::int32_t>(m), false, overlap, place.radius});
+    }
+}
+
+void ReturnedHealth::Impl::find_contacts(const Grains& grains, std::int64_t step) {
+    contacts.clear();
+    const Pose pose = around.motion.at(step);
+    std::vector<Place> bodies(grains.place.begin(), grains.place.end());
+    for (std::size_t g = 0; g < around.glued.size(); ++g)
+        bodies.push_back({around.glued.centre(g, around.faces, pose), around.glued.place[g].radius});
+    const auto free = static_cast<std::int32_t>(grains.size());
+    for_overlapping(bodies, around.period, [&](std::int32_t a, std::int32_t b, double overlap) {
+        if (a > b) std::swap(a, b);
+        if (a >= free) return;  // two glued grains
+        const double smaller = std::min(bodies[static_cast<std::size_t>(a)].radius,
+                                        bodies[static_cast<std::size_t>(b)].radius);
+        if (b < free)
+            contacts.push_back({a, b, false, overlap, smaller});
+        else
+            contacts.push_back({a, -1 - around.glued.face[static_cast<std::size_t>(b - free)], true, overlap, smaller});
+    });
+    for (std::int32_t i = 0; i < free; ++i) find_walls(grains, pose, i);
+}
+
+const PairPlan& ReturnedHealth::Impl::pair_of(const Grains& grains, const Seen& contact) const {
+    const auto species = static_cast<std::size_t>(grains.species[static_cast<std::size_t>(contact.first)]);
+    if (contact.second >= 0)
+        return plan.between(
+            species, static_cast<std::size_t>(grains.species[static_cast<std::size_t>(contact.second)]));
+    const std::size_t wall = static_cast<std::size_t>(-1 - contact.second);
+    if (wall >= around.faces.size()) return plan.at_mesh(wall - around.faces.size(), species);
+    return contact.glued ? plan.glued[species] : plan.wall[species];
+}
+
+double ReturnedHealth::Impl::stored_in(const Grains& grains) const {
+    double sum = 0;
+    for (const Seen& contact : contacts)
+        sum += 0.5 * pair_of(grains, contact).loading_stiffness * contact.overlap * contact.overlap;
+    return sum;
+}
+
+Account ReturnedHealth::Impl::account_of(const Grains& grains, const Frame& frame) const {
+    Account now{.step = frame.step, .time = frame.time, .stored = stored_in(grains)};
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        now.momentum += grains.mass(i) * grains.motion[i].velocity.norm();
+    const Kinetic kinetic = kinetic_energy(grains);
+    now.kinetic = kinetic.translation + kinetic.rotation;
+    return now;
+}
+
+// The energy (J) that grains got from gravity since the frame before. Grains that have come are left out of
+// it, and what they brought in motion is counted as got. mass: kg, of all grains; lift: J, that would raise
+// them by their radius.
+double ReturnedHealth::Impl::fallen(const Grains& grains, double& mass, double& lift) const {
+    double energy = 0;
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        mass += grains.mass(i);
+        lift += grains.mass(i) * around.gravity.norm() * grains.place[i].radius;
+        while (k < before.size() && before.id[k] < grains.id[i]) ++k;
+        if (k < before.size() && before.id[k] == grains.id[i])
+            energy += grains.mass(i) * around.gravity.dot(grains.place[i].position - before.place[k].position);
+        else
+            energy += 0.5 * grains.mass(i) * grains.motion[i].velocity.squaredNorm() +
+                      0.5 * grains.inertia(i) * grains.motion[i].spin.squaredNorm();
+    }
+    return energy;
+}
+
+// Walls that move as one rigid body with velocity v(t) do the work
+//     int F v dt = [p v] - int p a dt - M g int v dt,  with F = dp/dt - M g,
+// where p is the momentum of all grains and a = dv/dt. So it is at most v (p0 + p1) + (a p + M g v) T, with
+// the largest v and a of any wall. A wall that stops and starts by itself gives at most v p more.
+void ReturnedHealth::Impl::check_energy(const Grains& grains, const Account& now, std::int64_t step) const {
+    if (before.size() == 0 || grains.size() == 0) return;
+    // Through a periodic side grains go on falling where gravity points there.
+    if (around.period > 0 && around.gravity.x() != 0) return;
+    double mass = 0, lift = 0;
+    const double got = fallen(grains, mass, lift);
+    const double own = own_speed(around, plan), speed = peaks.speed + own, passed = now.time - then.time;
+    const double momentum = std::max(then.momentum, now.momentum);
+    const double by_walls = kSlack * (speed * (then.momentum + now.momentum) +
+                                      (peaks.acceleration * passed + own) * momentum +
+                                      mass * around.gravity.norm() * speed * passed);
+    const double gained = now.kinetic + now.stored - then.kinetic - then.stored - got;
+    if (!(gained > by_walls + kShareOfMotion * (now.kinetic + then.kinetic + then.stored) + lift)) return;
+    throw RunError(energy_gained_text(
+        limits, grains, step, gained - by_walls,
+        fmt::format("walls can have given {:.3g} J at most since step {}", by_walls, then.step)));
+}
+
+ReturnedHealth::ReturnedHealth(const Scene& scene, const Plan& plan)
+    : impl_(std::make_unique<Impl>(scene, plan)) {}
+
+ReturnedHealth::~ReturnedHealth() = default;
+
+double ReturnedHealth::look(const Frame& frame) {
+    Impl& m = *impl_;
+    if (!m.opened && m.plan.opens && frame.step >= *m.plan.opens) {
+        open_outlet(m.scene, m.around);
+        m.opened = true;
+    }
+    Grains grains = grains_of(frame, m.scene);
+    m.find_contacts(grains, frame.step);
+    const auto show = [&](const auto& see) {
+        for (const Seen& contact : m.contacts) see(view_of(contact));
+    };
+    check_state(m.limits, m.around, grains, show, frame.step);
+    const Account now = m.account_of(grains, frame);
+    m.check_energy(grains, now, frame.step);
+    m.before = std::move(grains);
+    m.then = now;
+    double largest = 0;
+    for (const Seen& contact : m.contacts)
+        largest = std::max(largest, contact.overlap / contact.smaller_radius);
+    return largest;
+}
+
+}  // namespace grainreel

@@ -1,0 +1,211 @@
+#include "render/film/run/follow_job.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/files/run_folder.hpp"
+#include "engine/files/run_names.hpp"
+#include "engine/handover/job_end.hpp"
+#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/sampler.hpp"
+#include "render/film/sampling/timeline.hpp"
+#include "render/film/sources/film_request.hpp"
+#include "render/film/sources/recorded_scene.hpp"
+
+namespace grainreel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kReading = 0.25;  // s, after which it looks whether there is something to draw
+constexpr double kPause = 10;      // times what it takes to open the run anew
+
+// Several may follow one job.
+std::unique_ptr<ReturningFolder> free_folder(const fs::path& folder) {
+    for (int number = 1;; ++number)
+        if (auto made = ReturningFolder::take(folder, fmt::format(".following-{}", number))) return made;
+}
+
+void check_options(const FilmRequest& request) {
+    if (!request.film && !request.frames)
+        throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
+}
+
+}  // namespace
+
+FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunListener& listener)
+    : FilmRun(request, listener),
+      what_(what),
+      facts_((check_options(request), read_handover(what.from))),
+      scene_(scene_of_run(what.from, what.sets)),
+      plan_(make_plan(scene_)),
+      returning_(free_folder(what.from)),
+      holds_(scene_.film) {
+    const std::int64_t pictures = std::ssize(film_schedule(scene_, plan_.clock, plan_.steps));
+    film_.check(scene_, pictures);
+    film_.use_threads(drawing_threads(scene_.run.threads));
+    keep_mesh_files(scene_, returning_->path());
+    fs::copy_file(what.from / "scene.toml", returning_->path() / "scene.toml");
+    back_ = std::make_unique<ReturnedRun>(returning_->path(), scene_, plan_, facts_, request.program.version);
+    wait_for_first();
+    make_folder({scene_.name + "-render", what.beside, request.out, request.force});
+}
+
+void FollowJob::wait_for_first() {
+    while (!back_->take_next()) {
+        const JobEnd job = job_end(what_.from, facts_);
+        if (job.ended && !back_->take_next())
+            throw UserError(fmt::format("{}: has no whole moment; {}", facts_.dump.string(),
+                                        job.failure.empty() ? "the job has ended" : job.failure));
+        if (job.ended) break;
+        if (idle_.seconds() >= what_.idle || stopped())
+            throw UserError(
+                fmt::format("{}: is not there, or has no whole moment yet (--follow waited {:.3g} s); has the "
+                            "job begun?",
+                            facts_.dump.string(), idle_.seconds()));
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    idle_ = Stopwatch();
+}
+
+bool FollowJob::read_some() {
+    const auto timer = desk_.times.during("reading");
+    const Stopwatch reading;
+    bool some = false;
+    try {
+        while (unsound_.empty() && reading.seconds() < kReading && !stopped() && back_->take_next())
+            some = true;
+    } catch (const std::exception& wrong) {  // what there is is drawn all the same
+        unsound_ = wrong.what();
+    }
+    if (some) idle_ = Stopwatch();
+    return some;
+}
+
+FollowJob::End FollowJob::end_now() const {
+    if (!unsound_.empty()) return End::unsound;
+    if (back_->last()->step >= facts_.last) return End::whole;
+    if (job_end(what_.from, facts_).ended) return End::job;
+    return idle_.seconds() >= what_.idle ? End::idle : End::none;
+}
+
+std::vector<std::string> FollowJob::warnings() const {
+    std::vector<std::string> all = source_->news();
+    for (const std::vector<std::string>& more :
+         {pace_warnings(scene_, plan_.clock), strobe_warnings(scene_.film, scene_.drive, scene_.run.duration),
+          film_warnings(scene_, std::ssize(film_schedule(scene_, plan_.clock, plan_.steps)))})
+        all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+// Reads the run's files as they are now. A run on disk has the moments that it had when it was opened.
+void FollowJob::open_anew() {
+    constexpr bool replay = false;
+    const Stopwatch opening;
+    source_ = std::make_unique<RevisitedRun>(returning_->path(), what_.sets, replay);
+    opened_at_ = back_->frames();
+    opening_ = opening.seconds();
+    since_opened_ = Stopwatch();
+}
+
+bool FollowJob::draw(const Taken& picture) {
+    const auto timer = desk_.times.during("waiting for the film");
+    if (!film_.is_open()) {
+        const std::int64_t pictures = std::ssize(film_schedule(scene_, plan_.clock, plan_.steps));
+        film_.open(scene_, pictures, picture.frame);
+    }
+    const FilmSegment& rule = source_->segments().at(static_cast<std::size_t>(picture.segment));
+    const FilmSegment pace = played(spanning(rule, picture.periods), scene_.film.rate, plan_.clock);
+    film_.maker().take(picture.frame, playback_caption(pace, scene_.drive, scene_.film.rate));
+    film_times_.add(*picture.frame, 1 + holds_.begin_at(picture.frame->time));
+    film_.show_progress();
+    return true;
+}
+
+bool FollowJob::draw_new() {
+    if (back_->frames() > opened_at_) open_anew();
+    std::vector<Shot> shots;
+    for (const Shot& shot : source_->film().shots()) {
+        const std::int64_t step = source_->shown(shot.step);
+        if (step > (shots.empty() ? shown_ : shots.back().step)) shots.push_back({step, shot.segment});
+    }
+    if (shots.empty()) return !stopped();
+    const auto go_on = [this] {
+        desk_.folder->lock().check_there();
+        return !stopped();
+    };
+    source_->start(shots, source_->segments());
+    while (std::optional<Taken> picture = source_->next(go_on)) {
+        draw(*picture);
+        shown_ = picture->frame->step;
+    }
+    return !stopped();
+}
+
+bool FollowJob::work() {
+    mark_begun();
+    desk_.record.scene_file = scene_.file;
+    open_anew();
+    begin_record(warnings());
+    desk_.listener.info(fmt::format("{}: follows {} until {:.6g} s; the film ends with the job, when nothing "
+                                    "new has come for {:.3g} s, or with Ctrl-C",
+                                    facts_.dump.string(), name_of(facts_.engine),
+                                    plan_.clock.time(facts_.last), what_.idle));
+    End end = End::none;
+    while (end == End::none) {
+        // A job that has ended before a look has written all that it does.
+        const End now = end_now();
+        const bool some = read_some();
+        if (stopped()) return false;
+        if (!some) end = now;
+        const bool due = since_opened_.seconds() >= kPause * opening_;
+        if (end != End::none || (due && back_->frames() > opened_at_)) {
+            if (!draw_new()) return false;
+        } else if (!some) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+    }
+    finish(end);
+    return true;
+}
+
+// Leaves the run's files in the folder of the hand-over, and tells why the film has an end.
+void FollowJob::finish(End end) {
+    const double until = back_->last()->time, wanted = plan_.clock.time(facts_.last);
+    desk_.record.drawn = {{what_.from.string(), std::ssize(source_->film().shots()),
+                           source_->record().moments().front().time, until}};
+    RunJson of_run;
+    back_->close(of_run);
+    source_.reset();
+    back_.reset();
+    returning_->move_out();
+    returning_.reset();
+    if (end == End::whole) return;
+    const JobEnd job = job_end(what_.from, facts_);
+    if (end == End::unsound) throw RunError(unsound_);
+    const std::string far = came_so_far(what_.from, facts_, until, wanted);
+    if (!job.failure.empty()) throw RunError(far);
+    desk_.listener.warning(end == End::idle ? fmt::format("nothing new has come for {:.3g} s; {}", what_.idle, far)
+                                            : far);
+}
+
+void FollowJob::side_work_closed() {
+    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.report().frames);
+}
+
+std::string FollowJob::stopped_text() const {
+    return fmt::format("stopped after {} frames", film_.report().frames);
+}
+
+void FollowJob::report_written() {
+    desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
+}
+
+}  // namespace grainreel

@@ -1,0 +1,220 @@
+// Tests of a scene that was handed over and is drawn while its job runs, or after the job has died. The dump is
+// written by the test: a ball that falls freely.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/film_length.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/temporary_folder.hpp"
+
+namespace grainreel {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+using testing::HasSubstr;
+using testing::Not;
+
+using Words = std::vector<std::string>;
+
+// 21 pictures, one each 100 steps.
+constexpr const char* falling = R"(title = "A ball"
+[[species]]
+name = "ball"
+diameter = "4 mm"
+density = 2500
+[contact]
+law = "spring-dashpot"
+friction_law = "linear-spring"
+stiffness = 1000
+restitution = 0.7
+[container]
+shape = "box"
+width = "20 mm"
+depth = "20 mm"
+height = "400 mm"
+[start]
+method = "grains"
+[[grain]]
+position = [0, 0, 0.3]
+[run]
+duration = "0.2 s"
+step = 1e-4
+[film]
+size = "160x120"
+rate = 25
+[[film.segment]]
+playback = 0.25
+)";
+
+constexpr int kPictures = 21, kStepsAPicture = 100;
+
+class FollowedJob : public testing::Test {
+  protected:
+    void SetUp() override {
+        write_text(here / "ball.toml", falling);
+        const Ended ended = program({"handover", "ball.toml", "--to", "lammps", "--out", "job"});
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+
+    Ended program(const Words& words) { return run_program(words, {here.path(), {}}); }
+    Words follow(const std::string& idle) const {
+        return {"render", "job", "--follow", "--idle", idle, "--out", "film"};
+    }
+
+    // Adds moments to the dump; a place of NaN leaves the ball out.
+    void add(int from, int count, double lift = 0, bool lost = false) {
+        std::ofstream dump(here / "job/lammps.dump", std::ios::app);
+        for (int k = from; k < from + count; ++k) {
+            const double time = k * kStepsAPicture * 1e-4, speed = -9.81 * time;
+            dump << fmt::format(
+                "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 1\n-1 1\n"
+                "ITEM: ATOMS id type radius x y z vx vy vz omegax omegay omegaz \n",
+                k * kStepsAPicture, lost ? 0 : 1);
+            if (!lost)
+                dump << fmt::format("1 1 0.002 0 0 {:.9g} 0 0 {:.9g} 0 0 0\n",
+                                    0.3 - 0.5 * 9.81 * time * time + lift, speed);
+        }
+    }
+    void job_ends(int status, const std::string& words = "") {
+        if (!words.empty()) write_text(here / "job/out.lammps", words);
+        write_text(here / "job/job.status", std::to_string(status) + "\n");
+    }
+    // Number of pictures that are encoded so far.
+    bool film_grows(Program& following, std::uintmax_t beyond) {
+        return wait_until(following, [&] {
+            std::error_code missing;
+            std::uintmax_t size = 0;
+            for (const auto& one : fs::recursive_directory_iterator(here / "film", missing))
+                if (one.path().filename().string().starts_with("0000")) ++size;
+            return size > beyond;
+        });
+    }
+    int drawn() { return decoded_pictures(here / "film/movie.mp4"); }
+    std::string status_of_film() {
+        return nlohmann::json::parse(text_of(here / "film/run.json"))["status"];
+    }
+
+    TemporaryFolder here;
+};
+
+// The pictures are there while the dump still lacks later ones, and in the end they are those of a film that
+// is drawn afterwards.
+TEST_F(FollowedJob, IsDrawnBesideTheJob) {
+    Words words = follow("300");
+    words.emplace_back("--frames");
+    Program following(words, {here.path(), {}});
+    add(0, 8);
+    ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;  // eight pictures, numbered from 0
+    add(8, 5);
+    ASSERT_TRUE(film_grows(following, 12)) << following.wait().err;
+    add(13, kPictures - 13);
+    const Ended ended = following.wait();  // by the last moment, long before --idle
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(drawn(), kPictures);
+    EXPECT_EQ(status_of_film(), "complete");
+    EXPECT_FALSE(fs::exists(here / "job/.following-1"));
+
+    const Ended again = program({"render", "job", "--frames", "--out", "again", "--set", "film.camera.reach=0.31"});
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(decoded_pictures(here / "again/movie.mp4"), kPictures);
+}
+
+TEST_F(FollowedJob, EndsWithTheJobThatEndsEarlyInGoodOrder) {
+    add(0, 6);
+    job_ends(0);
+    const Ended ended = program(follow("300"));
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("LAMMPS has come to 0.05 s of 0.2 s"));
+    EXPECT_EQ(drawn(), 6);
+}
+
+TEST_F(FollowedJob, SaysWhyTheJobDied) {
+    add(0, 6);
+    job_ends(1, "LAMMPS (29 Sep 2021)\nERROR: Lost atoms: original 1 current 0 (../thermo.cpp:438)\n");
+    const Ended ended = program(follow("300"));
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("LAMMPS ended: in.lammps: ERROR: Lost atoms: original 1 current 0"));
+    EXPECT_THAT(ended.err, HasSubstr("0.05 s of 0.2 s"));
+    EXPECT_EQ(drawn(), 6);
+    EXPECT_EQ(status_of_film(), "failed");
+}
+
+TEST_F(FollowedJob, EndsWhereNothingNewComes) {
+    add(0, 6);
+    const Ended ended = program(follow("1"));
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("nothing new has come for 1 s"));
+    EXPECT_EQ(drawn(), 6);
+}
+
+TEST_F(FollowedJob, IsWholeAfterCtrlC) {
+    Words words = follow("300");
+    words.emplace_back("--frames");
+    Program following(words, {here.path(), {}});
+    add(0, 8);
+    ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;
+    following.send(SIGINT);
+    const Ended ended = following.wait();
+    EXPECT_EQ(ended.status, 130) << ended.err;
+    EXPECT_EQ(drawn(), 8);
+    EXPECT_FALSE(fs::exists(here / "job/.following-1"));
+}
+
+TEST_F(FollowedJob, AGrainThatIsLostEndsTheFilmWithItsStep) {
+    add(0, 6);
+    add(6, 1, 0, true);
+    const Ended ended = program(follow("300"));
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("step 600: grain 0 is missing"));
+    EXPECT_EQ(drawn(), 6);
+}
+
+TEST_F(FollowedJob, ThatHasNotBegunIsWaitedFor) {
+    const Ended ended = program(follow("1"));
+    EXPECT_EQ(ended.status, 2) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("job/lammps.dump: is not there"));
+    EXPECT_FALSE(fs::exists(here / "film"));
+}
+
+// 0.1 m in 10 ms: m g h = 82 µJ come from nowhere, while 5 % of its motion and a radius allow 1.7 µJ.
+TEST_F(FollowedJob, EnergyFromNowhereIsAnErrorAsInOurRuns) {
+    add(0, 6);
+    add(6, 1, 0.1);
+    const Ended ended = program({"render", "job", "--out", "film"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("step 600 (0.06 s): the grains gained"));
+    EXPECT_THAT(ended.err, HasSubstr("grain 0 (ball)"));
+    EXPECT_EQ(drawn(), 6);
+}
+
+TEST_F(FollowedJob, IsInspectedBeforeItWasDrawn) {
+    add(0, kPictures);
+    const Ended ended = program({"inspect", "job", "--at", "0.1s", "--grain", "0", "--json"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("\"ball\""));
+    EXPECT_THAT(ended.out, HasSubstr("0.25095"));  // m, 0.3 - g (0.1 s)^2 / 2
+}
+
+TEST_F(FollowedJob, IsExportedBeforeItWasDrawn) {
+    add(0, 6);
+    const Ended ended = program({"export", "job", "--to", "xyz", "--out", "job.xyz"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("6 frames"));
+}
+
+TEST_F(FollowedJob, IsToldToRunFirst) {
+    for (const char* verb : {"inspect", "render"}) {
+        const Ended ended = program({verb, "job"});
+        EXPECT_EQ(ended.status, 2) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr("LAMMPS has not run yet; run it: sh job/run.sh"));
+    }
+}
+
+}  // namespace
+}  // namespace grainreel

@@ -1,0 +1,139 @@
+// Jobs that end early, by run.sh under MPI: a rank that is killed, and a signal to the script as a cluster sends
+// it. What there is comes back.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <chrono>
+#include <thread>
+
+#include "engine/handover/bring_back.hpp"
+#include "engine/handover/decks.hpp"
+#include "engine/handover/job_end.hpp"
+#include "tests/cli/temporary_folder.hpp"
+#include "tests/engines/handed.hpp"
+
+namespace grainreel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+// It would take half an hour.
+constexpr const char* kLong = R"(
+[[species]]
+name = "ball"
+count = 60
+diameter = "3 mm"
+density = 2500
+[contact]
+law = "spring-dashpot"
+friction_law = "linear-spring"
+stiffness = 300
+restitution = 0.7
+friction = 0.3
+[container]
+shape = "box"
+width = "24 mm"
+depth = "15 mm"
+height = "24 mm"
+[drive]
+frequency = "20 Hz"
+g_level = 3
+[output]
+trajectory_interval = "4 ms"
+[run]
+duration = "400 s"
+step = 4e-5
+)";
+
+class EarlyEnd : public testing::TestWithParam<PeerEngine> {
+  protected:
+    void SetUp() override {
+        NEEDS_ENGINE(GetParam());
+        CarryRequest request;
+        request.engine = GetParam();
+        request.ranks = 2;
+        hand_over(kLong, request, folder_.path());
+        std::string script = (folder_ / "run.sh").string(), shell = "sh";
+        char* words[] = {shell.data(), script.data(), nullptr};
+        ASSERT_EQ(::posix_spawnp(&job_, "sh", nullptr, nullptr, words, environ), 0);
+        DumpTail dump(folder_ / dump_name(GetParam()));
+        for (int frames = 0; frames < 5 && runs();) {
+            if (dump.next())
+                ++frames;
+            else
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        ASSERT_TRUE(runs()) << text_of(folder_ / output_name(GetParam()));
+    }
+    void TearDown() override {
+        if (job_ > 0 && runs()) ::kill(job_, SIGTERM), wait();
+    }
+
+    bool runs() { return status_ < 0 && ::waitpid(job_, &status_, WNOHANG) == 0; }
+    int wait() {
+        if (status_ < 0) ::waitpid(job_, &status_, 0);
+        return WEXITSTATUS(status_);
+    }
+    // The processes of the engine, which work in the folder.
+    std::vector<pid_t> ranks() const {
+        std::vector<pid_t> all;
+        const std::string name = GetParam() == PeerEngine::lammps ? "lmp\n" : "liggghts\n";
+        std::error_code gone;
+        for (const fs::directory_entry& one : fs::directory_iterator("/proc", gone))
+            if (fs::read_symlink(one.path() / "cwd", gone) == fs::canonical(folder_.path()) &&
+                text_of(one.path() / "comm") == name)
+                all.push_back(std::stoi(one.path().filename().string()));
+        return all;
+    }
+    BroughtBack back() const {
+        return bring_back(folder_.path(), "test", [](double) { return true; });
+    }
+
+    const TemporaryFolder folder_;
+    pid_t job_ = -1;
+    int status_ = -1;
+};
+
+TEST_P(EarlyEnd, ARankThatIsKilledLeavesWhatThereIs) {
+    const std::vector<pid_t> all = ranks();
+    ASSERT_EQ(all.size(), 2u);
+    ::kill(all.front(), SIGKILL);
+    EXPECT_EQ(wait(), 137);
+    EXPECT_EQ(text_of(folder_ / status_name), "137\n");
+    const BroughtBack run = back();
+    EXPECT_GE(run.frames, 5);
+    EXPECT_FALSE(run.whole);
+    ASSERT_EQ(run.news.size(), 1u);
+    EXPECT_THAT(run.news[0], HasSubstr(fmt::format("{} was ended by signal 9", name_of(GetParam()))));
+    EXPECT_THAT(run.news[0], HasSubstr(fmt::format("{:.4g} s of 400 s; what there is is drawn", run.until)));
+}
+
+// The ranks end with the script. LIGGGHTS then writes a restart file of that moment, from which it goes on.
+TEST_P(EarlyEnd, ASignalToTheScriptEndsTheRanks) {
+    ::kill(job_, SIGTERM);
+    EXPECT_NE(wait(), 0);
+    EXPECT_TRUE(ranks().empty());
+    const HandoverFacts facts = read_handover(folder_.path());
+    EXPECT_TRUE(job_end(folder_.path(), facts).ended);
+    EXPECT_NE(job_end(folder_.path(), facts).failure, "");
+    EXPECT_GE(back().frames, 5);
+    if (GetParam() == PeerEngine::lammps) return;
+    EXPECT_THAT(job_end(folder_.path(), facts).failure, HasSubstr("was asked to end by a signal"));
+    for (const fs::directory_entry& one : fs::directory_iterator(folder_.path()))
+        EXPECT_FALSE(one.path().filename().string().starts_with(forced_begin)) << one.path();
+    const std::optional<std::int64_t> restart = newest_restart(folder_.path(), GetParam());
+    ASSERT_TRUE(restart);
+    EXPECT_GE(*restart, frames_of(GetParam(), folder_.path()).rbegin()->first);
+    EXPECT_LT(*restart, 1000000);  // the deck's own are each 10^6 steps
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, EarlyEnd, testing::Values(PeerEngine::lammps, PeerEngine::liggghts),
+                         [](const auto& engine) { return std::string(key_of(engine.param)); });
+
+}  // namespace
+}  // namespace grainreel::test
