@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_depth = 4;  // so deep may lists lie within lists
+constexpr int most_depth = 4;  // most levels of lists within lists
 constexpr std::string_view domain_name = "Domain";
 
 // Reads the box, which LIGGGHTS writes as a rectilinear grid of one cell, or as a hexahedron if it is tilted.
@@ -223,7 +223,7 @@ std::vector<RawWall> split(TriangleMesh&& mesh, const std::vector<Solid>& solids
     std::size_t all = 0;
     for (const Solid& solid : solids) all += solid.triangles;
     std::vector<RawWall> walls;
-    // There may not be many, because each solid takes a look at all vertices.
+    // Very many solids are not split, because for each of them all vertices are looked at.
     if (solids.size() < 2 || solids.size() > 1000 || all != mesh.triangles.size()) {
         const std::size_t triangles = mesh.triangles.size();
         walls.push_back(
