@@ -36,7 +36,7 @@ double haff_time(const CoolingGas& setting, const Gas& gas) {
     const double solid = setting.solid_fraction, e = setting.restitution;
     const double g = (1 - solid / 2) / std::pow(1 - solid, 3);
     // Two centres a diameter d apart have less space than one in a cube of edge L: the share is the mean of
-    // (1 - d|u_x|/L)(1 - d|u_y|/L)(1 - d|u_z|/L) over all directions u.
+    // (1 - d|u_x|/L)(1 - d|u_y|/L)(1 - d|u_z|/L) over all directions u, here to first order in d / L.
     const double diameter = 2 * bench_radius, free = gas.cube.free();
     const double near_walls = 1 - 1.5 * diameter / free;
     const double number_density = gas.cube.count() / std::pow(free, 3);
