@@ -260,7 +260,7 @@ class GzipBytes : public PackedBytes {
     bool next_member() {
         while (fill()) {
             if (*packed() != 0) break;
-            use(1);  // tapes and some copies are filled up with zeros
+            use(1);  // skips zeros, with which tapes and some copies are filled up
         }
         if (left() == 0) return false;
         if (static_cast<unsigned char>(*packed()) != 0x1f)

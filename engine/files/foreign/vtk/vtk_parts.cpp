@@ -270,7 +270,8 @@ bool is_text(std::string_view bytes) {
     return bytes.find('\0') == std::string_view::npos;
 }
 
-// Whether a line "v 0 0 1", "f 1 2 3" or "mtllib a.mtl" comes before any other line.
+// Whether the text is an OBJ: a vertex "v 0 0 1" comes, and only comments, names, materials and normals stand
+// before it.
 bool is_obj(std::string_view bytes) {
     WordReader words(bytes);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {

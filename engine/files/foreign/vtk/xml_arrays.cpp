@@ -64,7 +64,7 @@ std::uint64_t XmlArrays::count_in(const XmlElement& element, std::string_view at
     if (text.empty()) return 0;
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    // Three doubles for each must be a possible number of bytes.
+    // A count is limited, so that three doubles for each item are a possible number of bytes.
     if (error != std::errc() || end != text.data() + text.size() || count > (std::uint64_t{1} << 48))
         refuse_vtk_line(file_, element.line, fmt::format("{}=\"{}\" is no count", attribute, excerpt(text)));
     return count;
