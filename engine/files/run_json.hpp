@@ -67,7 +67,8 @@ struct RunJson : ProgramInfo {
     std::vector<DrawnRun> drawn;
     // The part, if the film is one of several parts.
     std::optional<DrawnPart> part;
-    // Folders with the files of each panel of a film: in this folder, or of another run.
+    // For a film that shows several runs side by side (in panels): the folders with the files of each, in
+    // this folder or of another run.
     std::vector<std::string> panels;
 
     std::string command;  // as typed, with words quoted where the shell needs it
