@@ -87,9 +87,9 @@ struct RunJson : ProgramInfo {
     double simulated = 0;                       // s since the drive started
     std::optional<std::uint64_t> state_hash;    // hash of the end state
 
-    std::vector<std::pair<std::string, double>> wall_seconds;  // by the names of stages
+    std::vector<std::pair<std::string, double>> wall_seconds;  // of each stage, by its name
     double particle_steps_per_second = 0;                      // since the drive started, in the engine only
-    std::optional<std::int64_t> film_frames = 0;               // none until the film is closed
+    std::optional<std::int64_t> film_frames = 0;  // 0 without a film; none while the film is open
     std::int64_t trajectory_frames = 0, measures_rows = 0;
     std::optional<TableMark> final_table;  // mark of final.csv, once it is written
     std::vector<AcceptedKey> accepted;     // in the order of time

@@ -56,7 +56,7 @@ class NetcdfFile {
     // units: empty for none. Types are those of <netcdf.h>: NC_INT, NC_FLOAT, NC_DOUBLE, NC_CHAR.
     int variable(const std::string& name, int type, const std::vector<int>& dimensions,
                  const std::string& units = {});
-    // variable NC_GLOBAL: the attribute is one of the file.
+    // variable: NC_GLOBAL for an attribute of the file itself.
     void attribute(int variable, const std::string& name, const std::string& text);
     void end_definitions();
 

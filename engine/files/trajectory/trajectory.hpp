@@ -9,7 +9,7 @@
 //
 // The grains of a frame fill the first places, and the other places have id -1. In a file with traffic a
 // grain that leaves keeps its place, id and type, and `present` becomes 0. Programs that know neither id -1
-// nor `present` draw every place. A place without a grain therefore holds one that nobody sees: at rest in
+// nor `present` draw every place. An empty place therefore holds a grain that nobody sees: at rest in
 // the container's lowest corner, with kAbsentRadius. (In files of earlier versions it holds fill values, or
 // the last position of the grain that left.) Each frame has a checksum of its moment and poses and one of its
 // grains.
