@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* made_names[] = {"measures.csv", "outflow.csv", "final.csv", "trajectory.nc"};
 
-// A folder that is removed at the end.
+// A temporary folder, which is removed at the end.
 struct PassingFolder {
     explicit PassingFolder(const fs::path& folder) : path(folder / ".returning") {
         std::error_code failed;
