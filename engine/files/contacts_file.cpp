@@ -23,7 +23,7 @@ struct Row {
     std::array<float, 3> tangential, point;
     std::int32_t triangle = -1;  // comes last, and only in files of scenes with meshes
 };
-static_assert(sizeof(Row) == 11 * sizeof(float));  // a row has no gaps; the checksum would count their bytes
+static_assert(sizeof(Row) == 11 * sizeof(float));  // no gaps in a row; the checksum is over all of its bytes
 
 int checksum_of(const Row& row, bool meshes) {
     return static_cast<int>(XXH32(&row, meshes ? sizeof row : sizeof row - sizeof row.triangle, 0));
@@ -245,8 +245,7 @@ bool ContactsReader::has_checksums() const {
 std::vector<Row> ContactsReader::Impl::rows_of(std::size_t frame) const {
     const std::vector<int>& frames = frame_of;
     const auto [low, high] = std::equal_range(frames.begin(), frames.end(), static_cast<int>(frame));
-    // One more row is read on each side, because a damaged frame number may have moved a row to its
-    // neighbour.
+    // One more row is read and checked on each side: it may be a row of this frame with a damaged number.
     const auto from = low - (low == frames.begin() ? 0 : 1), to = high + (high == frames.end() ? 0 : 1);
     if (from == to) return {};
     std::vector<Row> rows =

@@ -12,7 +12,8 @@ void Checksum::add_bytes(const void* bytes, std::size_t count) {
 
 namespace {
 
-// No bed of grains reaches these limits, and code that draws can still compute with such numbers.
+// The largest numbers that a frame may have. No bed of grains reaches them, and code that draws can still
+// compute with them.
 constexpr double longest_time = 1e9;    // s
 constexpr double most_cycles = 1e15;    // periods of the drive
 constexpr double largest_radius = 1e3;  // m

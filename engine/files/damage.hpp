@@ -38,7 +38,8 @@ class Checksum {
     std::uint64_t sum_ = 0;
 };
 
-// No bed of grains reaches so far (m), and code that draws can still compute with such a coordinate.
+// The largest coordinate (m) that a frame may have. No bed of grains reaches so far, and code that draws can
+// still compute with it.
 constexpr double kFarthestPlace = 1e6;
 
 // The first fault of a frame as text: "its time is nan s", "grain 12 has a radius of -1 m"; none when all

@@ -76,8 +76,8 @@ void FieldsWriter::Impl::define_times() {
     file.attribute(bounds, "long_name", "where the record begins and ends");
 }
 
-// The bounds of time are two variables of one number, because VTK's reader would show a variable of two
-// numbers as a grid.
+// The checksum is two variables of one number each, because VTK's reader would show a variable of two numbers
+// as a grid.
 void FieldsWriter::Impl::define_checksum() {
     for (const std::size_t word : {0, 1}) {
         checksum[word] = file.variable(word == 0 ? "checksum_high" : "checksum_low", NC_INT, {record}, "1");

@@ -18,7 +18,8 @@ struct FileFacts {
     std::string walls;  // what negative numbers mean in contacts: "-1 floor, -2 left_wall"
 };
 
-// seen_from_container: places and velocities are relative to the container, as in fields; else to the room.
+// seen_from_container: places and velocities are relative to the container, as in fields.nc. Otherwise they
+// are relative to the laboratory.
 FileFacts file_facts(const Scene& scene, bool seen_from_container = false);
 
 }  // namespace grainreel

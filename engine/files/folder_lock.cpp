@@ -40,7 +40,7 @@ bool is_same_file(int file, const fs::path& path) {
            open.st_ino == named.st_ino;
 }
 
-// The absolute path `found`, made relative to the working folder if the path that was given is relative.
+// The absolute `path`, made relative to the working folder if the path that the user gave is relative.
 fs::path as_given(const fs::path& path, const fs::path& given) {
     std::error_code error;
     return given.is_absolute() ? path : fs::proximate(path, error);

@@ -78,8 +78,8 @@ void copy_bytes(const OpenFile& from, std::uintmax_t begin, std::uintmax_t end, 
     }
 }
 
-// What is kept before the end of a file: how many of its bytes stay, and its first bytes, because the header
-// of a NetCDF file counts its records.
+// The beginning of a file with a kept end: how many bytes of the growing file stay, and its first bytes,
+// because the header of a NetCDF file counts its records.
 struct EndHead {
     std::uint64_t bytes = 0;
     std::array<char, 16> first{};

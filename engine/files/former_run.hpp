@@ -3,9 +3,9 @@
 // has passed the run's former end. If the continuation fails before, the run is put back as it was. If its
 // process is killed, the next process that uses the run puts it back.
 //
-// A file that will be replaced gets a second name there. The end of a file that grows is copied before it is
-// cut. Where the beginning is shorter than the end, the beginning is copied to a new file, which replaces the
-// old one.
+// A file that will be replaced gets a second name (a hard link) there. The end of a file that grows is copied
+// before it is cut. If the beginning is shorter than the end, the beginning is copied instead, to a new file
+// that replaces the old one.
 #pragma once
 
 #include <cstdint>

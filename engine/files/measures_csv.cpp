@@ -32,7 +32,7 @@ std::optional<double> number_of(const std::string& cell) {
     const char* const end = cell.data() + cell.size();
     const auto read = std::from_chars(cell.data(), end, value);
     if (read.ptr != end || cell.empty()) return std::nullopt;
-    // A number that is too small for a double is read as 0, as elsewhere.
+    // A number beyond the range of a double is read as 0 or infinity.
     if (read.ec == std::errc::result_out_of_range) return std::strtod(cell.c_str(), nullptr);
     return read.ec == std::errc() ? std::optional(value) : std::nullopt;
 }

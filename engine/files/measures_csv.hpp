@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// What a file holds. A last row without its end was cut off and is left out.
+// The content of a file. A last row without its end was cut off and is left out.
 struct MeasuresFile {
     std::shared_ptr<const MeasureTable> table;  // the rows; null when there is no file or it is empty
     // What is wrong with the first damaged row, "FILE:LINE: its time_s is no number but \"x\"". The table

@@ -85,7 +85,8 @@ IsOurs is_ours_in_meshes(const fs::path& run) {
     };
 }
 
-// The first thing in a run's folder that no run has written. A comparison has runs in folders of its own.
+// The first entry in a run's folder that no run has written. In the folder of a comparison, the folders of
+// its runs count as entries of runs.
 std::optional<fs::path> foreign_file(const fs::path& run) {
     const std::vector<std::string> panels = panels_in_run_json(run / "run.json");
     const auto is_panel = [&](const fs::path& name) {
@@ -188,7 +189,7 @@ void RunFolder::take(const fs::path& out, bool force) {
 }
 
 void RunFolder::adopt(const fs::path& path) {
-    // The log must not exist yet. So of two runs that start together only one gets the folder.
+    // The log must not exist yet. So if two runs start together, only one gets the folder.
     const int log = ::open((path / "log.txt").c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (log < 0) {
         throw UserError(fmt::format("--out {}: the folder cannot be used: {}; choose another name",
@@ -209,7 +210,7 @@ bool RunFolder::make(const fs::path& path) {
     std::error_code error;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
     if (!error) {
-        // Test and creation are one call. So of two runs that start together only one gets the name.
+        // Test and creation are one call. So if two runs start together, only one gets the name.
         const bool made = fs::create_directory(path, error);
         if (!made && (!error || error == std::errc::file_exists)) return false;
     }

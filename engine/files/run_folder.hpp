@@ -22,15 +22,16 @@ struct RunFolderRequest {
     std::shared_ptr<FolderLock> goes_on{};  // the lock of a folder whose run is continued
 };
 
-// It is made after scene and plan were accepted. An earlier run that will be replaced waits beside the new
-// one under a hidden name until the new one is complete. Both folders are locked as long as this lives.
+// A RunFolder is made after scene and plan were accepted. An earlier run that will be replaced waits beside
+// the new one under a hidden name until the new one is complete. Both folders are locked as long as this
+// object lives.
 class RunFolder {
   public:
     // Throws UserError when
     //  - `out` is an empty name,
     //  - it is not empty and `force` is not set,
     //  - `force` is set and it holds something other than a run of ours,
-    //  - another process fills it or a panel's folder in it,
+    //  - another process fills it, or in it the folder of a panel (one of several runs in a film),
     //  - the folder cannot be made or written.
     explicit RunFolder(const RunFolderRequest& request);
 
@@ -68,8 +69,9 @@ class RunFolder {
 };
 
 // Copies each of kept_files() (files of meshes and paths) into the run's folder, unless it is there.
-// previous: the present place of the folder that had this name before, for files in it; empty where there was
-// none. Throws UserError where a file has changed since it was read, and RunError where it cannot be written.
+// previous: where the former folder of this name is now, because the scene may name files in it; empty where
+// there was none. Throws UserError where a file has changed since it was read, and RunError where it cannot
+// be written.
 void keep_mesh_files(const Scene& scene, const std::filesystem::path& folder,
                      const std::filesystem::path& previous = {});
 

@@ -90,7 +90,8 @@ Json accepted(const RunJson& r) {
     return keys;
 }
 
-// Names and messages come from the user's files. Text that is not UTF-8 is shown and must not make this fail.
+// The document as text. Names and messages come from the user's files; bytes that are not UTF-8 are replaced
+// and must not make this fail.
 std::string text_of(const Json& document) {
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -102,7 +103,7 @@ constexpr off_t reserve = 32768;  // bytes
 void reserve_room(const std::filesystem::path& path) {
     const int file = open_plain(path);
     if (file < 0) return;
-    // Not every file system can reserve room; without it there is none for the last text.
+    // Not every file system can reserve room. Without it the last text may not fit on a full disk.
     ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, reserve);
     ::close(file);
 }

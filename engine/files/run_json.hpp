@@ -1,6 +1,6 @@
 // run.json: what was run, with which program, and how it ended. It is written when the run begins (status
-// "running") and replaced when it ends, so that of a killed run it still says "running". On a full disk the
-// new text is written over the old one, for which there is room.
+// "running") and replaced when it ends, so the file of a killed run still says "running". On a full disk the
+// new text is written over the old one, in room that was reserved for it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace grainreel {
 
-// A film that is one of several parts. The numbers tell how parts are joined.
+// A part of a film that is drawn in several parts. The numbers tell how the parts are joined.
 struct DrawnPart {
     int number = 1, of = 1;  // this part and the number of parts
     std::int64_t first_picture = 0, pictures = 0, all_pictures = 0;
@@ -43,7 +43,7 @@ std::string checksum_of_file(const std::filesystem::path& path);
 
 enum class RunStatus { running, complete, interrupted, failed };
 
-// A finished run, frames of which were drawn.
+// A finished run of which frames were drawn.
 struct DrawnRun {
     std::string folder;
     std::int64_t frames = 0;     // number of frames drawn
@@ -62,11 +62,13 @@ struct RunJson : ProgramInfo {
     std::optional<int> exit_status;  // exit status of the program; none while it runs
     std::string error;               // why a run failed
 
-    // Runs that were drawn and not run. If there are any, the file says nothing of the engine.
+    // Earlier runs whose frames were drawn. If there are any, nothing was computed now, and the file says
+    // nothing about the engine.
     std::vector<DrawnRun> drawn;
     // The part, if the film is one of several parts.
     std::optional<DrawnPart> part;
-    // Folders with the files of each panel of a film: in this folder, or of another run.
+    // For a film that shows several runs side by side (in panels): the folders with the files of each, in
+    // this folder or of another run.
     std::vector<std::string> panels;
 
     std::string command;  // as typed, with words quoted where the shell needs it
@@ -85,11 +87,11 @@ struct RunJson : ProgramInfo {
     double simulated = 0;                       // s since the drive started
     std::optional<std::uint64_t> state_hash;    // hash of the end state
 
-    std::vector<std::pair<std::string, double>> wall_seconds;  // by the names of stages
+    std::vector<std::pair<std::string, double>> wall_seconds;  // of each stage, by its name
     double particle_steps_per_second = 0;                      // since the drive started, in the engine only
-    std::optional<std::int64_t> film_frames = 0;               // none until the film is closed
+    std::optional<std::int64_t> film_frames = 0;  // 0 without a film; none while the film is open
     std::int64_t trajectory_frames = 0, measures_rows = 0;
-    std::optional<TableMark> final_table;  // what final.csv was, once it is written
+    std::optional<TableMark> final_table;  // mark of final.csv, once it is written
     std::vector<AcceptedKey> accepted;     // in the order of time
     std::string page;                      // file name of the run's page; empty without one
     std::int64_t peak_memory = 0;          // bytes

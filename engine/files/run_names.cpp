@@ -56,7 +56,7 @@ constexpr std::array<std::string_view, 35> files_of_runs{".lock",
                                                          ".report.html.part"};
 
 // movie.work holds what a film needs while it is made.
-// handover holds the deck for another engine, and the files that this engine wrote.
+// handover holds the deck (input script) for another engine, and the files that this engine wrote.
 constexpr std::array<std::string_view, 8> folders_of_runs{
     "frames", "movie.work", "checkpoints", "handover", kMeshFolder, kFormerRun, kFormerRunPart, kAlsoFolder};
 

@@ -1,6 +1,6 @@
-// CarriedScene: a scene as the deck of another engine (LAMMPS or LIGGGHTS) needs it, with numbers in SI units
-// and exact formulas, and with all that had to be changed or refused. carry() makes it; decks only write it
-// down and compute nothing.
+// CarriedScene: a scene as the deck (input script) of another engine (LAMMPS or LIGGGHTS) needs it, with
+// numbers in SI units and exact formulas, and with all that had to be changed or refused. carry() makes it;
+// the code of the decks only writes it down and computes nothing.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ struct CarriedPair {
 };
 inline constexpr double kEndlessFriction = 1e4;
 
-// What walls are made of: how each type touches them.
+// A kind of wall surface: the contact of each type of atoms with it.
 struct CarriedSurface {
     std::string name;               // "walls", or the name of a mesh
     std::vector<CarriedPair> with;  // by type
@@ -73,8 +73,7 @@ struct CarriedMesh {
     std::size_t surface = 0;  // index in CarriedScene::surfaces
 };
 
-// Something that is refused, which ends the command, or something that the run has in place of what the scene
-// says.
+// A refusal, which ends the command, or a change: what the run has in place of what the scene says.
 struct CarryNote {
     std::string where;  // "file:line:column"; empty if it belongs to no key
     std::string what;   // one line
@@ -87,10 +86,9 @@ enum class RunFrame { lab, container };
 
 struct CarriedScene {
     PeerEngine engine = PeerEngine::lammps;
-    int ranks = 1;
-    Scene scene;  // has the laws of the other engine and the plan's choices; our own run to compare with uses
-                  // it
-    Plan plan;    // of that scene
+    int ranks = 1;  // processes of the engine (MPI)
+    Scene scene;    // with the laws of the other engine and the plan's choices; also for our run to compare
+    Plan plan;      // of that scene
 
     std::vector<CarriedType> types;
     std::vector<CarriedPair> pairs;        // types x types, row-major, symmetric

@@ -202,7 +202,7 @@ void trim_dump(const fs::path& dump, std::int64_t step) {
 
 namespace {
 
-constexpr double kSlack = 1.5;  // times the way in free fall, to allow for pushes from other grains
+constexpr double kSlack = 1.5;  // factor on the way in free fall, because other grains may push
 
 }  // namespace
 

@@ -45,7 +45,7 @@ struct LammpsRegion {
 };
 
 constexpr double kEndless = 1000;   // m, length of a cylinder, so that no grain reaches its ends
-constexpr double kThickness = 0.5;  // as a share of a plate, divided by the smallest radius
+constexpr double kThickness = 0.5;  // thickness of a plate, divided by the smallest radius of grains
 
 std::string word(const std::string& name, std::size_t number) {
     std::string word = fmt::format("w{}_", number);

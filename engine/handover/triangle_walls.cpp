@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kInside = 1e-6;   // as a share of the box's size: distance of walls from its sides
-constexpr double kOctagon = 0.92;  // apothem divided by radius, and a bit less
+constexpr double kInside = 1e-6;   // distance of walls from the box's sides, as a share of its size
+constexpr double kOctagon = 0.92;  // a bit less than apothem / radius of an octagon
 constexpr double kSagitta =
-    0.005;  // as a share of a cylinder's facets, divided by the smallest radius of grains
+    0.005;  // sagitta of a cylinder's facets (their distance from the round), in smallest radii of grains
 constexpr int kFewest = 36, kMost = 180;  // facets of a cylinder
 
 struct Room {

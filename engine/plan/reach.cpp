@@ -77,8 +77,7 @@ std::optional<double> estimated_reach(const Scene& scene) {
 
 namespace {
 
-constexpr double most_of_a_grain =
-    0.1;  // as a share of the smallest diameter, by which a rim may move in one step
+constexpr double most_of_a_grain = 0.1;  // a rim may move by this share of the smallest diameter in one step
 
 double distance_from_axis(const BodyTurn& turn, const Vec3& place) {
     const Vec3 from = place - turn.through;

@@ -219,8 +219,8 @@ namespace {
 constexpr double alarming_overlap =
     0.05;  // as a share of the smaller diameter; 1 % is the usual aim for most contacts
 // docs/reference/stability.md has what each of these costs.
-constexpr double alarming_turn = 0.05;   // as a share of a period that a contact with a moving wall lasts
-constexpr double alarming_flight = 0.2;  // as a share of a diameter that a grain flies while a contact lasts
+constexpr double alarming_turn = 0.05;   // periods that a contact with a moving wall lasts
+constexpr double alarming_flight = 0.2;  // diameters that a grain flies while a contact lasts
 constexpr double fewest_last_places =
     100;  // how many times the rounding of a position the overlap of a grain at rest must be
 

@@ -1,5 +1,5 @@
-// The moment that a question about a run means. The run kept it in a file, or it is brought back: the engine
-// computes the run again from the last checkpoint before the moment.
+// The moment that a question about a run means: one that the run kept in a file, or one that is brought back,
+// that is, computed again from the last checkpoint before it.
 #pragma once
 
 #include <cstdint>

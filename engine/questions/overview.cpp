@@ -127,7 +127,7 @@ AnswerTable extremes_table(const Snapshot& s) {
     return table;
 }
 
-// The row of a wall from contacts.nc, which does not tell in which direction friction pushes.
+// The row of a wall at a kept moment, of whose contacts only the normal forces are known here.
 std::vector<AnswerCell> kept_wall_row(const Snapshot& s, std::int32_t wall) {
     std::int64_t count = 0;
     double normal = 0;

@@ -297,8 +297,7 @@ Answer pair_distribution_answer(const Snapshot& s) {
     const double density = static_cast<double>(s.frame.size()) / volume;
     const Neighbourhood near(s, box, most, period);
     std::vector<double> pairs(bin_count + 1, 0), centres(bin_count, 0);
-    std::vector<std::size_t> whole(
-        near.size());  // for each centre the number of bins whose spheres lie in the box
+    std::vector<std::size_t> whole(near.size());  // by centre: number of bins whose spheres lie in the box
     for (std::size_t i = 0; i < near.size(); ++i) {
         const double room = room_about(near.place(i), box, period);
         whole[i] = static_cast<std::size_t>(std::clamp(room / width, 0.0, double(bin_count)));

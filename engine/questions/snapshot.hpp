@@ -32,7 +32,7 @@ struct Snapshot {
     bool contacts = false;                   // whether touches are known
     Frame start;                             // the run's first moment
     std::optional<SnapshotForces> forces{};  // only where the moment was brought back
-    std::optional<MeasuredRow> measured{};   // at the moment, or in the row nearest to it
+    std::optional<MeasuredRow> measured{};   // measures at the moment, or the row nearest to it in time
     double bin_width = 0;                    // m, of bins along lengths; 0: the mean diameter of the grains
     bool velocities = true, spins = true;    // whether they are known; unknown velocities are NaN
 

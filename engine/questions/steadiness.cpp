@@ -37,17 +37,17 @@ std::vector<Batch> finite_rows(const std::vector<double>& times, const std::vect
     return rows;
 }
 
-// Batches of rows: those of each whole period, or so many rows. Rows left over at the end belong to no
-// batch.
+// Batches of rows: those of each whole period, or kRowsWithoutDrive rows where `period` is 0. Rows left over
+// at the end belong to no batch.
 std::vector<Batch> batches_of(const std::vector<Batch>& rows, double period) {
-    constexpr double rounding = 1e-6;  // as a share of a period: times are rounded
+    constexpr double rounding = 1e-6;  // tolerance as a share of a period, because times are rounded
     std::vector<Batch> batches;
     for (std::size_t begin = 0; begin < rows.size();) {
         std::size_t end = begin + kRowsWithoutDrive;
         if (period > 0) {
             const double number = std::floor(rows[begin].time / period + rounding);
             for (end = begin; end < rows.size() && rows[end].time < (number + 1 - rounding) * period;) ++end;
-            if (end == rows.size()) break;  // the period may go on
+            if (end == rows.size()) break;  // this period may lack rows
         }
         if (end > rows.size()) break;
         batches.push_back(joined(rows, begin, end));

@@ -36,7 +36,7 @@ Vec3 spin_of(const Eigen::Vector4d& raw, const Eigen::Vector4d& slope) {
 // The mesh stands still at its place in the scene until the run begins, so a path that begins elsewhere would
 // make it jump.
 void check_start(const MotionPath& path, const PathRows& rows, const std::filesystem::path& file) {
-    constexpr double same = 1e-6;  // as a share of the path's size; rad
+    constexpr double same = 1e-6;  // as a share of the path's size, and in rad
     const PathPose start = path.at(0);
     Vec3 low(0, 0, 0), high(0, 0, 0);
     for (const Vec3& place : rows.places) low = low.cwiseMin(place), high = high.cwiseMax(place);

@@ -200,7 +200,7 @@ namespace fs = std::filesystem;
 bool same_grain(const Grains& one, std::size_t i, const Grains& other, std::size_t j, const Vec3& offset) {
     constexpr double kRounding = 1e-9;  // as a share of the radius
     const Place &here = one.place[i], &there = other.place[j];
-    // A periodic depth may have wrapped x.
+    // x is not compared, because a periodic depth may have wrapped it.
     const Vec3 apart = here.position - there.position - offset;
     return here.radius == there.radius && std::hypot(apart.y(), apart.z()) < kRounding * here.radius &&
            one.species[i] == other.species[j];

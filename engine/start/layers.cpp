@@ -108,7 +108,7 @@ Grains place_in_layers(const Scene& scene) {
         const Species& species = scene.species[s];
         for (std::int64_t k = 0; k < species.count; ++k) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
-            const double off = scene.meshes.empty() ? 0.25 : 0.5;  // no mesh pushes a grain back to its side
+            const double off = scene.meshes.empty() ? 0.25 : 0.5;  // no mesh pushes grains back
             const double margin = std::min(off * radius, 0.25 * (top[s] - bottom[s]));
             const Vec3 centre = room.random_centre(bottom[s], top[s], margin, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);

@@ -13,7 +13,7 @@ namespace grainreel {
 namespace {
 
 constexpr double kFarSideways = 10;  // times the box of the grains at the start
-constexpr int kLooksDown = 200;      // at most, along a fall
+constexpr int kLooksDown = 200;      // most places along a fall at which meshes are looked for
 
 // Where grains can be at most: a ball (m), and the same ball moved down by `fall`.
 struct Reach {

@@ -15,9 +15,9 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kDeep = 0.01;  // as a share of the smallest extent: a less deep crossing does not count
+constexpr double kDeep = 0.01;  // least depth of a crossing that counts, as a share of the smallest extent
 constexpr double kElsewhere =
-    0.1;  // as a share of the smaller mesh's largest extent: so far from the crossings at rest
+    0.1;  // distance from the crossings at rest, as a share of the smaller mesh's largest extent
 constexpr std::int64_t kMostTriangles = 200'000;  // triangles of both meshes; more would take too long
 constexpr std::int64_t kMostLooks =
     400'000;  // edges that are looked at in all moments together; if there are more, some are left out

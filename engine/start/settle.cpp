@@ -76,7 +76,7 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
 namespace {
 
 constexpr double kContactsALevel = 20;  // contact times for which each drag lasts
-constexpr double kFarthest = 0.5;       // diameters that a grain may move
+constexpr double kFarthest = 0.5;       // diameters by which a grain may move
 constexpr double kFew = 0.01;           // share of the grains that may move farther
 
 struct Level {

@@ -262,7 +262,7 @@ std::vector<double> AmberVariables::read(const AmberVariable& variable, std::siz
 
 namespace {
 
-// What the child does: it has none of our signal handlers, leaves no core file and ends in time.
+// Does the work in the child process, without our signal handlers, without a core file and with a time limit.
 [[noreturn]] void work_alone(const std::function<void()>& work, unsigned seconds) {
     constexpr std::array<int, 6> signals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM};
     for (const int signal : signals) ::signal(signal, SIG_DFL);

@@ -60,9 +60,10 @@ class AmberVariables {
     std::vector<AmberVariable> variables_;
 };
 
-// Does `work` in a child process for up to so many seconds, and tells whether the child survived. What it
-// changed is lost, and an exception counts as survival. The HDF5 library follows pointers of a damaged file
-// wherever they lead, and its crash must not end this process. Also true where no child can be made.
+// Does `work` in a child process for up to so many seconds, and tells whether the child survived. This is
+// needed because the HDF5 library follows pointers of a damaged file wherever they lead, and its crash must
+// not end this process. What the child changed is lost. An exception counts as survival. Also returns true
+// where no child can be made.
 bool survives(const std::function<void()>& work, unsigned seconds);
 
 }  // namespace grainreel

@@ -44,7 +44,7 @@ class PlainBytes : public ByteSource {
     std::uint64_t place_ = 0;
 };
 
-// A packing that is refused: how such a file begins, the packing's name, and the command that unpacks it.
+// A kind of compression that is refused: how such a file begins, its name, and the command that unpacks it.
 struct UnreadPacking {
     std::string_view magic;
     const char* name;
@@ -62,8 +62,8 @@ constexpr UnreadPacking unread[] = {
     {"7z\xBC\xAF\x27\x1C"sv, "7-Zip", "7z x"},
 };
 
-// Whether the file is really packed so, because a text may begin with "BZh" or "]" too. Behind bzip2's magic
-// stand a digit and the digits of pi. The header of lzma has sizes, which must be possible.
+// Whether the file is really compressed in this way, because a text may begin with "BZh" or "]" too. In bzip2
+// a digit and the digits of pi follow the magic. The header of lzma has sizes, which must be possible.
 bool really(const UnreadPacking& packing, std::string_view head) {
     const auto byte = [head](std::size_t k) {
         return k < head.size() ? static_cast<unsigned char>(head[k]) : 0u;
@@ -260,7 +260,7 @@ class GzipBytes : public PackedBytes {
     bool next_member() {
         while (fill()) {
             if (*packed() != 0) break;
-            use(1);  // tapes and some copies are filled up with zeros
+            use(1);  // skips zeros, with which tapes and some copies are filled up
         }
         if (left() == 0) return false;
         if (static_cast<unsigned char>(*packed()) != 0x1f)

@@ -1,5 +1,5 @@
-// The bytes of a file, unpacked where it is gzip (also with several members) or zstd. The content decides,
-// not the suffix. All readers of other programs' files take their bytes from here.
+// The bytes of a file, decompressed ("unpacked") if it is gzip (also with several members) or zstd. The
+// content decides, not the suffix. All readers of other programs' files take their bytes from here.
 #pragma once
 
 #include <sys/types.h>
@@ -38,7 +38,7 @@ std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& file);
 // The whole content of a file, unpacked. Throws UserError where it has more than `most` bytes.
 std::string all_bytes(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 33);
 
-// Which file has a name, and its state when it was looked at.
+// Identity and state of a file at the moment when it was looked at.
 struct FileState {
     std::uint64_t size = 0;
     std::uint64_t device = 0, inode = 0;
@@ -77,7 +77,7 @@ std::unique_ptr<ByteSource> gzip_bytes(std::unique_ptr<FileBytes> file);
 // Reads zstd with one or several frames; skippable frames are skipped.
 std::unique_ptr<ByteSource> zstd_bytes(std::unique_ptr<FileBytes> file);
 
-// What both have in common: the packed bytes, read piece by piece, and the way to a place.
+// The base of both: reads the packed bytes piece by piece, and goes to a place of the content.
 class PackedBytes : public ByteSource {
   public:
     explicit PackedBytes(std::unique_ptr<FileBytes> file);

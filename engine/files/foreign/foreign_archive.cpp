@@ -158,7 +158,7 @@ void ForeignArchive::survey_contacts() {
     for (std::size_t k = 0; k < moments.size(); ++k) {
         std::optional<std::int64_t> step = moments[k].step;
         if (!step && moments[k].time) {
-            // If both have only times, contacts are found by time.
+            // If grains and contacts have only times and no steps, they are matched by time.
             for (std::size_t f = 0; f < frames; ++f)
                 if (grains_->moments()[f].time && std::abs(*grains_->moments()[f].time - *moments[k].time) <=
                                                       1e-6 * std::abs(*moments[k].time) + 1e-12)

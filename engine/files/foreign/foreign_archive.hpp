@@ -1,6 +1,7 @@
-// A run of another program as a FrameArchive: grains, contacts and walls from its files, in SI. Three sources
-// belong to it: foreign_files.cpp chooses the files, foreign_walls.cpp follows walls, foreign_archive.cpp
-// does the rest. Formats are read elsewhere (raw_file.hpp); nothing here depends on one of them.
+// A run of another program as a FrameArchive: grains, contacts and walls from its files, in SI units. Three
+// sources belong to it: foreign_files.cpp chooses the files, foreign_walls.cpp follows walls, and
+// foreign_archive.cpp does the rest. The formats are read elsewhere (raw_file.hpp); nothing here depends on a
+// single format.
 #pragma once
 
 #include <filesystem>

@@ -126,8 +126,8 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     if (options_.contacts.empty() && !contacts.empty())
         contacts_ = std::make_unique<RawSeries>(contacts.front()->files);
     if (!options_.walls.empty()) return;
-    // Surfaces that are written at each moment are in their present places. A single file beside them is what
-    // they were made from.
+    // If there are surfaces for each moment, they show the walls where they are then. A single file beside
+    // them is the shape that they were made from.
     const bool moving =
         std::any_of(walls.begin(), walls.end(), [](const FileGroup* one) { return one->files.size() > 1; });
     for (const FileGroup* wall : walls) {

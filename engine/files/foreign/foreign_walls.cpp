@@ -235,7 +235,8 @@ void ForeignArchive::read_walls() {
     }
 }
 
-// Makes the place of a wall at the first moment of the grains its place at rest.
+// Changes a wall's shape and poses so that its place at rest is where it was at the first moment of the
+// grains.
 void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
     const BodyPose rest = wall.poses[first];
     for (Vec3& vertex : wall.shape.vertices) vertex = rest.moved(vertex);

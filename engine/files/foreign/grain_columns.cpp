@@ -126,7 +126,9 @@ void GrainMeaning::find_places(const RawTable& table) {
         place_unit_ = units_.length;
 }
 
-// Without z the grains are discs in a plane, if the box is thinner than a grain along z or the file says so.
+// Throws UserError where there is no column z and the grains are not discs in a plane. They are if the file
+// says so, or if the box is periodic along z and at most 1 or a tenth of its width thick (in units of the
+// file).
 void GrainMeaning::check_flat(const RawFrame& frame) const {
     if (facts_.dimensions == 2) return;
     const bool thin = frame.box && frame.box->periodic[2] &&

@@ -39,7 +39,7 @@ void convert(const std::string& bytes, std::vector<double>& values) {
         values[i] = static_cast<double>(value_at<T>(bytes, i * sizeof(T)));
 }
 
-// Whether a file of `all` bytes has room for `count` things of `size` bytes from `place` on.
+// Whether a file of `all` bytes has room for `count` items of `size` bytes from `place` on.
 bool fits(std::uint64_t place, std::uint64_t count, std::uint64_t size, std::uint64_t all) {
     return place <= all && (size == 0 || count <= (all - place) / size);
 }

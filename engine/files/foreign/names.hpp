@@ -1,4 +1,4 @@
-// What the columns of other programs are called and in which units they are. A name may have different
+// How other programs name their columns, and in which units they write. A name may have different
 // meanings in two programs, so the lists of names have an order, and the first name that a file has wins.
 // Case does not count. A name of a further program is added in names.cpp.
 #pragma once

@@ -144,8 +144,8 @@ RawFrame RawSeries::read(std::size_t index) const {
             first = false;
             continue;
         }
-        // Files of several processes have different grains. A file of a continued run has the same ones
-        // again.
+        // Files of several processes have different grains, which are joined. The file of a continued run has
+        // the same grains again and replaces the former one.
         if (frame.grains.rows > 0 && more.grains.rows > 0 && share_ids(frame.grains, more.grains)) {
             frame = std::move(more);
             continue;

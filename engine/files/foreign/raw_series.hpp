@@ -1,6 +1,6 @@
-// Which files belong together, and their frames as one list by rising step or time. Files that several
-// processes wrote of one step are one frame. If a step comes twice because a run was continued, the later one
-// counts.
+// Finds which files belong together, and lists their frames by rising step or time. Files that several
+// processes wrote for the same step are one frame. If a step comes twice because a run was continued, the
+// later one counts.
 #pragma once
 
 #include <cstddef>

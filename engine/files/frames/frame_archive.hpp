@@ -1,5 +1,5 @@
 // A FrameArchive holds the frames of a run on disk, whatever their format. They can be read in any order.
-// Code that draws, asks or counts takes frames from here and need not know where they come from.
+// Code that draws frames or answers questions takes them from here and need not know their format.
 //
 // A new format is a FrameReader: a file in engine/files/frames/readers and a line in the list of
 // open_frames.cpp.

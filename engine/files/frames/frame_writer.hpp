@@ -22,8 +22,8 @@ class FrameWriter {
   public:
     virtual ~FrameWriter() = default;
 
-    // They are called in this order: begin() once, frame() by rising time, end() once. `supply` says what
-    // each frame will have beside its places. They throw RunError when the file cannot be written. Frames
+    // The caller calls begin() once, then frame() by rising time, then end() once. `supply` says what each
+    // frame will have beside its places. All three throw RunError when the file cannot be written. Frames
     // that are whole by then stay readable.
     virtual void begin(const World& world, const FrameSupply& supply) = 0;
     virtual void frame(const Frame& frame) = 0;
@@ -34,7 +34,8 @@ class FrameWriter {
     // Called before frame() with the contacts of that frame, where the archive knows their points and
     // tangential forces.
     virtual void contacts(const std::vector<SavedContact>&) {}
-    // Called before end(). Each of these records of fields.nc is a mean over a time in which a frame lies.
+    // Called before end(). Each of these records of fields.nc is a mean over a span of time in which a frame
+    // lies.
     virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
 };
 
@@ -61,7 +62,7 @@ std::unique_ptr<FrameWriter> frame_writer(const std::string& format, const std::
 // Which frames of an archive are exported.
 struct ExportChoice {
     std::optional<double> from, until, at;  // s
-    std::int64_t every = 1;                 // every so many frames, one is taken
+    std::int64_t every = 1;                 // one of so many frames is taken
 };
 
 struct Exported {

@@ -71,8 +71,8 @@ const FrameReader* reader_of(const fs::path& path) {
 
 namespace {
 
-// Opens the file by a reader that the calling program has added; null where none reads it. Mostly there is
-// none.
+// Opens the file by a reader that the calling program has added; null where none reads it. Most programs add
+// no reader.
 std::unique_ptr<FrameArchive> open_by_own_reader(const fs::path& path, const FrameRequest& request) {
     const std::vector<std::shared_ptr<const OwnReader>> readers = own_readers();
     if (readers.empty()) return nullptr;

@@ -24,11 +24,11 @@ inline constexpr const char* kImportNews = "import_news.txt";
 
 class RunArchive final : public FrameArchive {
   public:
-    // folder: from folder_of_run(). scene: of the folder. Throws UserError when there is no trajectory.nc
-    // with a frame, and when the files are of two runs.
+    // `folder` comes from folder_of_run(), and `scene` is the scene in this folder. Throws UserError when
+    // there is no trajectory.nc with a frame, and when the files are of two runs.
     //
-    // for_questions: other missing files are among faults(), and so are contacts that cannot be used. The
-    // caller can restore them by running parts of the scene again.
+    // for_questions: other missing files are no error but stand in faults(), and so do contacts that cannot
+    // be used. The caller can compute contacts by running parts of the scene again.
     RunArchive(const std::filesystem::path& folder, const Scene& scene, bool for_questions);
 
     // Makes contacts available. alone: there is no other source of contacts, so this throws UserError when
@@ -36,7 +36,7 @@ class RunArchive final : public FrameArchive {
     void read_contacts(bool alone);
     // Reads all frames and leaves out those with damaged grains, with a line of news, so that damage is found
     // before a film is half made. Throws UserError when no frame is left or contacts are damaged.
-    // brought_back: the moments that are left out come from another source.
+    // brought_back: the caller computes these moments again, and the news says so.
     void leave_out_damaged(bool brought_back);
     // Sets after how many periods the bed repeats itself, if the caller knows better.
     void set_periods(int periods) { periods_ = periods; }

@@ -17,7 +17,7 @@ namespace grainreel {
 namespace {
 
 constexpr double same_size = 1e-4;   // relative; an early version kept radii as floats
-constexpr double same_time = 1e-6;   // relative, and in turns
+constexpr double same_time = 1e-6;   // relative; in turns for a phase
 constexpr double same_place = 1e-6;  // as a share of the drive's amplitude or speed, or of a diameter
 constexpr double same_angle = 1e-6;  // rad
 constexpr double same_shape = 1e-9;  // relative to a mesh's extent
@@ -245,7 +245,7 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
 
 void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
                     const std::string& contacts) {
-    constexpr double room = 1.05;  // times the sum of radii; grains in contact overlap
+    constexpr double room = 1.05;  // most distance divided by the sum of radii; contacts have less than 1
     const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
     const auto index_of = [&](std::int32_t id) { return frame.row_of(id); };
     const auto apart = [&](std::size_t a, std::size_t b) {

@@ -13,8 +13,8 @@
 
 namespace grainreel {
 
-// The folder's path in one form: "a/b/" and "a/b/." become "a/b", and "." gets its name. Throws UserError
-// when there is no such folder.
+// The folder's path in its usual form: "a/b/" and "a/b/." become "a/b", and "." becomes the folder's name.
+// Throws UserError when there is no such folder.
 std::filesystem::path folder_of_run(const std::filesystem::path& folder);
 
 // The path of a file in the folder. Throws UserError with the advice when there is no such file.

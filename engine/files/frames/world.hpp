@@ -1,5 +1,5 @@
-// The world around the grains of an archive: species, cell and walls. It is known without a scene, for files
-// of every format, and much of it may be unknown. world_of() makes it from a scene or from the header of a
+// The world around the grains of an archive: species, cell and walls. Files of every format have one, even
+// without a scene, but much of it may be unknown. world_of() makes it from a scene or from the header of a
 // trajectory; surfaces_of() turns its walls into triangles.
 #pragma once
 
@@ -39,7 +39,8 @@ struct WorldBody {
     TriangleMesh mesh;
 };
 
-// The box that the grains are in, which may be tilted. Where an edge is 0 m long, nothing is known along it.
+// The box that the grains are in, which may be tilted. An edge of length 0 means that the box is not known in
+// that direction.
 struct WorldCell {
     Vec3 origin{0, 0, 0};  // m
     std::array<Vec3, 3> edges{Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
@@ -71,8 +72,8 @@ Scene scene_of(const World& world);
 World world_of(const TrajectoryInfo& info);
 TrajectoryInfo trajectory_info(const World& world, const FrameSupply& supply);
 
-// A sentence for a frame that is not whole and one for frames that the file's header does not count. name:
-// of the file.
+// Up to two sentences for the user: one if the last frame is not whole, and one if there are frames that the
+// file's header does not count. name: of the file.
 std::vector<std::string> faults_of(const TrajectoryReader& trajectory, const std::string& name);
 
 // One wall as triangles, for formats that know nothing else. Planes are cut where they meet each other and at

@@ -19,7 +19,7 @@ namespace grainreel {
 
 namespace {
 
-// bytes of the buffer; with the library's default of 8 KiB there are many small writes
+// Bytes of the buffer. With the library's default of 8 KiB there are many small writes.
 constexpr std::size_t buffer_size = 1 << 20;
 
 // Writes the true number of records into the header. It stands after the magic "CDF" and the version byte:

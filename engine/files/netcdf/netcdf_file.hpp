@@ -52,11 +52,11 @@ class NetcdfFile {
     NetcdfFile(NetcdfFile&& other) noexcept;
     NetcdfFile& operator=(NetcdfFile&&) = delete;
 
-    int dimension(const std::string& name, std::size_t length);  // length NC_UNLIMITED: that of records
+    int dimension(const std::string& name, std::size_t length);  // NC_UNLIMITED: the dimension of records
     // units: empty for none. Types are those of <netcdf.h>: NC_INT, NC_FLOAT, NC_DOUBLE, NC_CHAR.
     int variable(const std::string& name, int type, const std::vector<int>& dimensions,
                  const std::string& units = {});
-    // variable NC_GLOBAL: the attribute is one of the file.
+    // variable: NC_GLOBAL for an attribute of the file itself.
     void attribute(int variable, const std::string& name, const std::string& text);
     void end_definitions();
 
@@ -107,7 +107,7 @@ class NetcdfFile {
     int id_ = -1;
     bool writing_ = false;
     bool failed_ = false;
-    std::size_t records_ = 0;  // number of whole ones
+    std::size_t records_ = 0;  // number of whole records
     NetcdfHeader header_;      // only of a file that is read
 };
 

@@ -196,7 +196,7 @@ class Parser {
     int version_ = 0;
     Bytes count_width_ = 4, offset_width_ = 4;
     std::vector<Bytes> dimensions_;
-    // The number of the unlimited dimension; this is none.
+    // The number of the unlimited dimension. The largest value stands for none.
     Bytes unlimited_ = std::numeric_limits<Bytes>::max();
     std::vector<Variable> variables_;
 };

@@ -9,7 +9,7 @@
 //
 // The grains of a frame fill the first places, and the other places have id -1. In a file with traffic a
 // grain that leaves keeps its place, id and type, and `present` becomes 0. Programs that know neither id -1
-// nor `present` draw every place. A place without a grain therefore holds one that nobody sees: at rest in
+// nor `present` draw every place. An empty place therefore holds a grain that nobody sees: at rest in
 // the container's lowest corner, with kAbsentRadius. (In files of earlier versions it holds fill values, or
 // the last position of the grain that left.) Each frame has a checksum of its moment and poses and one of its
 // grains.
@@ -57,7 +57,7 @@ struct TrajectoryInfo {
     bool checksums = true;          // false in a file of an earlier version, where damage may look like data
     Vec3 cell_origin{0, 0, 0};      // m
     Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic
-    FileFacts facts = {};           // when it is read, only the densities
+    FileFacts facts = {};           // in the info of a file that is read, only the densities
 };
 
 class TrajectoryWriter {
@@ -73,7 +73,8 @@ class TrajectoryWriter {
     // Whether a file can be continued: it must have as many places and the same variables. Throws UserError
     // where it cannot be read or has other grains.
     static bool goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path);
-    // How much of the file its first `frames` are. Reads them where they will be needed. Throws UserError.
+    // How much of the file its first `frames` are. Throws UserError where one of these frames is damaged, if
+    // the writer will need it (in a file with traffic).
     static KeptRecords kept_of(const std::filesystem::path& path, std::size_t frames);
     // Writes the first `frames` of a file into a new one with this info, as if they had been written there at
     // first. The old file decides whether there are contact numbers.

@@ -21,7 +21,7 @@ namespace grainreel {
 struct TrajectoryVariable {
     const char* name;
     int type;               // one of the types in <netcdf.h>
-    const char* dimension;  // the last one of a vector; null for a single number
+    const char* dimension;  // the last dimension of a vector; null for a single number
     const char* units;      // as in UDUNITS, or in the convention's spelling
     const char* about;      // long_name
     const char* comment = "";
@@ -161,7 +161,8 @@ inline constexpr const char *frame_checksum_about = "XXH64 of the frame's own nu
                             *grain_checksum_about = "XXH64 of the numbers of the frame's grains",
                             *checksum_comment = "two words of 32 bits, the high one first; for grainreel";
 
-// The beginning of both checksums of a frame: which frame it is, and in which file.
+// The beginning of both checksums of a frame. It depends on the frame's number and on what the file holds, so
+// that a frame in the wrong place is noticed.
 inline Checksum begin_checksum(std::size_t frame, std::size_t places, const std::vector<std::string>& species,
                                bool orientation) {
     Checksum sum;

@@ -183,7 +183,7 @@ void TrajectoryReader::Impl::read_turn(std::size_t index, Frame& frame, Checksum
     }
 }
 
-// Contact numbers; files of earlier versions do not have them.
+// The poses of planes and meshes; container and floor have theirs already.
 void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checksum& sum) const {
     const std::size_t bodies = info.bodies.size();
     if (bodies == 0) return;

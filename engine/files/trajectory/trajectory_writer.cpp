@@ -133,7 +133,7 @@ void TrajectoryWriter::Impl::find_variables() {
     find(grain_checksum);
 }
 
-// Finds out from the frames of the file which grains there have been.
+// Reads from the frames of the file which grains there have been.
 void TrajectoryWriter::Impl::read_kept(const std::filesystem::path& path) {
     const TrajectoryReader before(path);
     for (std::size_t k = 0; k < frames; ++k) keep(before.read(k));

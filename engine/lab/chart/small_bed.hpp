@@ -1,5 +1,5 @@
-// A vibrated bed of a thousand grains, small enough to be run many times: how a step, a stiffness or a
-// method changes what is measured in it.
+// A vibrated bed of a thousand grains, small enough to be run many times. It shows how a step, a stiffness or
+// a method changes what is measured in a bed.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ struct BedSetting {
 };
 
 struct BedResult {
-    double height = 0;       // m, mean height over the moving floor, averaged over the second half
-    double temperature = 0;  // m2/s2, a third of the mean square of velocities against the bed's mean
-                             // velocity, in the second half
-    double contacts = 0;     // force-carrying contacts a grain, over the second half
+    // Height, temperature and contacts are means over the second half of the run.
+    double height = 0;       // m, mean height of the grains above the moving floor
+    double temperature = 0;  // m2/s2, a third of the mean square of velocities relative to the bed's mean
+    double contacts = 0;     // number of contacts of a grain that carry force
     double mixing = 0;       // Lacey's index of the lower half and the upper half, at the end
-    double cost = 0;         // ns of one thread for a grain and a simulated microsecond
+    double cost = 0;         // ns of one thread for each grain and each simulated microsecond
 };
 
 // Runs `duration` seconds of the bed on one thread. Returns nothing when goes_on(), asked every
@@ -30,9 +30,9 @@ struct BedResult {
 std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, double duration,
                                  const std::function<bool()>& goes_on);
 
-// How a setting changes the bed: the difference of its mean over the seeds from the reference's, in per
-// cent of the latter. `error` is the standard error of the difference, also in per cent; in
-// the reference's own row it is that of its mean.
+// How a setting changes the bed: the mean over the seeds minus that of the reference, in per cent of the
+// reference. Each `_error` is the standard error of the difference, also in per cent; in the reference's own
+// row it is that of its mean.
 struct BedDifference {
     std::string setting;
     int seeds = 0;

@@ -1,4 +1,5 @@
-// A few grains, faces and laws put together by hand, without scene and plan, for the experiments of charts.
+// A small simulation for the experiments of charts: a few grains, faces and laws put together by hand,
+// without a scene.
 #pragma once
 
 #include <cmath>

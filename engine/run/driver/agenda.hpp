@@ -1,6 +1,7 @@
-// At which steps a run stops, and why. FrameWishes: what a film or another program wants beyond the run's
-// files. KeptMoments: earlier moments that its frames need, for example for a picture with an exposure time.
-// Agenda: merges these with the rows of files and the key moments, in order of time.
+// At which steps a run stops, and why: for the frames that a film wants, for earlier moments that these need,
+// for rows of files, and for key moments. FrameWishes holds what a film or another program wants beyond the
+// run's files. KeptMoments keeps earlier moments, which a picture with an exposure time needs, for example.
+// Agenda merges all stops in order of time.
 #pragma once
 
 #include <cstdint>

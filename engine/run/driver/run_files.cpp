@@ -162,7 +162,7 @@ void RunFiles::add_measures(const Measures& measures) {
 namespace {
 
 constexpr int most_periods = 10;
-constexpr double late_share = 0.1;  // as a share of a run without a drive
+constexpr double late_share = 0.1;  // share of a run without a drive that the means are taken over
 constexpr double hair = 1e-3;       // tolerance as a share of a period, because rows are at whole steps
 
 }  // namespace

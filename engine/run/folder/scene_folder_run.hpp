@@ -23,8 +23,9 @@ class SceneFolderRun : public FolderRun {
     // A new run, with as many threads as the scene says, or as are useful. Throws UserError for mistakes in
     // scene, plan or request. Nothing is on disk then. The listener must outlive the run.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
-    // A run that goes on from `point` in the folder request.out, which is locked. A film's wishes are the
-    // former ones, in scene.wishes. Throws UserError or RunError; nothing in the folder has changed then.
+    // A run that goes on from `point` in the folder request.out, which is locked. What a film wants of the
+    // run is as before and stands in scene.wishes. Throws UserError or RunError; nothing in the folder has
+    // changed then.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
                    ResumePoint point, std::shared_ptr<FolderLock> lock);
 
@@ -41,7 +42,7 @@ class SceneFolderRun : public FolderRun {
     // `hands_out` is as in RunDriver::keep_former().
     void go_on_in(std::shared_ptr<FolderLock> lock, bool hands_out);
 
-    // Starts the driver with the wishes for the run. By default there are none.
+    // Starts the driver with the FrameWishes of a derived class. By default there are none.
     virtual void start() { driver_.start({}); }
     // Goes to the next wanted frame and takes it. Returns false after the last frame, and if told to stop.
     virtual bool next(const RunDriver::GoOn& go_on) { return driver_.next(go_on) != nullptr; }

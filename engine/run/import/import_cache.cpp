@@ -80,7 +80,7 @@ std::string text_of(const ReadingOptions& o) {
     return text;
 }
 
-// Identifies a file by what changes when it is written.
+// The key of an import: its options and, for each file, the name, size, inode and time of the last change.
 std::string key_of(const ImportRequest& request) {
     std::string text = request.program_version + "\n" + fs::absolute(request.from).string() + "\n" +
                        text_of(request.reading);
@@ -102,8 +102,8 @@ std::uintmax_t size_of(const fs::path& folder) {
     return bytes;
 }
 
-// Whether another process may be working on an unfinished import. Older than a day, it is of a process that
-// was killed.
+// Whether another process may be working on an unfinished import. One older than a day was left by a process
+// that was killed.
 bool is_being_made(const fs::path& folder) {
     std::error_code error;
     return folder.extension() == ".part" &&

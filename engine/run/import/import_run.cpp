@@ -122,8 +122,8 @@ std::vector<SavedContact> records_of(const std::vector<Touch>& touches, const Fr
         SavedContact one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
         if (touch.second >= 0) {
             const std::optional<std::size_t> second = row(touch.second);
-            // Contacts of grains that do not touch in the frame are left out: those across a periodic side or
-            // of another moment.
+            // Contacts of grains that do not touch in the frame are left out. They are contacts across a
+            // periodic side, or of another moment.
             if (!second) continue;
             const Vec3 between = frame.position[*second] - frame.position[*first];
             const double reach = frame.radius[*first] + frame.radius[*second];

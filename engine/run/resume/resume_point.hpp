@@ -17,7 +17,7 @@
 namespace grainreel {
 
 struct ResumePoint {
-    Simulation simulation;   // as in a checkpoint
+    Simulation simulation;   // in the state of the checkpoint
     std::int64_t first = 0;  // step at which the run began
     std::size_t frames = 0;  // frames in film_moments.nc that were handed out before
     std::filesystem::path checkpoint{};

@@ -27,7 +27,7 @@ namespace {
 // The largest share of the container's volume that spheres growing in layers fill without jamming. Random
 // packings of equal spheres end at 0.64, and one that can still be sheared ends near 0.55.
 constexpr double most_solid = 0.55;
-constexpr double closest_packing = 0.64;  // as a share of equal spheres at random
+constexpr double closest_packing = 0.64;  // solid fraction of equal spheres at random
 
 // Shortest period, in largest diameters. From two on, no grain touches two images of another; the half
 // diameter more is for neighbour lists, which may reach that far beyond contact.

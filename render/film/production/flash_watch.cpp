@@ -9,7 +9,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kChange = 0.1, kBright = 0.8;  // as a share of relative luminance
+constexpr double kChange = 0.1, kBright = 0.8;  // relative luminance
 constexpr std::size_t kMostTurns = 7;           // three pairs of changes, and half of one
 constexpr int kEvery = 4;                       // every fourth pixel is enough for a mean
 constexpr double kTogether = 0.05;              // s, within which changes count as one

@@ -100,7 +100,7 @@ class HeadReader {
         return true;
     }
 
-    // Whether it is a length that a program can compute with. Other bytes, read as doubles, mostly are not.
+    // Reads a length of the box, which must have a usual size. Wrong bytes, read as a double, mostly do not.
     bool length(double& to) {
         if (!number(to)) return false;
         constexpr double least = 1e-30, most = 1e30;

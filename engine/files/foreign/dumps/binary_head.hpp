@@ -50,7 +50,7 @@ struct BinaryForm {
     bool magic = false;    // begins with a magic word, since 2021
     bool swapped = false;  // the byte order is not that of this machine
     bool narrow = false;   // step and number of grains have 32 bits
-    Box box = Box::flags;  // in files without magic: with a word and flags before it, or without
+    Box box = Box::flags;  // in files without magic: whether a word and flags stand before the box
 };
 
 // What the head of a frame says.

@@ -91,7 +91,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-// One bit for each possible id.
+// Finds an id that comes twice, with one bit for each possible id.
 std::optional<BadId> doubled_among_near(const Values& ids, double least, double span) {
     std::vector<bool> seen(static_cast<std::size_t>(span) + 1);
     for (std::size_t row = 0; row < ids.size(); ++row) {

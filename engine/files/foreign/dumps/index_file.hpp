@@ -34,7 +34,8 @@ class Growth {
 // Hash of at most so many bytes before a place.
 std::uint64_t hash_before(const FileBytes& file, std::uint64_t place, std::size_t bytes);
 
-// Bytes of unpacked content from which on the pass over a file takes long enough to keep its index.
+// From so many bytes of unpacked content on, finding the frames of a file takes so long that its index is
+// kept.
 inline constexpr std::uint64_t long_pass = std::uint64_t{64} << 20;
 
 // Paths that the index of a file may have, in the order in which they are tried.
@@ -47,12 +48,12 @@ struct KeptIndex {
 
 // The kept index of a file; none where there is none, or where it is damaged or fits another state of the
 // file. It fits as long as inode, size, time of change and the hashes of the first and last bytes are the
-// same. It also serves a file that only became longer: the pass then begins at the old end. state: of the
-// file now.
+// same. It also serves a file that only became longer: then frames are looked for from the old end on. state:
+// of the file now.
 std::optional<KeptIndex> kept_index(const std::filesystem::path& file, const FileState& state);
 
-// Writes the index. If it cannot be written, nothing is said, and the next call makes the pass again. state:
-// of the file before the pass.
+// Writes the index. If it cannot be written, there is no message, and the next call looks for the frames
+// again. state: of the file before its frames were looked for.
 void keep_index(const std::filesystem::path& file, const FileState& state, const TextIndex& index);
 
 // The index as bytes, and back; none where they are damaged. These are for tests.

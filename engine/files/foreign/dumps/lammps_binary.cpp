@@ -37,7 +37,8 @@ class LammpsBinary : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const BinaryFrame& frame = index_.frames.at(index);
-        // A packed file is read on from the last frame that was read, and closed after the file's last frame.
+        // In a packed file, reading goes on after the last frame that was read. The file is closed after its
+        // last frame.
         const std::lock_guard lock(reading_);
         std::unique_ptr<ByteSource> source = std::move(kept_);
         if (!source) source = open_bytes(file_);

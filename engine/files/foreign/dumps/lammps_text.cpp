@@ -100,9 +100,9 @@ class LammpsText : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const DumpFrame& frame = index_.frames.at(index);
-        // A packed file is read on from the frame before, because a place in it can only be reached through
-        // all bytes before it. After the last frame the file is closed, so that a series of many files does
-        // not keep all of them open.
+        // In a packed file, reading goes on after the frame that was read last, because a place can only be
+        // reached through all bytes before it. After the last frame the file is closed, so that a series of
+        // many files does not keep all of them open.
         const std::lock_guard lock(reading_);
         std::unique_ptr<LineReader> lines = std::move(kept_);
         if (!lines) lines = std::make_unique<LineReader>(file_);

@@ -23,7 +23,7 @@ class HeadReader {
         : lines_(lines), file_(file), head_(head) {}
 
     HeadEnd read() {
-        bool passing = false;  // skipping the lines of an unknown item
+        bool passing = false;  // whether the lines of an unknown item are skipped now
         bool any = false;
         while (lines_.next_with_words(line_)) {
             if (!line_.text.starts_with(mark)) {

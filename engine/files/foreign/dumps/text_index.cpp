@@ -100,7 +100,7 @@ bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {
     const HeadEnd found = read_head(lines, file, head);
     if (found == HeadEnd::nothing) return false;
     if (found == HeadEnd::cut) {
-        // Only a time or units after the last rows belong to a next frame if other frames have them.
+        // A time or units alone after the last rows begin a next frame only if other frames have them.
         if (!frames.empty() && !head.step && (head.time || !head.units.empty()) && !timed)
             refuse_line(
                 file, head.line,
@@ -172,7 +172,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_words = 20000;  // number of words that are looked at
-constexpr std::size_t many = 12;           // so many words have the same form not by chance
+constexpr std::size_t many = 12;           // so many words do not have the same form by chance
 
 struct Form {
     std::size_t decimals = 0, exponent = 0, digits = 0;  // digits: number of significant ones

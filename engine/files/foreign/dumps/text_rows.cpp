@@ -95,7 +95,7 @@ std::string_view LineReader::lines() {
         if (fill()) continue;
         if (used_ == held_) return {};
         unended_ = true;
-        buffer_[held_] = '\n';  // in the extra room
+        buffer_[held_] = '\n';  // the buffer is longer than held_ can be
         return {buffer_.data() + used_, held_ - used_ + 1};
     }
 }

@@ -66,7 +66,7 @@ class LineReader {
 struct RowsToRead {
     std::vector<std::string> names;  // names of the columns
     std::int64_t rows = 0;
-    std::uint64_t bytes = 0;  // at most, of all rows together; it limits the memory that is asked for
+    std::uint64_t bytes = 0;  // most bytes of all rows together; limits the memory that is asked for
     bool pairs = false;       // the rows are not grains, and the columns can be anything
 };
 

@@ -170,7 +170,7 @@ constexpr std::size_t columns_of_file = 16;  // the first is the time
 constexpr std::array<const char*, 15> contact_names{
     "id1", "id2", "x",  "y",  "z",  "overlap", "tangential_overlap", "Fn", "Ft",
     "nx",  "ny",  "nz", "tx", "ty", "tz"};
-constexpr std::size_t first_place = 2;  // among the names
+constexpr std::size_t first_place = 2;  // index of "x" in contact_names
 
 std::optional<Numbers> numbers_of_remark(std::string_view line) {
     line = trimmed(line);

@@ -21,7 +21,7 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-// Rows that follow each other in the file.
+// A group of rows that follow each other in the file.
 struct Run {
     std::uint64_t byte = 0, lines = 0;  // where they begin; number of lines before them
     std::uint64_t rows = 0, last_line = 0;

@@ -165,7 +165,7 @@ bool TextFrames::grow() {
     if (now.size == seen_.size) return false;
     const std::lock_guard lock(reading_);
     const std::size_t before = moments_.size();
-    if (open_end_) {  // the line may be longer now
+    if (open_end_) {  // the file's last line may have become longer since
         next_ = places_.back();
         places_.pop_back();
         moments_.pop_back();

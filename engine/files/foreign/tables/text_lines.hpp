@@ -1,6 +1,6 @@
 // TextLines gives the lines of a text file, packed or not, with their numbers and places. TextFrames is the
-// base of readers of text files in which frames follow each other. A format must say how one frame is passed
-// over and how it is read. (Dumps have a faster reader of their own, dumps/text_rows.hpp.)
+// base of readers of text files in which frames follow each other. A format must say how one frame is skipped
+// and how it is read. (Dumps have a faster reader of their own, dumps/text_rows.hpp.)
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ class TextLines {
 // recognised by these.
 std::vector<std::string_view> lines_of(const FileHead& head, std::size_t most);
 
-// A text file in which frames follow each other. It is passed over once to find where each frame begins.
+// A text file in which frames follow each other. One pass over the file finds where each frame begins.
 class TextFrames : public RawFile {
   public:
     const RawFacts& facts() const override { return facts_; }
@@ -73,10 +73,10 @@ class TextFrames : public RawFile {
 
     explicit TextFrames(const std::filesystem::path& file);
 
-    // Passes over one frame and gives its moment. `end`: only blank lines are left. `cut`: the file ends
-    // within the frame. Throws UserError where the file makes no sense.
+    // Skips one frame and sets its moment. Returns `end` if only blank lines are left, and `cut` if the file
+    // ends within the frame. Throws UserError where the file makes no sense.
     virtual Passed pass_over(TextLines& lines, RawMoment& moment) = 0;
-    // Reads a frame that was passed over before.
+    // Reads a frame that pass_over() has found.
     virtual RawFrame read_frame(TextLines& lines, const RawMoment& moment) const = 0;
 
     // Finds all frames. It is called after the constructor, since it calls virtual functions. Throws

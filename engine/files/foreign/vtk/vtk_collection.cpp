@@ -1,5 +1,5 @@
-// Reads lists of VTK files: .pvd and .series of ParaView, .vtm of VTK and LIGGGHTS. Each time that the list
-// names is a frame, made of one or several files (vtk_parts.hpp).
+// Reads lists of VTK files: .pvd and .series of ParaView, .vtm of VTK and LIGGGHTS. For each time in the list
+// there is a frame, made of one or several files (vtk_parts.hpp).
 
 #include <fmt/format.h>
 #include <algorithm>

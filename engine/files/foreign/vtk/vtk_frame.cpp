@@ -278,7 +278,7 @@ RawFrame frame_of(VtkContents&& contents) {
     frame.time = contents.time;
     for (VtkPiece& piece : contents.pieces) {
         std::vector<RawWall> walls = walls_of(piece);
-        // These are pieces of one surface that several processes wrote.
+        // Two walls that can be joined are pieces of one surface, which several processes wrote.
         if (walls.size() == 1 && frame.walls.size() == 1 && join_walls(frame.walls[0], walls[0]))
             walls.clear();
         std::move(walls.begin(), walls.end(), std::back_inserter(frame.walls));

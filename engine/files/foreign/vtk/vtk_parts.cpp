@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_depth = 4;  // so deep may lists lie within lists
+constexpr int most_depth = 4;  // most levels of lists within lists
 constexpr std::string_view domain_name = "Domain";
 
 // Reads the box, which LIGGGHTS writes as a rectilinear grid of one cell, or as a hexahedron if it is tilted.
@@ -223,7 +223,7 @@ std::vector<RawWall> split(TriangleMesh&& mesh, const std::vector<Solid>& solids
     std::size_t all = 0;
     for (const Solid& solid : solids) all += solid.triangles;
     std::vector<RawWall> walls;
-    // There may not be many, because each solid takes a look at all vertices.
+    // Very many solids are not split, because for each of them all vertices are looked at.
     if (solids.size() < 2 || solids.size() > 1000 || all != mesh.triangles.size()) {
         const std::size_t triangles = mesh.triangles.size();
         walls.push_back(
@@ -270,7 +270,8 @@ bool is_text(std::string_view bytes) {
     return bytes.find('\0') == std::string_view::npos;
 }
 
-// Whether a line "v 0 0 1", "f 1 2 3" or "mtllib a.mtl" comes before any other line.
+// Whether the text is an OBJ: a vertex "v 0 0 1" comes, and only comments, names, materials and normals stand
+// before it.
 bool is_obj(std::string_view bytes) {
     WordReader words(bytes);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {

@@ -1,4 +1,4 @@
-// Makes walls of the cells of a VTK file: polygons and strips become triangles, one wall for each body.
+// Makes walls from the cells of a VTK file: polygons and strips become triangles, and each body one wall.
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 #include <fmt/format.h>

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A vector of axes with z up, in axes with y up.
+// Turns a vector from axes with z up into axes with y up.
 Vec3 turned(const Vec3& v) {
     return {v.x(), v.z(), -v.y()};
 }
@@ -133,7 +133,7 @@ struct Sphere {
     std::vector<std::uint32_t> corners;
 };
 
-// An icosahedron whose triangles are divided by four twice, which makes 320 of them.
+// An icosahedron, each triangle of which is divided into four, twice. It has 320 triangles then.
 Sphere unit_sphere() {
     const double g = (1 + std::sqrt(5.0)) / 2;
     std::vector<Vec3> points;

@@ -248,7 +248,7 @@ Experiment detachment(NormalForce law, double e, const std::string& name) {
                     const double soft = soft_energy_left(law, e, gap * time * speed);
                     const double hard = HardColumn(gap, e).energy_left(), excess = soft / hard;
                     finding.curve.push_back({1 / gap, soft, hard});
-                    if (excess > 1.2) finding.measured = 1 / gap;  // at last: the shortest contact that fails
+                    if (excess > 1.2) finding.measured = 1 / gap;  // in the end: the shortest that fails
                 }
                 // At an overlap of 1 % a grain crosses its own diameter in some 30 contact times.
                 const Plan plan = plan_of(ImpactScene());

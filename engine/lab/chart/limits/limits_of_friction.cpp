@@ -300,10 +300,10 @@ Experiment loop_of(TangentialLaw law, const std::string& name, const std::string
 
 // The slip that the tangential spring still has after a cycle, divided by d0 p. Two touching grains go
 // through cycles that end where they began: the overlap is d = d0 (1 + cos(psi) / 2) while they turn by
-// p sin(psi), either as one body (`swing`) or each in its place (roll). A turn by dp counts as too much slip,
-// by d dp, with arms of the full radius when the grains swing, and with arms to the contact plane when they
-// roll. Either makes pi/2 in a cycle (derived; on the consequences see McNamara, Garcia-Rojo & Herrmann 2008,
-// Phys. Rev. E 77, 031304).
+// p sin(psi), either as one body (`swing`) or each in its place (roll). With arms of the full radius, a turn
+// by dp gives d dp too much slip when the grains swing; with arms to the contact plane, when they roll. In a
+// cycle this adds up to pi/2 (derived; on the consequences see McNamara, Garcia-Rojo & Herrmann 2008, Phys.
+// Rev. E 77, 031304).
 double slip_a_cycle(LeverArms arms, bool swing, int steps) {
     constexpr double depth = 1e-3 * bench_radius, swings = 0.1;
     constexpr int cycles = 10;

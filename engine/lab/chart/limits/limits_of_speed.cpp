@@ -56,7 +56,6 @@ Finding through_a_wall(bool) {
     constexpr double steps = 200;  // in a quarter period
     Finding finding;
     finding.theory = 1;
-    finding.usual = 0.02;  // overlap of 1 % of the diameter
     const double frequency = std::sqrt(bench_stiffness / bench_mass());
     const auto depth = [&](double speed) {
         SmallWorld world(latching_pair(bench_stiffness, 1), std::numbers::pi / 2 / frequency / steps);

@@ -129,7 +129,7 @@ Finding unloading_limit(bool) {
         SmallWorld& world = *whole;
         world.plan.grain = {spring(e, 0, 0)};
         world.start();  // now the contact has had the overlap `overlap`
-        const double back = 0.5 * e * e * overlap, less = 0.5 * overlap / plate;  // to half the force
+        const double back = 0.5 * e * e * overlap, less = 0.5 * overlap / plate;  // halve the force
         const std::size_t low = world.at(0), high = world.at(1);
         world.grains.place[high].position.z() += back;
         for (Face& face : world.around.faces) face.point.z() -= face.normal.z() * less;

@@ -14,8 +14,8 @@
 
 namespace grainreel {
 
-// The experiments of the stability chart. Each takes one method to where it fails and measures that, beside
-// the value of theory (its source stands at each experiment).
+// The experiments of the stability chart. Each drives one method until it fails and measures this limit, to
+// be compared with the limit of theory. The source of the theory is given at each experiment.
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,16 +24,16 @@ struct CurvePoint {
     double theory = unknown;
 };
 
-// The limit in the unit of `Experiment::varied`. Where a method has an error and no limit, theory is the
-// error allowed and measured is the largest one found.
+// The result: the limit in the unit of `Experiment::varied`. If a method has an error instead of a limit,
+// `theory` is the allowed error and `measured` the largest error found.
 struct Finding {
     double theory = unknown, measured = unknown;
-    double usual = unknown;  // value in a run with the plan's choices, where the plan decides on it
+    double usual = unknown;  // value of the varied quantity in a usual run, if the plan chooses it
     std::vector<CurvePoint> curve;
 };
 
-// loud: the health check stops the run. silent: nothing stops it; only a warning before the run, or care,
-// helps.
+// How a run fails beyond the limit. loud: the health check stops it. silent: nothing stops it; only a warning
+// before the run, or the user's care, helps.
 enum class Failure { loud, silent };
 
 struct Experiment {
@@ -77,7 +77,7 @@ std::vector<Experiment> stability_experiments();
 bool run_stability(const ChartRequest& request, const ChartWatcher& watcher);
 std::string stability_drawing();
 
-// How a disturbance of a harmonic oscillator grows in one step of an integrator: linear stability theory.
+// Linear stability theory: how a disturbance of a harmonic oscillator grows in one step of an integrator.
 
 // Spectral radius of the amplification matrix of one step; `step` is step x angular frequency.
 double growth_a_step(Integrator integrator, double step);

@@ -29,12 +29,14 @@ Plan plan_of(const CoolingGas& gas) {
     return plan;
 }
 
-// Haff's tau (s): 1/tau = w0 (1 - e^2) / 6 with Enskog's collision rate w = 4 sqrt(pi) n d^2 g sqrt(T/m).
-// Each collision takes (1 - e^2) T; g is that of Carnahan & Starling.
+// Haff's time tau (s): 1/tau = w0 (1 - e^2) / 6, where w0 is Enskog's collision rate at the start, w =
+// 4 sqrt(pi) n d^2 g sqrt(T/m), with the g of Carnahan & Starling. A collision takes energy in proportion to
+// (1 - e^2) T.
 double haff_time(const CoolingGas& setting, const Gas& gas) {
     const double solid = setting.solid_fraction, e = setting.restitution;
     const double g = (1 - solid / 2) / std::pow(1 - solid, 3);
-    // Two centres a diameter apart have less room than one: the mean of (1 - d|u_x|/L)(1 - d|u_y|/L)(..).
+    // Two centres a diameter d apart have less space than one in a cube of edge L: the share is the mean of
+    // (1 - d|u_x|/L)(1 - d|u_y|/L)(1 - d|u_z|/L) over all directions u, here to first order in d / L.
     const double diameter = 2 * bench_radius, free = gas.cube.free();
     const double near_walls = 1 - 1.5 * diameter / free;
     const double number_density = gas.cube.count() / std::pow(free, 3);
@@ -51,7 +53,7 @@ std::vector<double> cool(const CoolingGas& setting, const std::vector<double>& t
     cube.solid_fraction = setting.solid_fraction;
     cube.seed = setting.seed;
     Gas gas(plan_of(setting), cube);
-    constexpr double mixed = 0.1;  // s, in which the lattice becomes a gas
+    constexpr double mixed = 0.1;  // s, after which the lattice has become a gas
     gas.run_to(mixed);
     const double start = gas.temperature(), tau = haff_time(setting, gas);
     std::vector<double> temperatures;
@@ -66,7 +68,7 @@ double haff(double time) {
     return 1 / ((1 + time) * (1 + time));
 }
 
-// A cooling gas beside Haff's law (1983).
+// The comparison of a cooling gas with Haff's law (1983).
 
 namespace {
 

@@ -17,8 +17,8 @@ struct CoolingGas {
     Precision precision = Precision::full;
 };
 
-// Temperatures T over the first, at these rising times. Times are counted in Haff's tau from when the
-// lattice has become a gas.
+// Temperatures T divided by the first one, at these rising times. Times are in units of Haff's tau, from the
+// moment when the lattice has become a gas.
 std::vector<double> cool(const CoolingGas& gas, const std::vector<double>& times);
 
 // Haff's law: T / T0 = 1 / (1 + t/tau)^2.

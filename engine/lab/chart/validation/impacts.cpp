@@ -1,4 +1,4 @@
-// Oblique impacts beside the measurements of Kharaz et al. (2001) and Foerster et al. (1994).
+// Compares oblique impacts with the measurements of Kharaz et al. (2001) and Foerster et al. (1994).
 #include "engine/lab/chart/validation/impacts.hpp"
 
 #include <fmt/format.h>
@@ -88,8 +88,8 @@ struct Material {
     double e, mu, beta0;
 };
 
-// Rows for impacts of two equal spheres. Slips are over the normal speed before. The published value is the
-// larger of sliding and sticking.
+// Rows for impacts of two equal spheres. Slips are divided by the normal speed before the impact. The
+// published value is the larger of those for sliding and for sticking.
 std::string binary_rows(const Material& m, const NamedLaw& named, double step) {
     std::string rows;
     const double sliding = 3.5 * (1 + m.e) * m.mu;
@@ -135,7 +135,7 @@ namespace {
 using std::numbers::pi;
 
 using kharaz::radius, kharaz::density, kharaz::speed;
-constexpr double depth = 0.001 * radius;  // m, at normal incidence
+constexpr double depth = 0.001 * radius;  // m, largest overlap at normal incidence
 constexpr int steps_per_contact = 200;
 
 PairPlan pair_of(const ImpactLaw& law, double effective_mass, double effective_radius) {

@@ -12,16 +12,16 @@ struct ImpactLaw {
     TangentialLaw tangential = TangentialLaw::incremental_slip;
     double restitution = 1;
     double friction = 0;
-    double stiffness_ratio = 0.8;  // tangential over normal stiffness
+    double stiffness_ratio = 0.8;  // tangential divided by normal stiffness
     Precision precision = Precision::full;
 };
 
-// Velocities after the impact, over the speed of approach. For the plane and for equal spheres, the slip at
-// the contact is tangential - spin.
+// Velocities after the impact, divided by the speed of approach. For the plane and for equal spheres, the
+// slip at the contact is tangential - spin.
 struct Rebound {
     double normal;      // speed of the centres
     double tangential;  // speed of the centres
-    double spin;        // radius times spin; for an equal sphere, of both together
+    double spin;        // radius times spin; for two equal spheres the sum of both
 };
 
 // A sphere without spin meets a plane, or an equal sphere, at an angle from the normal (degrees, below 90).
@@ -29,7 +29,7 @@ struct Rebound {
 enum class Target { plane, equal_sphere };
 Rebound rebound(const ImpactLaw& law, double degrees, Target target);
 
-// The tangential ratio at which a sticking contact reverses its slip with the factor beta0: beta0 =
+// The stiffness ratio at which a sticking contact reverses its slip and multiplies it by beta0: beta0 =
 // -cos[sqrt(3.5 ratio) (pi/2) (1 + e)] (from the motion of two springs; Walton-Braun).
 double ratio_that_turns(double restitution, double beta0);
 
@@ -51,7 +51,7 @@ struct Point {
     double degrees;  // angle of incidence from the normal
     double value;
 };
-// Tangential velocity of the centre after the impact over that before.
+// Tangential velocity of the centre after the impact divided by that before.
 inline const std::vector<Point> tangential_restitution = {
     {2.24, 0.797},  {4.22, 0.746},  {9.84, 0.675},  {20.22, 0.599}, {30.36, 0.690},
     {39.54, 0.774}, {49.60, 0.848}, {71.07, 0.937}, {79.23, 0.970}, {85.17, 0.979}};

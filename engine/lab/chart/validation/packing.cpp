@@ -20,7 +20,7 @@ double natural_frequency() {  // 1/s
     return std::sqrt(stiffness / (density * sphere_volume(diameter / 2)));
 }
 
-// All grains, with random centres, between walls at +- edge/2 in y and z.
+// The grains, first with random centres, between walls at +- edge/2 in y and z.
 struct Crowd {
     const JammedPacking& setting;
     SmallWorld world;
@@ -45,12 +45,13 @@ struct Crowd {
         world.around.skin = 0.3 * diameter;
         world.start();
     }
-    // Multiplies all radii. All lists stay valid when grains shrink, so contacts keep their histories.
+    // Multiplies all radii by `factor`. Neighbour lists stay valid when grains shrink, so contacts keep their
+    // histories.
     void shrink(double factor) {
         for (std::size_t i = 0; i < world.grains.size(); ++i)
             world.grains.set_radius(i, factor * world.grains.place[i].radius, density);
     }
-    Vec3 inner() const {  // m, half the size of the measured part
+    Vec3 inner() const {  // m, half the extents of the part that is measured
         const double half = edge / 2 - setting.margin * diameter;
         return {edge / 2, half, half};
     }
@@ -84,7 +85,7 @@ struct Touching {
     std::int32_t first, second;  // second below 0: a wall
 };
 
-// Rattlers: grains with fewer contacts than hold a grain, where contacts with other rattlers do not count.
+// Rattlers: grains with fewer than `needed` contacts, where contacts with other rattlers do not count.
 std::vector<bool> rattlers(const std::vector<Touching>& contacts, std::size_t grains, int needed) {
     std::vector<bool> loose(grains, false);
     for (bool found = true; found;) {
@@ -116,7 +117,7 @@ PackingState state_of(const Crowd& crowd) {
         const double apart = grains.place[c.first].radius + grains.place[c.second].radius - c.overlap;
         state.pressure += c.normal_force * apart / (3 * volume) * diameter / stiffness;
     });
-    // Without friction one contact more than dimensions holds a grain; with friction two contacts do.
+    // Without friction it takes four contacts to hold a grain (one more than dimensions), with friction two.
     const std::vector<bool> loose = rattlers(contacts, grains.size(), crowd.setting.friction > 0 ? 2 : 4);
     double inside = 0, held = 0, ends = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -215,7 +216,7 @@ double volume_within(const Vec3& centre, double radius, const Vec3& low, const V
     return volume;
 }
 
-// Jammed packings beside O'Hern et al. (2003), Silbert (2010) and Onoda & Liniger (1990).
+// The comparison of jammed packings with O'Hern et al. (2003), Silbert (2010) and Onoda & Liniger (1990).
 
 namespace {
 
@@ -224,7 +225,8 @@ int seeds(bool quick) {
     return quick ? 1 : 3;
 }
 
-// A packing to jam. Without friction it is larger, because the published values for it are exact.
+// The packing for one comparison. Without friction it has more grains, because the published values are
+// precise there.
 JammedPacking packing_of(double friction, int seed, bool quick) {
     JammedPacking packing;
     packing.friction = friction;

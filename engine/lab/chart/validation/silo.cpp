@@ -20,7 +20,7 @@ using std::numbers::pi;
 constexpr double diameter = 0.004, radius = diameter / 2, density = bench_density;  // m, m, kg/m3
 constexpr double gravity = 9.81, stiffness = 2e3;                                   // m/s2, N/m
 constexpr double loose = 0.5, expected = 0.58;                                      // solid fractions
-constexpr double sinking = 0.05, way = 0.5 * diameter;                              // over sqrt(g d); m
+constexpr double sinking = 0.05, way = 0.5 * diameter;  // of the floor: speed in sqrt(g d), and m
 
 double mass() {
     return density * sphere_volume(radius);
@@ -38,7 +38,7 @@ struct Cylinder {
     int grains(double height) const {
         return static_cast<int>(expected * area() * height / sphere_volume(radius));
     }
-    // Adds the floor, then the wall; the order numbers them.
+    // Adds the floor, then the wall. So the floor has number 0 and the wall 1.
     void surround(SmallWorld& world) const {
         world.add_plane(Vec3(0, 0, 0), Vec3(0, 0, 1));
         Face wall;
@@ -70,8 +70,8 @@ Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
     return world.grains;
 }
 
-// Runs until the mean kinetic energy of a grain is below 1e-6 m g d. This happens before step 0, until when
-// the floor stands still.
+// Runs until the mean kinetic energy of a grain is below 1e-6 m g d. All of these steps lie before step 0, at
+// which the floor begins to move.
 void settle(SmallWorld& world) {
     constexpr double drag = 20;  // 1/s
     constexpr std::int64_t steps_per_look = 1000, most = 100 * steps_per_look;
@@ -80,7 +80,7 @@ void settle(SmallWorld& world) {
         world.run(steps_per_look, drag);
         if (kinetic_energy(world.grains).translation < rest) break;
     }
-    world.step = 0;  // the lists take this jump for free flight and are made again
+    world.step = 0;  // the loop takes the jump for a long flight of the grains and makes its lists again
 }
 
 // Sums over the contacts with floor and wall; vertical stress is computed from grains and wall.
@@ -162,11 +162,12 @@ JanssenFit fit_janssen(const std::vector<SiloLoad>& loads) {
     return {low, rms(low) * 4 * low};
 }
 
-// Columns in a cylinder beside Janssen's law (1895).
+// The comparison of columns in a cylinder with Janssen's law (1895).
 
 namespace {
 
-// Two walls: one that grains slide along, and one as rough as the grains, at which they roll.
+// The two walls of the comparison: grains slide along one, and roll along the other, which is as rough as the
+// grains.
 struct Wall {
     double friction;
     int seeds;

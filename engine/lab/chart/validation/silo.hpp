@@ -1,8 +1,8 @@
 // A column of grains in a cylinder: how much of their weight reaches the floor (Janssen 1895).
 //
-// The grains come to rest from a loose crowd. Then the floor sinks slowly by half a diameter, so that they
-// slide down the wall and its friction points upwards everywhere (as Vanel & Clement 1999, Eur. Phys. J. B
-// 11, 525, did it). Floor and wall forces are means over the second half of that way.
+// The grains fall from random places and come to rest. Then the floor sinks slowly by half a diameter, so
+// that they slide down the wall and its friction points upwards everywhere (as in Vanel & Clement 1999, Eur.
+// Phys. J. B 11, 525). Forces on floor and wall are means over the second half of this motion.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,29 @@
 namespace grainreel {
 
 struct SiloColumn {
-    double bore = 10;       // diameter of the cylinder over that of the grains
-    double aspect = 2;      // height of the filling over the bore, estimated with a solid fraction of 0.58
-    double friction = 0.5;  // among grains
+    double bore = 10;            // diameter of the cylinder divided by that of the grains
+    double aspect = 2;           // height of the filling divided by the bore, for a solid fraction of 0.58
+    double friction = 0.5;       // among grains
     double wall_friction = 0.2;  // lower, so that grains slide down the wall instead of rolling
     std::uint64_t seed = 1;
     Precision precision = Precision::full;
 };
 
 struct SiloLoad {
-    double filling = 0;   // mass of the grains over rho_b pi D^3 / 4, the mass of a column one bore high
-    double apparent = 0;  // mass that the floor carries, over the same mass
+    double filling = 0;   // mass of the grains, in units of rho_b pi D^3 / 4, a column as high as the bore D
+    double apparent = 0;  // mass that the floor carries, in the same unit
     double solid_fraction = 0;
     double stress_ratio =
-        0;                 // K: pressure on the wall over the vertical stress, both averaged over its height
-    double mobilised = 0;  // upward friction of the wall over friction coefficient times pressure
+        0;                 // K: mean pressure on the wall divided by the mean vertical stress in the grains
+    double mobilised = 0;  // upward friction of the wall divided by friction coefficient times pressure
     double resting = 0;    // like `apparent`, but before the floor sinks
 };
 SiloLoad load_of(const SiloColumn& column);
 
-// Janssen's law: the apparent mass of a filling, both over the mass of a column one bore high. It saturates
-// at 1 / (4 mu K).
+// Janssen's law: the apparent mass of a filling, both in the unit of SiloLoad. It saturates at 1 / (4 mu K).
 double janssen(double filling, double friction_times_ratio);
 
-// The mu K that fits best (least squares), and the rms of the residuals over the saturation mass.
+// The mu K that fits best (least squares), and the rms of the residuals divided by the saturation mass.
 struct JanssenFit {
     double friction_times_ratio = 0, residual = 0;
 };

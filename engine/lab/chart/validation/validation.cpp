@@ -23,7 +23,7 @@ bool run_validation(const ChartRequest& request, const ChartWatcher& watcher) {
                        [&](const ValidationPart* part) { return part->run(request, work); });
 }
 
-// The pictures of `grainreel chart validation`.
+// The commands for gnuplot that draw the tables of all parts.
 
 std::string validation_drawing() {
     return R"(# Draws the tables beside it: gnuplot validation.gp

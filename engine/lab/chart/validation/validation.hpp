@@ -1,5 +1,5 @@
-// `grainreel chart validation`: the engine beside published experiments and laws. Each part writes its own
-// tables into the folder: our measurements, and beside them the published ones.
+// `grainreel chart validation`: compares the engine with published experiments and laws. Each part writes its
+// own tables into the folder: our results, and beside them the published ones.
 #pragma once
 
 #include <algorithm>
