@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "build_info.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/program.hpp"
@@ -20,6 +19,7 @@
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/scheme.hpp"
 #include "engine/vector/instructions.hpp"
+#include "render/app/messages/build_info.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

@@ -14,8 +14,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "build_info.hpp"
-
 extern "C" {
 #include <libavcodec/version.h>
 #include <libavformat/version.h>
@@ -25,6 +23,7 @@ extern "C" {
 
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
+#include "render/app/messages/build_info.hpp"
 
 namespace grainreel {
 

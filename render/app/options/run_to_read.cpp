@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "build_info.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
@@ -14,6 +13,7 @@
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/app/messages/build_info.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
 

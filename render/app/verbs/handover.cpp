@@ -6,7 +6,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
-#include "build_info.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/carry.hpp"
@@ -17,6 +16,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/app/messages/build_info.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/stop_signal.hpp"
 #include "render/app/options/option_groups.hpp"
