@@ -54,7 +54,7 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
 std::string came_so_far(const fs::path& folder, const HandoverFacts& facts, double until, double wanted) {
     const JobEnd end = job_end(folder, facts);
     const std::string why = end.failure.empty() ? "" : end.failure + "; it";
-    return fmt::format("{} has come to {:.4g} s of {:.4g} s; what there is is drawn",
+    return fmt::format("{} has come to {:.4g} s of {:.4g} s; what there is is shown",
                        why.empty() ? name_of(facts.engine) : why, until, wanted);
 }
 
