@@ -1,4 +1,5 @@
-// How a job ended, restart files that a signal made, and the folder in which a run is made while its dump is read.
+// How a job ended, restart files that a signal made, and the folder in which a run is made while its dump is
+// read.
 #include "engine/handover/bring_back.hpp"
 
 #include <fmt/format.h>
@@ -75,9 +76,8 @@ TEST_P(JobEnds, QuoteTheEnginesErrorWithTheLineOfTheDeck) {
     write_text(job_ / status_name, "1\n");
     write_text(job_ / deck_name(GetParam()), "units si\nrun 5\n");
     write_text(job_ / log_name(GetParam()), "units si\nrun 5\nERROR: Lost atoms (thermo.cpp:438)\n");
-    EXPECT_EQ(end().failure,
-              fmt::format("{} ended: {}:2: ERROR: Lost atoms (thermo.cpp:438) (at `run 5`)", name(),
-                          deck_name(GetParam())));
+    EXPECT_EQ(end().failure, fmt::format("{} ended: {}:2: ERROR: Lost atoms (thermo.cpp:438) (at `run 5`)",
+                                         name(), deck_name(GetParam())));
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, JobEnds, testing::Values(PeerEngine::lammps, PeerEngine::liggghts),
