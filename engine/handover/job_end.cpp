@@ -41,7 +41,8 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
         end.failure = fmt::format("{} ended: {}", name_of(facts.engine), said);
         return end;
     }
-    if (says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught")) {
+    // Where a rank was killed, mpirun asks the others to end.
+    if (status <= 128 && says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught")) {
         end.failure = fmt::format("{} was asked to end by a signal", name_of(facts.engine));
         return end;
     }
