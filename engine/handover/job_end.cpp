@@ -41,7 +41,8 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
         end.failure = fmt::format("{} ended: {}", name_of(facts.engine), said);
         return end;
     }
-    if (says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught")) {
+    // Where a rank was killed, mpirun asks the others to end.
+    if (status <= 128 && says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught")) {
         end.failure = fmt::format("{} was asked to end by a signal", name_of(facts.engine));
         return end;
     }
@@ -54,7 +55,7 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
 std::string came_so_far(const fs::path& folder, const HandoverFacts& facts, double until, double wanted) {
     const JobEnd end = job_end(folder, facts);
     const std::string why = end.failure.empty() ? "" : end.failure + "; it";
-    return fmt::format("{} has come to {:.4g} s of {:.4g} s; what there is is drawn",
+    return fmt::format("{} has come to {:.4g} s of {:.4g} s; what there is is shown",
                        why.empty() ? name_of(facts.engine) : why, until, wanted);
 }
 

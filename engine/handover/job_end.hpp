@@ -19,7 +19,7 @@ struct JobEnd {
 };
 JobEnd job_end(const std::filesystem::path& folder, const HandoverFacts& facts);
 
-// "LAMMPS has come to 0.1 s of 0.3 s; what there is is drawn", with why it ended if that is known. until,
+// "LAMMPS has come to 0.1 s of 0.3 s; what there is is shown", with why it ended if that is known. until,
 // wanted: s.
 std::string came_so_far(const std::filesystem::path& folder, const HandoverFacts& facts, double until,
                         double wanted);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -180,8 +181,9 @@ class Deck {
             }
             add("fix feed{}_mix all particledistribution/discrete/numberbased {} {}{}", f, seeds_.next(),
                 sizes.size(), shares);
-            add("region feed{} block {} {} {} {} {} {} units box", f, feed.low.x(), feed.high.x(),
-                feed.low.y(), feed.high.y(), feed.low.z(), feed.high.z());
+            const auto [low, high] = clear_of_walls(feed, sizes.back() / 2);
+            add("region feed{} block {} {} {} {} {} {} units box", f, low.x(), high.x(), low.y(), high.y(),
+                low.z(), high.z());
             // Single grains would need an insertion every few hundred steps. This keeps the mean rate.
             const auto every = std::max<std::int64_t>(1, std::llround(1 / (feed.rate * carried_.step)));
             const auto start = there(std::max<std::int64_t>(1, std::llround(feed.from / carried_.step)));
@@ -190,6 +192,40 @@ class Deck {
                 "ntry_mc 10000",
                 f, seeds_.next(), f, count, feed.rate, every, start, three(feed.velocity), f);
         }
+    }
+
+    // The part of a feed's box in which grains of this radius (m) touch no wall. Our feeds look for free
+    // places; LIGGGHTS looks at other grains alone.
+    std::pair<Vec3, Vec3> clear_of_walls(const Feed& feed, double radius) const {
+        Vec3 low = feed.low, high = feed.high;
+        for (const Face& face : carried_.faces) {
+            if (face.body.number == kTrayBody) continue;
+            if (face.kind == Face::Kind::cylinder) {
+                // The square in the circle, unless all corners of the box are in it.
+                const double most = face.radius - radius;
+                const Vec3 corner = low.cwiseAbs().cwiseMax(high.cwiseAbs());
+                if (std::hypot(corner.x(), corner.y()) <= most) continue;
+                for (int k = 0; k < 2; ++k) {
+                    low[k] = std::max(low[k], face.point[k] - most / std::numbers::sqrt2);
+                    high[k] = std::min(high[k], face.point[k] + most / std::numbers::sqrt2);
+                }
+                continue;
+            }
+            // Along the axis to which the face is most at right angles, wherever along the others.
+            int axis = 0;
+            face.normal.cwiseAbs().maxCoeff(&axis);
+            double bound = radius + face.normal.dot(face.point);
+            for (int k = 0; k < 3; ++k)
+                if (k != axis) bound -= std::min(face.normal[k] * low[k], face.normal[k] * high[k]);
+            bound /= face.normal[axis];
+            if (face.normal[axis] > 0)
+                low[axis] = std::max(low[axis], bound);
+            else
+                high[axis] = std::min(high[axis], bound);
+        }
+        for (int k = 0; k < 3; ++k)  // where there is no room, the engine says so
+            if (low[k] > high[k]) low[k] = high[k] = 0.5 * (low[k] + high[k]);
+        return {low, high};
     }
 
     // Diameters (m) that are equally frequent: the middles of so many equal parts.

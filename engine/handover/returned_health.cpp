@@ -30,10 +30,11 @@ Grains grains_of(const Frame& frame, const Scene& scene) {
     return grains;
 }
 
-// What is known of a contact. ContactView has ten times as many numbers, and a large bed has millions of these.
+// What is known of a contact. ContactView has ten times as many numbers, and a large bed has millions of
+// these.
 struct Seen {
-    std::int32_t first, second;  // as in ContactView
-    bool glued;                  // second is a grain that is glued to this face
+    std::int32_t first, second;      // as in ContactView
+    bool glued;                      // second is a grain that is glued to this face
     double overlap, smaller_radius;  // m
 };
 
@@ -126,12 +127,13 @@ void ReturnedHealth::Impl::find_contacts(const Grains& grains, std::int64_t step
     for_overlapping(bodies, around.period, [&](std::int32_t a, std::int32_t b, double overlap) {
         if (a > b) std::swap(a, b);
         if (a >= free) return;  // two glued grains
-        const double smaller = std::min(bodies[static_cast<std::size_t>(a)].radius,
-                                        bodies[static_cast<std::size_t>(b)].radius);
+        const double smaller =
+            std::min(bodies[static_cast<std::size_t>(a)].radius, bodies[static_cast<std::size_t>(b)].radius);
         if (b < free)
             contacts.push_back({a, b, false, overlap, smaller});
         else
-            contacts.push_back({a, -1 - around.glued.face[static_cast<std::size_t>(b - free)], true, overlap, smaller});
+            contacts.push_back(
+                {a, -1 - around.glued.face[static_cast<std::size_t>(b - free)], true, overlap, smaller});
     });
     for (std::int32_t i = 0; i < free; ++i) find_walls(grains, pose, i);
 }
@@ -173,7 +175,8 @@ double ReturnedHealth::Impl::fallen(const Grains& grains, double& mass, double& 
         lift += grains.mass(i) * around.gravity.norm() * grains.place[i].radius;
         while (k < before.size() && before.id[k] < grains.id[i]) ++k;
         if (k < before.size() && before.id[k] == grains.id[i])
-            energy += grains.mass(i) * around.gravity.dot(grains.place[i].position - before.place[k].position);
+            energy +=
+                grains.mass(i) * around.gravity.dot(grains.place[i].position - before.place[k].position);
         else
             energy += 0.5 * grains.mass(i) * grains.motion[i].velocity.squaredNorm() +
                       0.5 * grains.inertia(i) * grains.motion[i].spin.squaredNorm();
@@ -193,9 +196,9 @@ void ReturnedHealth::Impl::check_energy(const Grains& grains, const Account& now
     const double got = fallen(grains, mass, lift);
     const double own = own_speed(around, plan), speed = peaks.speed + own, passed = now.time - then.time;
     const double momentum = std::max(then.momentum, now.momentum);
-    const double by_walls = kSlack * (speed * (then.momentum + now.momentum) +
-                                      (peaks.acceleration * passed + own) * momentum +
-                                      mass * around.gravity.norm() * speed * passed);
+    const double by_walls =
+        kSlack * (speed * (then.momentum + now.momentum) + (peaks.acceleration * passed + own) * momentum +
+                  mass * around.gravity.norm() * speed * passed);
     const double gained = now.kinetic + now.stored - then.kinetic - then.stored - got;
     if (!(gained > by_walls + kShareOfMotion * (now.kinetic + then.kinetic + then.stored) + lift)) return;
     throw RunError(energy_gained_text(

@@ -7,7 +7,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/run/driver/first_failure.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/stop_signal.hpp"

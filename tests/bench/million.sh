@@ -83,7 +83,7 @@ stage join "$movie" join part-1 part-2 part-3 part-4 --out film.mp4
         }
         END {
             steps += last - begin; all += cpu
-            printf "%d steps in %.1f s: %.2f M grain-steps/s\n", steps, all, all > 0 ? steps * n / all / 1e6 : 0
+            printf "%d steps in %.1f s: %.2f M grain-steps/s\n", steps, all, (all > 0 ? steps * n / all / 1e6 : 0)
         }' job/log.*
-    head -c 400 part-4.txt | head -n 2
+    grep -h '^took' part-*.txt
 } | tee -a stages.txt

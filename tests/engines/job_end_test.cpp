@@ -1,5 +1,5 @@
-// Jobs that end early, by run.sh under MPI: a rank that is killed, and a signal to the script as a cluster sends
-// it. What there is comes back.
+// Jobs that end early, by run.sh under MPI: a rank that is killed, and a signal to the script as a cluster
+// sends it. What there is comes back.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ TEST_P(EarlyEnd, ARankThatIsKilledLeavesWhatThereIs) {
     EXPECT_FALSE(run.whole);
     ASSERT_EQ(run.news.size(), 1u);
     EXPECT_THAT(run.news[0], HasSubstr(fmt::format("{} was ended by signal 9", name_of(GetParam()))));
-    EXPECT_THAT(run.news[0], HasSubstr(fmt::format("{:.4g} s of 400 s; what there is is drawn", run.until)));
+    EXPECT_THAT(run.news[0], HasSubstr(fmt::format("{:.4g} s of 400 s; what there is is shown", run.until)));
 }
 
 // The ranks end with the script. LIGGGHTS then writes a restart file of that moment, from which it goes on.

@@ -1,9 +1,13 @@
 // What is carried to another engine, what is changed by name, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <array>
+#include <cmath>
+#include <sstream>
 
 #include "engine/base/error.hpp"
 #include "engine/handover/carry.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
@@ -111,6 +115,38 @@ TEST(DumpStretches, JoinEvenSteps) {
     EXPECT_EQ(all[0].count, 3);
     EXPECT_EQ(all[1].from, 30);
     EXPECT_EQ(all[1].every, 5);
+}
+
+// The corners of the first feed's region in the deck of LIGGGHTS.
+std::array<double, 6> region_of_feed(const std::string& text) {
+    CarryRequest request;
+    request.engine = PeerEngine::liggghts;
+    const std::string deck = liggghts_deck(carried_of(text, request)), begin = "region feed0 block ";
+    std::istringstream numbers(deck.substr(deck.find(begin) + begin.size()));
+    std::array<double, 6> corners{};
+    for (double& one : corners) numbers >> one;
+    return corners;
+}
+
+// LIGGGHTS looks at other grains when it adds one, but not at walls. Grains have a radius of 2 mm.
+TEST(Feeds, AreClearOfWallsInLiggghts) {
+    const std::string feed = "[[feed]]\nspecies = \"ball\"\nrate = \"100 1/s\"\n";
+    const std::array<double, 6> box = region_of_feed(head + exact + feed);
+    for (const int k : {0, 2}) {
+        EXPECT_NEAR(box[static_cast<std::size_t>(k)], -(0.02 - 0.002), 1e-12) << k;
+        EXPECT_NEAR(box[static_cast<std::size_t>(k) + 1], 0.02 - 0.002, 1e-12) << k;
+    }
+    EXPECT_LE(box[5], 0.06 - 0.002 + 1e-12);
+
+    const std::array<double, 6> inside =
+        region_of_feed(head + exact + feed + "low = [-0.01, -0.01, 0.03]\nhigh = [0.01, 0.01, 0.05]\n");
+    EXPECT_EQ(inside, (std::array<double, 6>{-0.01, 0.01, -0.01, 0.01, 0.03, 0.05}));
+
+    std::string round = head + exact + feed;
+    const std::string square = "shape = \"box\"\nwidth = \"40 mm\"\ndepth = \"40 mm\"\n";
+    round.replace(round.find(square), square.size(), "shape = \"cylinder\"\ndiameter = \"40 mm\"\n");
+    const std::array<double, 6> cylinder = region_of_feed(round);
+    EXPECT_NEAR(std::hypot(cylinder[1], cylinder[3]), 0.02 - 0.002, 1e-12);
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ class ReturnedHealths : public testing::Test {
         plan_ = make_plan(scene_);
         health_ = std::make_unique<ReturnedHealth>(scene_, plan_);
     }
-    Frame frame(std::int64_t step, const std::vector<Vec3>& places, const std::vector<Vec3>& velocities = {}) {
+    Frame frame(std::int64_t step, const std::vector<Vec3>& places,
+                const std::vector<Vec3>& velocities = {}) {
         Frame made;
         made.step = step;
         made.time = plan_.clock.time(step);
@@ -91,9 +92,10 @@ TEST_F(ReturnedHealths, OverlapsAreOverTheSmallerRadius) {
 TEST_F(ReturnedHealths, TheLimitAndTheWordsAreOurs) {
     use(box());
     const double apart = 2 * kRadius * (1 - 0.17);  // 0.34 of a radius; the limit is a third
-    EXPECT_THAT(said(frame(50, {{0, 0, 0.05}, {apart, 0, 0.05}})),
-                HasSubstr("step 50 (0.001 s): grain 0 (ball) at (0, 0, 0.05) m overlaps grain 1 by 0.34 of the "
-                          "smaller radius; take a larger contact.stiffness or a smaller run.step"));
+    EXPECT_THAT(
+        said(frame(50, {{0, 0, 0.05}, {apart, 0, 0.05}})),
+        HasSubstr("step 50 (0.001 s): grain 0 (ball) at (0, 0, 0.05) m overlaps grain 1 by 0.34 of the "
+                  "smaller radius; take a larger contact.stiffness or a smaller run.step"));
     EXPECT_THAT(said(frame(50, {{0, 0, 0.6 * kRadius}})), HasSubstr("overlaps the floor by 0.40 of"));
     EXPECT_THAT(said(frame(50, {{0, 0, -1.1 * kRadius}})), HasSubstr("went through the floor"));
     EXPECT_THAT(said(frame(50, {{0, 0, 0.05}, {0, 0, 0.07}}, {{0, 0, 150}, {0, 0, 0}})),
@@ -102,9 +104,10 @@ TEST_F(ReturnedHealths, TheLimitAndTheWordsAreOurs) {
 
 // A bed of our own at rest, falling, shaken and after its outlet has opened is sound at each look.
 TEST_F(ReturnedHealths, OurOwnRunsAreSound) {
-    for (const char* more : {"", "[drive]\nfrequency = \"30 Hz\"\ng_level = 5\n",
-                             "[drive]\nfrequency = \"30 Hz\"\ng_level = 5\ndirection = [1, 1, 0]\n",
-                             "[container.turn]\naxis = [1, 0, 0]\nthrough = [0, 0, 0.05]\nrate = \"120 rpm\"\n"}) {
+    for (const char* more :
+         {"", "[drive]\nfrequency = \"30 Hz\"\ng_level = 5\n",
+          "[drive]\nfrequency = \"30 Hz\"\ng_level = 5\ndirection = [1, 1, 0]\n",
+          "[container.turn]\naxis = [1, 0, 0]\nthrough = [0, 0, 0.05]\nrate = \"120 rpm\"\n"}) {
         for (const std::int64_t every : {50, 2500}) {
             use(box(more));
             Simulation run(scene_, plan_, 1);
@@ -152,9 +155,11 @@ TEST(NearGrains, AreThoseOfAllPairs) {
         Pairs wanted, found;
         for (std::int32_t a = 0; a < 401; ++a)
             for (std::int32_t b = a + 1; b < 401; ++b) {
-                Vec3 apart = places[static_cast<std::size_t>(a)].position - places[static_cast<std::size_t>(b)].position;
+                Vec3 apart = places[static_cast<std::size_t>(a)].position -
+                             places[static_cast<std::size_t>(b)].position;
                 if (period > 0) apart.x() = std::remainder(apart.x(), period);
-                const double reach = places[static_cast<std::size_t>(a)].radius + places[static_cast<std::size_t>(b)].radius;
+                const double reach =
+                    places[static_cast<std::size_t>(a)].radius + places[static_cast<std::size_t>(b)].radius;
                 if (apart.norm() < reach) wanted.emplace(a, b);
             }
         for_overlapping(places, period, [&](std::int32_t a, std::int32_t b, double) {

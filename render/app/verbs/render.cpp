@@ -127,6 +127,9 @@ class Render final : public Verb {
     bool is_still() const { return request_.at || request_.frame; }
 
     int follow_job(Reporter& reporter) const {
+        if (const std::string option = given_reading(reading_); !option.empty())
+            throw UserError(fmt::format("{}: is for files of other programs, and {} was handed over by us",
+                                        option, request_.run.string()));
         FollowJob film(film_, {request_.run, {}, request_.sets, folder_around(request_.run), idle_},
                        reporter);
         keep_camera_file(camera_, film.scene().film.camera);

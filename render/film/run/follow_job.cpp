@@ -12,7 +12,7 @@
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/handover/job_end.hpp"
-#include "render/film/sampling/film_limits.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/film_request.hpp"
@@ -66,10 +66,10 @@ void FollowJob::wait_for_first() {
                                         job.failure.empty() ? "the job has ended" : job.failure));
         if (job.ended) break;
         if (idle_.seconds() >= what_.idle || stopped())
-            throw UserError(
-                fmt::format("{}: is not there, or has no whole moment yet (--follow waited {:.3g} s); has the "
-                            "job begun?",
-                            facts_.dump.string(), idle_.seconds()));
+            throw UserError(fmt::format(
+                "{}: is not there, or has no whole moment yet (--follow waited {:.3g} s); has the "
+                "job begun?",
+                facts_.dump.string(), idle_.seconds()));
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     idle_ = Stopwatch();
@@ -154,10 +154,10 @@ bool FollowJob::work() {
     desk_.record.scene_file = scene_.file;
     open_anew();
     begin_record(warnings());
-    desk_.listener.info(fmt::format("{}: follows {} until {:.6g} s; the film ends with the job, when nothing "
-                                    "new has come for {:.3g} s, or with Ctrl-C",
-                                    facts_.dump.string(), name_of(facts_.engine),
-                                    plan_.clock.time(facts_.last), what_.idle));
+    desk_.listener.info(
+        fmt::format("{}: follows {} until {:.6g} s; the film ends with the job, when nothing "
+                    "new has come for {:.3g} s, or with Ctrl-C",
+                    facts_.dump.string(), name_of(facts_.engine), plan_.clock.time(facts_.last), what_.idle));
     End end = End::none;
     while (end == End::none) {
         // A job that has ended before a look has written all that it does.
@@ -192,8 +192,8 @@ void FollowJob::finish(End end) {
     if (end == End::unsound) throw RunError(unsound_);
     const std::string far = came_so_far(what_.from, facts_, until, wanted);
     if (!job.failure.empty()) throw RunError(far);
-    desk_.listener.warning(end == End::idle ? fmt::format("nothing new has come for {:.3g} s; {}", what_.idle, far)
-                                            : far);
+    desk_.listener.warning(
+        end == End::idle ? fmt::format("nothing new has come for {:.3g} s; {}", what_.idle, far) : far);
 }
 
 void FollowJob::side_work_closed() {

@@ -1,5 +1,5 @@
-// Makes the film of a scene that was handed over while its job still runs: each picture is drawn once the dump
-// has its moment. The film ends with the job, when nothing new has come for a while, or with Ctrl-C.
+// Makes the film of a scene that was handed over while its job still runs: each picture is drawn once the
+// dump has its moment. The film ends with the job, when nothing new has come for a while, or with Ctrl-C.
 #pragma once
 
 #include <cstdint>

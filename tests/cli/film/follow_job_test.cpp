@@ -1,5 +1,5 @@
-// Tests of a scene that was handed over and is drawn while its job runs, or after the job has died. The dump is
-// written by the test: a ball that falls freely.
+// Tests of a scene that was handed over and is drawn while its job runs, or after the job has died. The dump
+// is written by the test: a ball that falls freely.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -96,9 +96,7 @@ class FollowedJob : public testing::Test {
         });
     }
     int drawn() { return decoded_pictures(here / "film/movie.mp4"); }
-    std::string status_of_film() {
-        return nlohmann::json::parse(text_of(here / "film/run.json"))["status"];
-    }
+    std::string status_of_film() { return nlohmann::json::parse(text_of(here / "film/run.json"))["status"]; }
 
     TemporaryFolder here;
 };
@@ -120,7 +118,8 @@ TEST_F(FollowedJob, IsDrawnBesideTheJob) {
     EXPECT_EQ(status_of_film(), "complete");
     EXPECT_FALSE(fs::exists(here / "job/.following-1"));
 
-    const Ended again = program({"render", "job", "--frames", "--out", "again", "--set", "film.camera.reach=0.31"});
+    const Ended again =
+        program({"render", "job", "--frames", "--out", "again", "--set", "film.camera.reach=0.31"});
     EXPECT_EQ(again.status, 0) << again.err;
     EXPECT_EQ(decoded_pictures(here / "again/movie.mp4"), kPictures);
 }
