@@ -25,7 +25,7 @@ def gone_on(bench, here, scene, run, what):
     over = "has come to" in again.said()
     if again.status != 0 and not over:
         bench.crashed(again, what + ": resume")
-        early = not (run / "checkpoint.grs").exists()
+        early = not (run / "checkpoint.grs").exists() or not (run / "measures.csv").exists()
         if bench.check(early, f"{what}: resume says {again.said()}"):
             bench.count("had not begun")
         return
