@@ -7,8 +7,8 @@ Each scene runs once with PROGRAM on one thread. Then it runs on 2 and on 3 thre
 after 85 % of the time that the first run took, then `resume` goes on), and once with each OTHER PROGRAM: another compiler's,
 an installed one. With --instructions it also runs as on processors that have AVX2, SSE4, or nothing beyond plain x86-64
 (instructions.cpp, which is loaded before the program, tells Highway so, and the C library leaves out its own code for AVX and
-FMA); that needs a compiler and Highway's headers. final.csv, measures.csv, outflow.csv, contacts.nc and trajectory.nc are compared with the first run's; the
-last two only for PROGRAM itself, because they name the build. Prints a table.
+FMA); that needs a compiler and Highway's headers. final.csv, measures.csv, outflow.csv, contacts.nc and trajectory.nc are
+compared with the first run's; the last two only for PROGRAM itself, because they name the build. Prints a table.
 Exit status: 0 all alike, 1 a file differs, 2 a mistake. Processors without FMA may differ from those with it, but not from
 each other.
 """

@@ -1,5 +1,5 @@
 """Disks that are full: after so many bytes, or after so many files."""
-from tools import BUSY, LONGEST, SmallDisk, content, difference, record_of, scene_in
+from tools import SmallDisk, content, difference, record_of, scene_in
 
 PAGE = 4096  # bytes, in which a tmpfs counts
 
