@@ -56,6 +56,15 @@ def resumed(bench, disk, here, scene, run, room, what):
     bench.check(not apart, f"{what}: {apart} after resume")
 
 
+def page_made(bench, disk, run, ended, room, what):
+    """There was room for all but the page: a warning says so, and `resume` makes it."""
+    bench.check(b"the run has no page: " in ended.err, f"{what}: nothing is said of the page")
+    disk.change(room)
+    again = bench.run("resume", run)
+    bench.check(again.status == 0 and (run / "report.html").exists(), f"{what}: the page is not made: {again.said()}")
+    bench.count("pages made later")
+
+
 def case(bench, whole, options, more, what):
     here, scene = whole
     with SmallDisk(here / "disk", options) as disk:
@@ -65,6 +74,8 @@ def case(bench, whole, options, more, what):
         if ended.status == 0:
             apart = difference(here / "whole", run)
             bench.check(not apart, f"{what}: status 0, but {apart}")
+            if not (run / "report.html").exists():
+                page_made(bench, disk, run, ended, more, what)
             return
         check_left(bench, run, ended, what)
         resumed(bench, disk, here, scene, run, more, what)
