@@ -1,5 +1,5 @@
-// Loaded before a program that uses Highway (LD_PRELOAD), it answers for Highway which instructions the processor has: those that
-// GRAINREEL_TEST_TARGETS names, if the processor has them indeed.
+// Loaded before a program that uses Highway (LD_PRELOAD), it answers for Highway which instructions the
+// processor has: those that GRAINREEL_TEST_TARGETS names, if the processor has them indeed.
 #include <hwy/targets.h>
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/picture/gl/opengl.hpp"
+#include "render/picture/base/addresses.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -178,8 +178,8 @@ void check_max_size(const FilmedScene& scene, std::int64_t frames) {
 
 void check_addresses(const Film& film) {
     constexpr double bytes_a_pixel = 64;  // 42 were measured between 160x90 and 1920x1080
-    const double needed = static_cast<double>(gl::kAddressesToDraw) + bytes_a_pixel * pixels_of(film, 1);
-    if (gl::has_addresses(static_cast<std::size_t>(needed))) return;
+    const double needed = static_cast<double>(kAddressesOfFilm) + bytes_a_pixel * pixels_of(film, 1);
+    if (has_addresses(static_cast<std::size_t>(needed))) return;
     throw UserError(fmt::format(
         "the film needs {} of address space, and a limit (ulimit -v) leaves less; raise the limit, or "
         "leave out the film with --no-film",

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/picture/base/addresses.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -49,6 +51,7 @@ Config own_fonts() {
 // word. own: the context has only the two font files, so that words do not depend on what else is installed;
 // otherwise it has all fonts of the system.
 PangoContext* make_context(bool own) {
+    need_addresses(kAddressesOfFonts);
     const std::unique_ptr<PangoFontMap, Unref> map(
         pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
     if (const Config config = own ? own_fonts() : nullptr)

@@ -3,12 +3,12 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <array>
 #include <cstdlib>
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "render/picture/base/addresses.hpp"
 
 namespace grainreel::gl {
 namespace {
@@ -16,13 +16,6 @@ namespace {
 thread_local Context* current = nullptr;
 
 }  // namespace
-
-bool has_addresses(std::size_t bytes) {
-    void* const room = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (room == MAP_FAILED) return false;
-    ::munmap(room, bytes);
-    return true;
-}
 
 void missing_function(const char* name) {
     throw RunError(fmt::format("the OpenGL library lacks {}; install one that offers OpenGL 3.3", name));
@@ -67,11 +60,7 @@ void set_raster_threads(int raster_threads) {
 }
 
 std::unique_ptr<Context> make_context(Provider provider, int raster_threads) {
-    // A film has asked for all of it before; something was taken since.
-    if (!has_addresses(kAddressesToDraw / 2))
-        throw RunError(
-            "pictures cannot be drawn: a limit of address space (ulimit -v) leaves less than 256 MB; raise "
-            "it");
+    need_addresses(kAddressesOfContext);
     if (provider == Provider::egl) return make_egl_context(raster_threads);
     if (provider == Provider::osmesa) return make_osmesa_context(raster_threads);
     std::string missing;

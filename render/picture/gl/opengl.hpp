@@ -5,7 +5,6 @@
 #pragma once
 
 #include <GL/glcorearb.h>
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,13 +13,6 @@
 #include "render/picture/gl/provider.hpp"
 
 namespace grainreel::gl {
-
-// Whether so many bytes of addresses are still free. They run out only under a limit (`ulimit -v`). The
-// libraries that draw words and pictures end the process when they run out, so this is asked before.
-bool has_addresses(std::size_t bytes);
-
-// Addresses that Mesa, Pango and the encoder take for small pictures: 467 MB were measured.
-inline constexpr std::size_t kAddressesToDraw = 512'000'000;  // bytes
 
 // F(type of the pointer, name without "gl")
 #define GRAINREEL_GL_FUNCTIONS(F)                                \

@@ -1,4 +1,5 @@
 """Markup in every text that a scene, a study or a file's name brings to a page: it is shown as text, and nothing runs."""
+import json
 import re
 import shutil
 import subprocess
@@ -8,6 +9,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 from tools import scene_in
+from visitors import ask
 
 # Each text would leave what it stands in (text, attribute, script, comment, CDATA) and run `hit(N)`.
 EVIL = ["<script>hit(1)</script>", "</script><script>hit(2)</script>", '\\"><img src=x onerror=hit(3)>', "' onload='hit(4)' '",
@@ -114,10 +116,11 @@ class Looker(HTMLParser):
 
 
 def look_at(bench, page, what):
+    text = page.read_text(errors="replace") if isinstance(page, Path) else page
     looker = Looker()
-    looker.feed(page.read_text(errors="replace"))
+    looker.feed(text)
     bench.check(not looker.found, f"{what}: {looker.found[:3]}")
-    scripts = re.findall(r"<script>\s*hit", page.read_text(errors="replace"))
+    scripts = re.findall(r"<script>\s*hit", text)
     bench.check(not scripts, f"{what}: a script of the text's own")
     return looker.shown
 
@@ -135,6 +138,22 @@ def look_at_drawing(bench, drawing, what):
         foreign = part.tag.rsplit("}", 1)[-1] in ("script", "foreignObject", "iframe")
         bench.check(not (active or links or foreign), f"{what}: {drawing.name}: {part.tag} {part.attrib}")
     bench.count("drawings")
+
+
+def look_at_live_page(bench, run, evil):
+    """The page of `watch`, its state, and the links to files."""
+    process = bench.start("watch", run, "--port", "0", cwd=run.parent)
+    found = None
+    while found is None and (line := process.stderr.readline()):
+        found = re.search(rb"http://127\.0\.0\.1:(\d+)/", line)
+    if bench.check(found is not None, f"live page with {evil!r}: none"):
+        answer = ask(int(found[1]), "/").partition(b"\r\n\r\n")[2].decode(errors="replace")
+        shown = look_at(bench, answer, f"live page with {evil!r}")
+        bench.check(words_of(evil)[0] + " title" in shown, f"live page with {evil!r}: the title is not shown as it is")
+        json.loads(ask(int(found[1]), "/live/state").partition(b"\r\n\r\n")[2])
+    process.terminate()
+    bench.end(process)
+    bench.count("live pages")
 
 
 def words_of(evil):
@@ -164,6 +183,7 @@ def one_run(bench, folder, evil):
         look_at_drawing(bench, drawing, f"charts with {evil!r}")
     shown = look_at(bench, run / "report.html", f"page with {evil!r}")
     bench.check(plain + " title" in shown, f"page with {evil!r}: the title is not shown as it is")
+    look_at_live_page(bench, run, evil)
     return run / "report.html"
 
 

@@ -1,11 +1,9 @@
 """Runs that are stopped, halted or killed, and then go on."""
-import os
 import random
 import signal
-import subprocess
 import time
 
-from tools import difference, record_of, scene_in, wait_for
+from tools import difference, scene_in, wait_for
 
 
 def command(scene, run):
@@ -19,13 +17,13 @@ def whole_run(bench, name):
     return here, scene, took
 
 
-def gone_on(bench, here, scene, run, what):
+def gone_on(bench, here, run, what):
     """The run goes on, or has not begun and is made anew, and is the whole one then."""
     again = bench.run("resume", run)
     over = "has come to" in again.said()
     if again.status != 0 and not over:
         bench.crashed(again, what + ": resume")
-        early = not (run / "checkpoint.grs").exists()
+        early = not (run / "checkpoint.grs").exists() or not (run / "measures.csv").exists()
         if bench.check(early, f"{what}: resume says {again.said()}"):
             bench.count("had not begun")
         return
@@ -47,7 +45,7 @@ def kills(bench):
         if ended.status == 0:
             bench.count("ended before")
             continue
-        gone_on(bench, here, scene, run, f"killed at {k}/{moments}")
+        gone_on(bench, here, run, f"killed at {k}/{moments}")
 
 
 def asked(bench):
@@ -70,7 +68,7 @@ def asked(bench):
             continue
         bench.check(ended.status in [128 + one for one in signals], f"{what}: exit status {ended.status}")
         bench.check(not ended.errors, f"{what}: {ended.said()}")
-        gone_on(bench, here, scene, run, what)
+        gone_on(bench, here, run, what)
 
 
 def halted(bench):

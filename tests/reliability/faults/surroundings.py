@@ -5,7 +5,6 @@ import re
 import resource
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 from tools import BUSY, PLAIN, compiled, content, difference, scene_in

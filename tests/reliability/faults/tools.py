@@ -105,7 +105,7 @@ playback = 0.5
 """
 
 FILES = ("final.csv", "measures.csv", "outflow.csv", "trajectory.nc", "contacts.nc", "fields.nc", "film_moments.nc",
-         "key_moments.nc", "key_contacts.nc", "scene.toml")
+         "key_moments.nc", "key_contacts.nc", "scene.toml", "movie.mp4", "poster.png")
 
 
 @dataclass

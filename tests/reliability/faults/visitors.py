@@ -1,12 +1,9 @@
 """Slow, hostile and many visitors of a run's live page: the page answers the good ones, and the run does not notice."""
-import json
-import os
 import random
 import re
 import socket
 import threading
 import time
-from pathlib import Path
 
 from tools import difference, scene_in, wait_for
 
@@ -15,17 +12,20 @@ HOSTILE_PATHS = ["/../../etc/passwd", "/..%2f..%2fetc%2fpasswd", "/%2e%2e/%2e%2e
                  "/./../secret.txt", "/....//secret.txt", "/%c0%ae%c0%ae/secret.txt", "/live/../../secret.txt", "/.lock",
                  "/run.json/../../secret.txt", "http://evil.example/", "*", "", "/?key=" + "k" * 3000, "/" + "%2e" * 2000,
                  "/" + "a/" * 4000, "/%", "/%zz", "/\xff\xfe", "/link.txt", "/folder", "/folder/"]
-HOSTILE_TEXTS = [b"", b"\r\n", b"\0" * 5000, b"GET", b"GET / HTTP/9.9\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n", b"\x16\x03\x01\x02\x00\x01",
+HOSTILE_TEXTS = [b"", b"\r\n", b"\0" * 5000, b"GET", b"GET / HTTP/9.9\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n",
+                 b"\x16\x03\x01\x02\x00\x01",
                  b"GET / HTTP/1.1\r\nHost: {host}\r\nContent-Length: -1\r\n\r\n",
                  b"GET / HTTP/1.1\r\nHost: {host}\r\nContent-Length: 99999999999999999999\r\n\r\n",
                  b"POST / HTTP/1.1\r\nHost: {host}\r\nTransfer-Encoding: chunked\r\n\r\nffffffffffffffff\r\n",
                  b"POST / HTTP/1.1\r\nHost: {host}\r\nTransfer-Encoding: chunked\r\n\r\n-1\r\nx\r\n0\r\n\r\n",
                  b"GET / HTTP/1.1\r\nHost: {host}\r\nRange: bytes=-1,0-99999999999999999999\r\n\r\n",
                  b"GET / HTTP/1.1\r\nHost: {host}\r\nHost: evil\r\n\r\n", b"GET / HTTP/1.1\nHost: {host}\n\n",
-                 b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 5000 + b"\r\n", b"GET / HTTP/1.1\r\nHost: {host}\r\nCookie: " + b"c=" * 60000,
+                 b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 5000 + b"\r\n",
+                 b"GET / HTTP/1.1\r\nHost: {host}\r\nCookie: " + b"c=" * 60000,
                  b"GET /" + b"a" * 60000 + b" HTTP/1.1\r\n\r\n", b"CONNECT evil:1 HTTP/1.1\r\nHost: {host}\r\n\r\n",
                  b"TRACE / HTTP/1.1\r\nHost: {host}\r\n\r\n", b"BREW / HTTP/1.1\r\nHost: {host}\r\n\r\n",
-                 b"DELETE /run.json HTTP/1.1\r\nHost: {host}\r\n\r\n", b"PUT /run.json HTTP/1.1\r\nHost: {host}\r\nContent-Length: 1\r\n\r\nx"]
+                 b"DELETE /run.json HTTP/1.1\r\nHost: {host}\r\n\r\n",
+                 b"PUT /run.json HTTP/1.1\r\nHost: {host}\r\nContent-Length: 1\r\n\r\nx"]
 
 
 class Line:
@@ -71,7 +71,7 @@ def status(answer):
 class Watched:
     """A run that shows itself."""
 
-    def __init__(self, bench, here, scene, run):
+    def __init__(self, bench, scene, run):
         self.bench, self.run = bench, run
         self.process = bench.start("movie", scene, "--out", run, "--duration", "0.6 s", "--watch", "0", "--watch-host",
                                    "127.0.0.1")
@@ -100,7 +100,7 @@ def good_visitor(port, stop, answers):
         time.sleep(0.05)
 
 
-def hostile(port, folder):
+def hostile(port):
     """Questions that must not be answered with anything. Returns what was answered all the same."""
     found = []
     for path in HOSTILE_PATHS:
@@ -150,7 +150,7 @@ def visitors(bench):
     bench.must("movie", scene, "--out", here / "whole", "--duration", "0.6 s")
     for number in range(3 if bench.long else 1):
         run = here / f"run-{number}"
-        watched = Watched(bench, here, scene, run)
+        watched = Watched(bench, scene, run)
         if not bench.check(watched.port is not None, f"no page: {watched.said[-300:]}"):
             return
         stop, answers, slowly = threading.Event(), [], []
@@ -163,7 +163,7 @@ def visitors(bench):
         slow.start()
         wait_for(watched.process, run.exists)
         (run / "link.txt").symlink_to(here / "secret.txt")
-        found = hostile(watched.port, here)
+        found = hostile(watched.port)
         went_on = watched.process.poll() is None
         slow.join()
         stop.set()
