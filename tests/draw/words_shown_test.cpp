@@ -270,5 +270,30 @@ TEST(WordsShown, GrainsFadeBeforeTheyLeave) {
     EXPECT_TRUE(exit_fade(scene, open, 360).empty());
 }
 
+// Grains begin to fade half way down to the exit, or below the lowest place at which the floor's plate is
+// drawn. Seen level and without perspective, a row of pixels is a height.
+TEST(WordsShown, GrainsFadeBelowTheFloorAsItIsDrawn) {
+    for (const Vec3& direction : {Vec3(0, 0, 1), Vec3(0, 0.6, 0.8), Vec3(0, 1, 0)}) {
+        FilmedScene scene = wedge(640, 360);
+        scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.08};
+        scene.film.camera.azimuth = scene.film.camera.elevation = scene.film.camera.field_of_view = 0;
+        scene.drive.direction = direction;
+        scene.drive.amplitude = 0.004;
+        scene.film.exaggerate = 10;
+        const View view = view_of(scene);
+        const auto row_of = [&](double z) { return view.project(Vec3(0, 0, z)).y(); };
+        const double floor =
+            -1.4 * drawn_thickness(scene.container) - 0.04 * std::abs(scene.drive.direction.z());
+        const double begin = std::max(row_of(-0.04), row_of(floor)), end = row_of(-0.08);
+        ASSERT_GT(end - begin, 8);
+        const std::vector<std::uint32_t> rows = exit_fade(scene, view, 360);
+        ASSERT_EQ(rows.size(), 360u);
+        for (int y = 0; y < 360; ++y)
+            ASSERT_NEAR(rows[static_cast<std::size_t>(y)],
+                        255 * std::clamp((end - y - 0.5) / (end - begin), 0.0, 1.0), 1)
+                << "row " << y << " along " << direction.transpose();
+    }
+}
+
 }  // namespace
 }  // namespace grainreel::test

@@ -283,6 +283,26 @@ TEST(BedFrames, HaveTheFilmsColours) {
         }
 }
 
+// On a logarithmic scale equal ratios have equal distances, as on the film's colour bar.
+TEST(BedFrames, HaveTheColoursOfALogarithmicScale) {
+    const std::vector<Frame> frames = random_frames(2, 40);
+    FilmedScene scene;
+    scene.film.shows.colour.by = GrainValue::speed;
+    scene.film.shows.colour.range = {0.001, 0.5};
+    scene.film.shows.colour.logarithmic = true;
+    const MadeRun run(frames);
+    FilmColours film(scene, run, Clock(), 0);
+    BedContacts beside;
+    beside.film = &film;
+    const auto read = read_back(bed_frames(run, plenty, kNoPageProgress, beside));
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        for (std::size_t i = 0; i < frames[k].size(); ++i) {
+            const double share = std::log(frames[k].velocity[i].norm() / 0.001) / std::log(500);
+            EXPECT_EQ(read[k].at(frames[k].id[i]).film, 1 + std::lround(254 * std::clamp(share, 0.0, 1.0)))
+                << k << " " << i;
+        }
+}
+
 // The displacement of a grain since a moment a period earlier, if there is such a moment.
 TEST(BedFrames, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
     std::vector<Frame> frames = random_frames(3, 5);

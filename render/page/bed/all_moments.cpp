@@ -132,7 +132,7 @@ bool FilmColours::add_displacement(std::size_t index, Frame& frame) const {
 
 std::uint8_t FilmColours::byte_of(double value) const {
     if (std::isnan(value)) return 0;
-    double share = std::clamp((value - scale_.low()) / (scale_.high() - scale_.low()), 0.0, 1.0);
+    double share = std::clamp(scale_.share_of(value), 0.0, 1.0);
     if (const int bands = scale_.bands(); bands > 0)
         share = (std::min(std::floor(share * bands), bands - 1.0) + 0.5) / bands;
     return static_cast<std::uint8_t>(1 + std::lround(254 * share));

@@ -122,6 +122,7 @@ Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
             {"high", scale.high() / scale.unit_size()},
             {"unit", colouring.unit},
             {"bands", bands},
+            {"logarithmic", scale.logarithmic()},
             {"known", bed.film_coloured},
             {"colours", colours}};
 }

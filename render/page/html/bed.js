@@ -158,7 +158,7 @@ class BedPanel {
             this.colourings.push({name: "force (logarithmic)", by: 5, range: [0, 1], ends: this.forces.range, unit: "N", ramp: "sequential"});
         const {film} = facts;
         if (film)
-            this.colourings.push({name: `as in the film: ${film.title}`, by: asInFilm, range: [0, 1], ends: [film.low, film.high], unit: film.unit});
+            this.colourings.push({name: `as in the film: ${film.title}${film.logarithmic ? ", logarithmic" : ""}`, by: asInFilm, range: [0, 1], ends: [film.low, film.high], unit: film.unit});
     }
 
     /** Gives all beds the same colourings, each on a scale that suits all of them. */

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "engine/scene/bed.hpp"
-#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -168,17 +167,19 @@ namespace {
 constexpr double begins_at = 0.5;  // share of the way from the floor to the exit at which the fade begins
 constexpr double least_rows = 4;
 
-// Pixels from the top: the lowest point that the floor's plate reaches in the course of the film.
+// Pixels from the top: the lowest point that the floor's plate reaches in the course of the film, as it is
+// drawn.
 double lowest_of_floor(const FilmedScene& scene, const View& view) {
     const Container& c = scene.container;
     const double thick = 1.4 * drawn_thickness(c);
-    const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset : 0;
+    const Vec3 stroke = drawn_stroke(scene);
     const double x = (c.shape == Container::Shape::cylinder ? c.half_width : 0.5 * c.depth) + thick,
                  y = c.floor_half_width() + thick;
     double lowest = 0;
     for (const double side : {-1.0, 1.0})
         for (const double end : {-1.0, 1.0})
-            lowest = std::max(lowest, view.project(Vec3(side * x, end * y, -thick - stroke)).y());
+            for (const double way : {-1.0, 1.0})
+                lowest = std::max(lowest, view.project(Vec3(side * x, end * y, -thick) + way * stroke).y());
     return lowest;
 }
 

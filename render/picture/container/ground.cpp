@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
@@ -17,11 +16,28 @@ namespace grainreel {
 namespace {
 
 constexpr double kLeastRise = 0.25;  // sine of the key light's least elevation
+constexpr double kEdgeOn = 0.01;  // sine of the angle between light and plate below which there is no shadow
 
 double floor_reach(const Container& container) {
     const double half_depth =
         container.shape == Container::Shape::cylinder ? container.half_width : 0.5 * container.depth;
     return std::hypot(outer_floor_half_width(container), half_depth) + drawn_thickness(container);
+}
+
+// The lowest height that a point reaches in a turn.
+double lowest_in_turn(const Vec3& point, const BodyTurn& turn) {
+    const Vec3 arm = point - turn.through, along = arm.dot(turn.axis) * turn.axis, out = arm - along;
+    return turn.through.z() + along.z() - std::hypot(out.z(), turn.axis.cross(out).z());
+}
+
+// The lowest height that the drawn container reaches without the drive. A cylinder turns about its own axis,
+// so it stays where it is.
+double lowest_of(const Container& container) {
+    double lowest = -1.4 * drawn_thickness(container);
+    if (!container.turn || !is_prism(container)) return lowest;
+    for (const Vec3& corner : prism_corners(container, 1e300))
+        lowest = std::min(lowest, lowest_in_turn(corner, *container.turn));
+    return lowest;
 }
 
 // The means of five rows of kSide numbers. The rows are added one after the other.
@@ -39,13 +55,14 @@ ShadowMap::ShadowMap(const FilmedScene& scene)
       foot_(scene.container.tray ? tray_container(scene) : scene.container),
       low_plate_(-1.4 * drawn_thickness(foot_)),
       cells_(kSide * kSide) {
-    const double stroke =
-        scene.drive.present ? drive_peaks(scene.drive).offset * std::abs(scene.drive.direction.z()) : 0;
-    height_ = low_plate_ - stroke - 0.15 * drawn_thickness(container_);
-    if (meshes_.any())
-        height_ = std::min(height_, meshes_.lowest() - stroke - 0.15 * drawn_thickness(container_));
-    if (container_.shape == Container::Shape::mesh)
-        height_ = meshes_.lowest() - stroke - 0.15 * drawn_thickness(container_);
+    const Vec3 stroke = drawn_stroke(scene);
+    aside_ = stroke.head<2>().norm();
+    const auto below = [&](double lowest) {
+        return lowest - std::abs(stroke.z()) - 0.15 * drawn_thickness(container_);
+    };
+    height_ = below(lowest_of(foot_));
+    if (meshes_.any()) height_ = std::min(height_, below(meshes_.lowest()));
+    if (container_.shape == Container::Shape::mesh) height_ = below(meshes_.lowest());
     if (container_.tray) height_ = low_plate_ - container_.tray->depth - 0.15 * drawn_thickness(foot_);
 }
 
@@ -55,13 +72,15 @@ Eigen::Vector2d ShadowMap::fall(const Vec3& point, const Vec3& to_key) const {
     return (at - low_) * (kSide / side_);
 }
 
-// The map lies around the foot and reaches as far as the shadow of the container's whole height.
+// The map lies around the foot and reaches as far as the shadow of the container's whole height, wherever the
+// drive carries it.
 void ShadowMap::place(const Vec3& to_key) {
     low_ = {0, 0};
     side_ = kSide;  // one cell a metre: fall() then is in metres
-    if (container_.shape == Container::Shape::mesh) return place_around_extent(to_key);
+    if (container_.shape == Container::Shape::mesh || (container_.turn && is_prism(container_)))
+        return place_around_extent(to_key);
     const double reach =
-        std::max(floor_reach(foot_), std::hypot(container_.half_width, 0.5 * container_.depth));
+        std::max(floor_reach(foot_), std::hypot(container_.half_width, 0.5 * container_.depth)) + aside_;
     const Eigen::Vector2d tip = fall({0, 0, container_.height}, to_key);
     const Eigen::Vector2d low = tip.cwiseMin(Eigen::Vector2d::Zero()),
                           high = tip.cwiseMax(Eigen::Vector2d::Zero());
@@ -70,7 +89,8 @@ void ShadowMap::place(const Vec3& to_key) {
     low_ = middle.array() - 0.5 * side_;
 }
 
-// Places the map for a vessel, which may stand anywhere and whose grains throw their shadow from its height.
+// Places the map for a vessel, which may stand anywhere and whose grains throw their shadow from its height,
+// and for a container that turns.
 void ShadowMap::place_around_extent(const Vec3& to_key) {
     Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
     for (const Vec3& corner : extent_corners(extent_)) {
@@ -78,23 +98,31 @@ void ShadowMap::place_around_extent(const Vec3& to_key) {
         high = high.cwiseMax(fall(corner, to_key));
     }
     const Eigen::Vector2d middle = 0.5 * (low + high);
-    side_ = 1.4 * (high - low).maxCoeff();
+    side_ = 1.4 * (high - low).maxCoeff() + 2.8 * aside_;
     low_ = middle.array() - 0.5 * side_;
 }
 
-// Adds the floor's plate, or the tray's plate where there is a tray. Its shadow is dense at its foot.
+// Adds the floor's plate, or the tray's plate where there is a tray. Its shadow is dense at its foot. From
+// each cell the light is followed back to the plate, in the frame of the plate's body.
 void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
     const double half = outer_floor_half_width(foot_), cell = side_ / kSide;
     const bool round = foot_.shape == Container::Shape::cylinder;
     const double half_depth = round ? half : 0.5 * foot_.depth;
-    const Vec3 place = container_.tray ? Vec3(0, 0, -container_.tray->depth) : frame.floor().place;
+    BodyPose pose = frame.floor();
+    if (container_.tray) pose.place = Vec3(0, 0, -container_.tray->depth), pose.rotation.setIdentity();
+    const Quaternion back = pose.rotation.conjugate();
+    Vec3 to_light(0, 0, 1);
+    to_light.head<2>() = to_key.head<2>() / std::max(to_key.z(), kLeastRise);
+    const Vec3 up = back * to_light, step_x = back * Vec3(cell, 0, 0), step_y = back * Vec3(0, cell, 0);
+    const Vec3 first = pose.at_rest({low_.x() + 0.5 * cell, low_.y() + 0.5 * cell, height_});
+    if (std::abs(up.z()) < kEdgeOn * up.norm()) return;
     for (const double z : {low_plate_, 0.5 * low_plate_, 0.0}) {
-        const Eigen::Vector2d at = fall(Vec3(0, 0, z) + place, to_key);
         for (int j = 0; j < kSide; ++j)
             for (int i = 0; i < kSide; ++i) {
-                const double x = (i + 0.5 - at.x()) * cell, y = (j + 0.5 - at.y()) * cell;
-                const double out =
-                    round ? std::hypot(x, y) - half : std::max(std::abs(x) - half_depth, std::abs(y) - half);
+                const Vec3 from = first + i * step_x + j * step_y;
+                const Vec3 at = from + (z - from.z()) / up.z() * up;
+                const double out = round ? std::hypot(at.x(), at.y()) - half
+                                         : std::max(std::abs(at.x()) - half_depth, std::abs(at.y()) - half);
                 const double cover = std::clamp(0.5 - out / cell, 0.0, 1.0);
                 float& taken = cells_[static_cast<std::size_t>(j) * kSide + i];
                 taken = std::max(taken, static_cast<float>(4 * cover));
@@ -198,7 +226,7 @@ void Ground::update(const Frame& frame, const View& view) {
 }
 
 void Ground::darken() {
-    constexpr float kSeen = 0.5f;  // as a share of a level of 255: weaker shadows are not seen
+    constexpr float kSeen = 0.5f;  // in levels of 255; weaker shadows are not seen
     int left = kSide, right = 0, low = kSide, high = 0;
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i) {

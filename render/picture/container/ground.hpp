@@ -48,7 +48,7 @@ class ShadowMap {
     const MeshShadows meshes_;
     const Extent extent_;
     const Container foot_;  // what stands on the ground: the container, or the tray below it
-    double height_ = 0, low_plate_ = 0;
+    double height_ = 0, low_plate_ = 0, aside_ = 0;  // m; aside_: how far the drive is drawn to carry it
     Eigen::Vector2d low_{0, 0};
     double side_ = 1;
     std::vector<float> cells_, before_;

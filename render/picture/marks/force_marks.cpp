@@ -111,10 +111,15 @@ Vec3 last_vector(const Frame& frame, const std::string& name, const std::string&
     return vector;
 }
 
-// The force on a cylinder's wall acts all around it. Its arrow stands half way up the bed, at the wall's edge
-// in the picture.
+// The force on the wall of a cylinder that stands acts all around it. Its arrow stands half way up the bed,
+// at the wall's edge in the picture.
 Vec3 beside_bed(const FilmedScene& scene, const Face& wall) {
     return {0, wall.radius, 0.5 * fill_height(scene, packing)};
+}
+
+// Whether a cylinder lies on its side, so that its bed lies on its wall.
+bool lies_on_side(const Vec3& gravity) {
+    return gravity.head<2>().norm() > std::abs(gravity.z());
 }
 
 }  // namespace
@@ -123,12 +128,19 @@ double wall_force_scale(const FilmedScene& scene) {
     return usual_arrow * extent_of(scene).size().y() / scene.film.shows.wall_forces.scale;
 }
 
-// The moment M = r x F leaves the place along F open: r = F x M / F^2 + s F. The plane gives s.
-std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const Vec3& moment) {
-    const double across = force.dot(plane.normal);
+// The moment M = r x F leaves the place along F open: r = F x M / F^2 + s F. The wall gives s: of a cylinder
+// |r + s F| = R in x and y, and the larger s, where the force presses outwards.
+std::optional<Vec3> point_of_action(const Face& wall, const Vec3& force, const Vec3& moment) {
+    const bool round = wall.kind == Face::Kind::cylinder;
+    const double across = round ? force.head<2>().norm() : force.dot(wall.normal);
     if (!(std::abs(across) >= grazing * force.norm()) || force.isZero(0)) return std::nullopt;
     const Vec3 nearest = force.cross(moment) / force.squaredNorm();
-    return nearest + (plane.point - nearest).dot(plane.normal) / across * force;
+    if (!round) return nearest + (wall.point - nearest).dot(wall.normal) / across * force;
+    const Eigen::Vector2d along = force.head<2>() / across, from = nearest.head<2>() - wall.point.head<2>();
+    const double middle = from.dot(along);
+    const double half_chord2 = wall.radius * wall.radius - (from - middle * along).squaredNorm();
+    if (!(half_chord2 >= 0)) return std::nullopt;
+    return nearest + (std::sqrt(half_chord2) - middle) / across * force;
 }
 
 WallForceMarks::WallForceMarks(const FilmedScene& scene, const Palette& palette)
@@ -143,8 +155,8 @@ void WallForceMarks::draw(const View& view, const Frame& frame, Shapes& on) cons
     for (const Wall& wall : walls_) draw_wall(wall, view, frame, on);
 }
 
-// Draws the arrow of one wall. Moments of the container's faces are about the origin of its body; moments of
-// other faces are about a point of the face.
+// Draws the arrow of one wall. Moments of the container's faces are about the origin of its body, or about a
+// point of the axis where it turns; moments of other faces are about a point of the face.
 void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const {
     const Vec3 force = last_vector(frame, wall.name + "_force", "N");
     const Vec3 moment = last_vector(frame, wall.name + "_moment", "N.m");
@@ -152,17 +164,22 @@ void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& 
     Face face = wall.face;
     const bool round = face.kind == Face::Kind::cylinder;
     if (round && face.body.number == kTrayBody) return;  // the bed is not beside the tray's wall
+    const BodyPose pose = frame.body(static_cast<std::size_t>(face.body.number));
+    face.normal = pose.rotation * face.normal;
     if (!round && std::abs(face.normal.dot(view.forward)) > face_on) return;
-    const bool own = face.body.number >= kFirstPlaneBody;
-    const Vec3 origin = own ? face.point : Vec3(0, 0, 0);
-    face.point -= origin;
+    Vec3 origin(0, 0, 0);
+    if (face.body.number >= kFirstPlaneBody) origin = face.point;
+    if (face.body.turn) origin = face.body.turn->through;
+    origin = pose.moved(origin);
+    face.point = pose.moved(face.point) - origin;
+    const bool around = round && !lies_on_side(scene_.gravity);
     const std::optional<Vec3> acts =
-        round ? std::optional(beside_bed(scene_, face)) : point_of_action(face, force, moment);
+        around ? std::optional(beside_bed(scene_, wall.face)) : point_of_action(face, force, moment);
     if (!acts) return;
     const double longest = longest_arrow * extent_of(scene_).size().y();
     Vec3 along = wall_force_scale(scene_) * force;
     if (along.norm() > longest) along *= longest / along.norm();
-    const Vec3 tip = frame.body(static_cast<std::size_t>(face.body.number)).place + origin + *acts;
+    const Vec3 tip = (around ? pose.place : origin) + *acts;
     draw_arrow(on, view.project(tip - along), view.project(tip),
                {palette_.wall_force, palette_.background, 2.4 * pen_, pen_});
 }

@@ -58,9 +58,10 @@ void draw_point_forces(const View& view, const std::vector<PointForce>& forces, 
 // m: the length of a wall force's arrow for each N.
 double wall_force_scale(const FilmedScene& scene);
 
-// The point where the line of action of a force crosses a plane; none where the force runs along the plane
-// within 3 degrees. moment: N m, about the origin.
-std::optional<Vec3> point_of_action(const Face& plane, const Vec3& force, const Vec3& moment);
+// The point where the line of action of a force crosses a plane, or where it leaves a cylinder around the
+// z axis; none where the force runs along the wall within 3 degrees, or beside the cylinder. moment: N m,
+// about the origin.
+std::optional<Vec3> point_of_action(const Face& wall, const Vec3& force, const Vec3& moment);
 
 // Arrows of the mean force of the grains on each wall, from the last row of measures (instrument `walls`). An
 // arrow's tip is where the force acts on the wall.
