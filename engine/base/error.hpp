@@ -27,7 +27,8 @@ class RunError : public std::runtime_error {
 // What a failure says. The standard library's words for memory that is used up tell users nothing.
 inline std::string words_of(const std::exception& failure) {
     if (dynamic_cast<const std::bad_alloc*>(&failure) == nullptr) return failure.what();
-    return "not enough memory: all that the machine or a limit (ulimit -v) gives is used up; take fewer grains, "
+    return "not enough memory: all that the machine or a limit (ulimit -v) gives is used up; take fewer "
+           "grains, "
            "or a machine with more";
 }
 

@@ -1,8 +1,8 @@
 #include "render/app/messages/reporter.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
-#include <fcntl.h>
 #include <unistd.h>
 #include <cerrno>
 #include <cmath>

@@ -102,9 +102,9 @@ void print_result(std::string_view text);
 // made visible on a terminal only.
 void print_exact(std::string_view text);
 
-// If the program was started without stdin, stdout or stderr (`>&-`), opens something harmless in their place. Else a
-// file of the run would get the number of a stream, and messages would be written into it. What is printed on
-// such a stdout fails in close_results(). To be called before anything else is opened.
+// If the program was started without stdin, stdout or stderr (`>&-`), opens something harmless in their
+// place. Else a file of the run would get the number of a stream, and messages would be written into it. What
+// is printed on such a stdout fails in close_results(). To be called before anything else is opened.
 void open_missing_streams();
 
 // To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader

@@ -10,7 +10,7 @@
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/picture/base/addresses.hpp"
+#include "render/picture/gl/addresses.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/filmed_scene.hpp"

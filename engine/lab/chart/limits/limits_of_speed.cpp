@@ -82,7 +82,7 @@ Finding past_each_other(bool quick) {
     finding.theory = 1;
     const auto missed = [&](double chord) {  // share of phases at which the meeting is missed. chord: way of
                                              // a step divided by 2 (r_i + r_j)
-        constexpr double step = 1e-3;  // forces hardly matter here
+        constexpr double step = 1e-3;        // forces hardly matter here
         const int phases = quick ? 20 : 100;
         int count = 0;
         for (int phase = 0; phase < phases; ++phase)
