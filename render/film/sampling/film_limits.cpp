@@ -9,7 +9,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/film_writer.hpp"
-#include "render/picture/base/addresses.hpp"
+#include "render/picture/gl/addresses.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/picture/words/missing_letters.hpp"
 #include "render/scene/filmed_scene.hpp"

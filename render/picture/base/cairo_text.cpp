@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/picture/base/addresses.hpp"
+#include "render/picture/gl/addresses.hpp"
 
 namespace grainreel {
 

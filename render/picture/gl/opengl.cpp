@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
-#include "render/picture/base/addresses.hpp"
+#include "render/picture/gl/addresses.hpp"
 
 namespace grainreel::gl {
 namespace {

@@ -1,5 +1,5 @@
-// Asks for room before drawing begins. The libraries that draw words and pictures end the process when a limit
-// of address space (`ulimit -v`) stops them. So they are not called where little is left.
+// Asks for room before drawing begins. The libraries that draw words and pictures end the process when a
+// limit of address space (`ulimit -v`) stops them. So they are not called where little is left.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,8 +18,7 @@ inline constexpr std::size_t kAddressesOfFonts = 128'000'000;
 
 // Whether so many bytes of addresses are still free. They run out only under a limit.
 inline bool has_addresses(std::size_t bytes) {
-    void* const room =
-        ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    void* const room = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room == MAP_FAILED) return false;
     ::munmap(room, bytes);
     return true;
