@@ -121,7 +121,10 @@ TEST(DumpStretches, JoinEvenSteps) {
 std::array<double, 6> region_of_feed(const std::string& text) {
     CarryRequest request;
     request.engine = PeerEngine::liggghts;
-    const std::string deck = liggghts_deck(carried_of(text, request)), begin = "region feed0 block ";
+    CarriedScene carried = carried_of(text, request);
+    carried.low = Vec3(-1, -1, -1);  // m, room for the walls; the start sets it otherwise
+    carried.high = Vec3(1, 1, 1);
+    const std::string deck = liggghts_deck(carried), begin = "region feed0 block ";
     std::istringstream numbers(deck.substr(deck.find(begin) + begin.size()));
     std::array<double, 6> corners{};
     for (double& one : corners) numbers >> one;
