@@ -11,7 +11,7 @@
 #include "engine/measure/energy.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/scene/drive_schedule.hpp"
-#include "engine/start/scene_surroundings.hpp"
+#include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 
