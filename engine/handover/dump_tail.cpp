@@ -117,7 +117,7 @@ std::optional<DumpRows> DumpTail::next() {
             if (k == 8 && *head != kColumns) wrong(number, "has other columns");
         }
         // Until all rows can be there, the text is not looked at again.
-        if (whole && static_cast<std::int64_t>(text_.size() - at) >= rows * kShortestRow) {
+        if (whole && static_cast<std::int64_t>(text_.size() - at) / kShortestRow >= rows) {
             const auto count = static_cast<std::size_t>(rows);
             for (std::vector<Vec3>* list : {&frame.position, &frame.velocity, &frame.spin})
                 list->reserve(count);

@@ -96,7 +96,8 @@ inline std::vector<std::string> names(const RawTable& table) {
 inline std::vector<std::int64_t> counts(const RawFormat& format, std::string_view bytes) {
     const OneFile file(bytes);
     std::vector<std::int64_t> all;
-    for (const RawMoment& moment : format.open(file.path())->moments()) all.push_back(moment.grains);
+    const auto opened = format.open(file.path());
+    for (const RawMoment& moment : opened->moments()) all.push_back(moment.grains);
     return all;
 }
 
