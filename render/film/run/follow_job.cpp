@@ -197,11 +197,11 @@ void FollowJob::finish(End end) {
 }
 
 void FollowJob::side_work_closed() {
-    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.report().frames);
+    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.result().frames);
 }
 
 std::string FollowJob::stopped_text() const {
-    return fmt::format("stopped after {} frames", film_.report().frames);
+    return fmt::format("stopped after {} frames", film_.result().frames);
 }
 
 void FollowJob::report_written() {
