@@ -25,8 +25,9 @@ constexpr int kNap = 20;     // ms, between two checks
 constexpr int kGrace = 100;  // naps between SIGTERM and SIGKILL
 constexpr int kNoProgram = 127;
 
-// All that the new processes need. It is made before the fork, because between fork and exec only system
-// calls are allowed in a process with threads.
+// All that the new processes need. It is made before the fork. After the fork of a process with threads, only
+// system calls are allowed until exec, and the guard never calls exec. So nothing below, up to _exit, may
+// allocate memory or take a lock.
 struct Launch {
     char* const* words;
     const char* folder;
@@ -64,8 +65,8 @@ void close_all_but(int one, int other) {
     close_between(high + 1, 65535);
 }
 
-// Sends SIGKILL to each child of this process. Processes that these leave behind become our children and are
-// next.
+// Sends SIGKILL to each child of the guard. Their children then become the guard's, and the next call kills
+// them.
 void kill_children() {
     const int file = ::open("/proc/thread-self/children", O_RDONLY);
     if (file < 0) return;
@@ -84,7 +85,7 @@ void kill_children() {
     ::close(file);
 }
 
-// Repeats this until there is no child.
+// Kills and reaps children until there are none, for at most some five seconds.
 void end_children(pid_t program) {
     for (int k = 0; k < 50 * kGrace; ++k) {
         kill_children();
@@ -96,7 +97,8 @@ void end_children(pid_t program) {
     }
 }
 
-// Whether the guard was told to stop, or our process has ended.
+// Waits for a moment (kNap). Tells whether the pipe was closed: by stop(), or because the process that
+// started the guard has ended.
 bool is_to_stop(int alive) {
     pollfd look{alive, POLLIN, 0};
     return ::poll(&look, 1, kNap) > 0 && look.revents != 0;

@@ -1,6 +1,6 @@
-// Starts a program so that it and all processes that it starts end at the latest when this process ends. A
-// small process, the guard, waits for the program's end or for ours, adopts processes that the program leaves
-// behind, and ends all of them.
+// Starts a program so that it and all processes that it starts end a few seconds after this process at the
+// latest. A small process, the guard, waits for the program's end or for ours, adopts processes that the
+// program leaves behind, and ends all of them.
 //
 // If we are killed by a signal that cannot be caught, a pipe closes and the guard notices. If the guard is
 // killed, the program gets SIGTERM, which mpirun passes on to its ranks.
@@ -21,7 +21,7 @@ class GuardedProcess {
     // no process can be made.
     GuardedProcess(const std::vector<std::string>& words, const std::filesystem::path& folder,
                    const std::filesystem::path& output);
-    // Ends what still runs and waits for it, at most two seconds.
+    // Ends what still runs and waits for it. Programs have two seconds to end by themselves.
     ~GuardedProcess();
     GuardedProcess(const GuardedProcess&) = delete;
     GuardedProcess& operator=(const GuardedProcess&) = delete;

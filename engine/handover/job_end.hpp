@@ -1,4 +1,4 @@
-// How the job of a hand-over ended, as the files say that it left in its folder.
+// How the job of a hand-over ended, according to the files that it left in its folder.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,18 @@ namespace grainreel {
 
 // run.sh writes the exit status of mpirun into this file once it has ended.
 inline constexpr const char* status_name = "job.status";
-std::string log_name(PeerEngine engine);     // "log.lammps", which has the commands before an error
+std::string log_name(
+    PeerEngine engine);  // "log.lammps", the engine's own log, which also shows the command that failed
 std::string output_name(PeerEngine engine);  // "out.lammps"
 
 struct JobEnd {
-    bool ended = false;   // known to have ended; a job whose run.sh was killed leaves no word
-    std::string failure;  // what went wrong, one line; empty where nothing is known to have
+    bool ended = false;   // known to have ended; stays false if run.sh itself was killed
+    std::string failure;  // what went wrong, one line; empty if no failure is known
 };
 JobEnd job_end(const std::filesystem::path& folder, const HandoverFacts& facts);
 
-// "LAMMPS has come to 0.1 s of 0.3 s; what there is is shown", with why it ended if that is known. until,
-// wanted: s.
+// "LAMMPS has come to 0.1 s of 0.3 s; what there is is shown", with why it ended if that is known. until:
+// s, simulated so far. wanted: s, simulated in all.
 std::string came_so_far(const std::filesystem::path& folder, const HandoverFacts& facts, double until,
                         double wanted);
 

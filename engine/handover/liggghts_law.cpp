@@ -12,7 +12,8 @@ namespace grainreel {
 
 namespace {
 
-// The contact of two types, or of a type and a surface; none for two surfaces, which never touch.
+// The contact of two types, or of a type and a surface. Two surfaces never touch; for them it is some contact
+// of the second one.
 const CarriedPair& pair_at(const CarriedScene& carried, std::size_t a, std::size_t b) {
     const std::size_t types = carried.type_count();
     if (a < types && b < types) return carried.between(a, b);
@@ -54,7 +55,8 @@ LiggghtsLaw spring_dashpot(const CarriedScene& carried) {
     LiggghtsLaw law;
     law.model = "model hooke/stiffness tangential history";
     const bool pulls = any(carried, [](const CarriedPair& pair) { return pair.attraction; });
-    // This damping is added after Coulomb's limit, so it is off where the scene has none.
+    // LIGGGHTS adds tangential damping after Coulomb's limit. It is switched on only if some contact of the
+    // scene has such damping.
     const bool damps = any(carried, [](const CarriedPair& pair) { return pair.tangential_damping > 0; });
     law.flags = fmt::format("absolute_damping off limitForce {} tangential_damping {}", pulls ? "off" : "on",
                             damps ? "on" : "off");
@@ -66,7 +68,7 @@ LiggghtsLaw spring_dashpot(const CarriedScene& carried) {
     return law;
 }
 
-// Whether the law unloads along a steeper line. Such laws have no dashpot.
+// Adds the properties of a law that unloads along a steeper line. Such laws have no dashpot.
 void add_steeper(const CarriedScene& carried, const std::function<double(const CarriedPair&)>& ratio,
                  LiggghtsLaw& law) {
     law.properties.push_back(matrix(carried, "LoadingStiffness", stiffness_of));
@@ -113,7 +115,7 @@ double luding_depth(const CarriedPair& pair) {
 
 LiggghtsLaw liggghts_law(const CarriedScene& carried) {
     const CarriedLaw kind = law_of(carried);
-    // It was refused before, because there E and nu belong to types.
+    // Hertz' law has been refused before: LIGGGHTS takes E and nu for each type, not for each pair.
     GRAINREEL_CHECK(kind != CarriedLaw::hertz);
     LiggghtsLaw law = kind == CarriedLaw::luding      ? luding(carried)
                       : kind == CarriedLaw::edinburgh ? edinburgh(carried)

@@ -1,5 +1,6 @@
-// Joins a normal and a tangential law to the contact force between two grains, or a grain and a wall, and
-// runs it over a chunk of contacts. CONTRIBUTING.md, "A contact law", says how to add a law.
+// Combines a normal and a tangential law into one law for the contact force between two grains, or a grain
+// and a wall, and evaluates it for a chunk of contacts. CONTRIBUTING.md, "A contact law", says how to add a
+// law.
 #if defined(GRAINREEL_LAWS_CONTACT_LAW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_CONTACT_LAW_INL
 #undef GRAINREEL_LAWS_CONTACT_LAW_INL
@@ -39,9 +40,9 @@ struct ContactLaw {
     static constexpr bool uses_velocity = Normal::uses_velocity, has_dashpot = Normal::has_dashpot;
     static constexpr bool uses_mass = Normal::uses_mass, uses_radius = Normal::uses_radius;
 
-    // True if the normal law allows for the instant within the step at which the bodies touch, and the
-    // tangential law becomes more exact by that. Slip then counts from the touch, and the tangential force
-    // acts for as long as the normal force.
+    // True if the normal law takes into account at which instant of the step the contact began, and the
+    // tangential law gains accuracy by it. Slip then counts from that instant, and the tangential force acts
+    // for as long as the normal force.
     static constexpr bool weighs_onset = Normal::weighs_onset && Tangential::gains_by_onset;
 
     template <class R>
@@ -70,8 +71,8 @@ struct ContactLaw {
         }
     };
 
-    // The force (N) on body j, which may be a wall: the normal force along k, and the tangential force
-    // perpendicular to k.
+    // The force (N) on body j, which may be a wall: the normal force along k (touch.normal,
+    // from i to j), and the tangential force perpendicular to k.
     template <class R>
     struct Force {
         R normal;
@@ -79,8 +80,8 @@ struct ContactLaw {
     };
 
     // `velocity` (m/s) is the velocity of i's surface relative to j's between the last force and this one,
-    // and `step` (s) is the time between them. Dashpots take the velocity `ahead` steps later, 0.5 for
-    // Verlet.
+    // and `step` (s) is the time between them. Dashpots need the velocity `ahead` steps later;
+    // `ahead` is 0.5 for Verlet.
     template <class R>
     static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
                                      const Triple<R>& velocity, R step, R ahead) {
@@ -132,18 +133,18 @@ struct ContactLaw {
 
   private:
     // Dashpots need the velocity at the time of the force, which with Verlet is half a step ahead of the
-    // known velocity. The velocity is taken to go on changing as it did over the last step. For free grains
-    // this is exactly the half kick of the old force. A new contact has no earlier velocity and keeps its
-    // own.
+    // known velocity. The velocity is taken to go on changing as it did over the last step. For two
+    // grains that move by forces alone this is exactly the half kick of the old force. A new contact has no
+    // earlier velocity, and the known one is taken as it is.
     template <class R>
     static HWY_INLINE Triple<R> later(const Triple<R>& velocity, const Triple<R>& before, R ahead) {
         const auto known = before.squared() > R(0);
         return velocity.plus(select(known, velocity - before, Triple<R>{R(0), R(0), R(0)}), ahead);
     }
 
-    // The contact's own force has changed since the last step, and this change slows the bodies during `time`
-    // (s). The new velocity and the new force depend on each other. The dashpot is linear, so the velocity
-    // can be solved for.
+    // The contact's own force has changed since the last step, and this change alters the closing speed
+    // during `time` (s). The new velocity and the new force depend on each other. The dashpot is linear, so
+    // the velocity can be solved for.
     template <class R, class P>
     static HWY_INLINE void slow_down(Touch<R>& touch, const P& p, R force_before, R time) {
         const R elastic = Normal::spring_force(p, touch) - force_before;

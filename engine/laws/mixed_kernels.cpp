@@ -1,5 +1,6 @@
-// The kernels whose laws and histories are in floats, so that a register holds twice as many. Positions,
-// overlaps and sums of forces stay doubles.
+// The kernels whose laws and histories are in floats, so that a register holds twice as many numbers.
+// Positions and sums of forces stay doubles; overlaps are computed from doubles and then rounded. The file is
+// compiled once for each instruction set. A new law goes into list-inl.hpp; nothing changes here.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/laws/mixed_kernels.cpp"
 #include "engine/vector/targets.hpp"

@@ -1,4 +1,5 @@
-// Loads registers from the rows of chunks, and stores them.
+// Loads and stores registers from and to Rows. A Row (law_kernel.hpp) holds one number for each contact of a
+// chunk, and `c` is the first of the contacts in the register.
 #if defined(GRAINREEL_LAWS_ROW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_ROW_INL
 #undef GRAINREEL_LAWS_ROW_INL
@@ -12,7 +13,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// `Number` is the type of the numbers in a row: that of L in a step, double for observers.
+// `Number` is the type of the numbers in a row. In a step it is that of L. Observers keep doubles in rows,
+// even if L is of floats.
 template <class L, class Number = NumberOf<L>>
 HWY_INLINE L row_at(const Row& from, int c) {
     return load_as<L>(from.of<Number>() + c);

@@ -8,9 +8,9 @@
 
 namespace grainreel {
 
-// Directions of the rays that are tried for the winding number. As soon as two rays give the same answer, it
-// counts.
-constexpr std::array<int, 5> tried{1, 7, 11, 5, 14};
+// Numbers of the level directions (level_direction()) in which rays are sent for the winding number. The
+// first answer that two rays agree on is taken, so three rays are enough.
+constexpr std::array<int, 3> tried{1, 7, 11};
 
 bool EnclosedRoom::holds(const Vec3& place) const {
     if (slices_.empty() || !(place.z() >= base_ && place.z() <= top_)) return false;
@@ -52,7 +52,8 @@ const EnclosedRoom::Slice* EnclosedRoom::slice_at(double z) const {
     return above == slices_.begin() ? &slices_.front() : &above[-1];
 }
 
-// The value at height z of a line that is known at the two heights of Gauss's rule.
+// The value at height z of a number that is linear within a slice, and is stored at the two heights of
+// Gauss's rule.
 double EnclosedRoom::value_at(double z, Line Slice::*line) const {
     const Slice* const slice = slice_at(z);
     if (slice == nullptr) return 0;
@@ -67,7 +68,8 @@ double EnclosedRoom::volume_below(double z) const {
     if (slices_.empty() || z <= base_) return 0;
     if (z >= top_) return volume();
     const Slice& slice = *slice_at(z);
-    // The integral of the line is scaled so that a whole slice has its exact volume.
+    // The area is linear within the slice, and its value at the top follows from the slice's volume. If that
+    // value is cut off at 0, the result is scaled to keep the volume.
     const double low = std::max(0.0, value_at(slice.low, &Slice::area)), here = value_at(z, &Slice::area);
     const double high = std::max(0.0, 2 * slice.volume / (slice.high - slice.low) - low);
     const double whole = 0.5 * (low + high) * (slice.high - slice.low);
@@ -138,7 +140,8 @@ void RoomGrid::mark_free(const Surface& surface, const std::array<int, 3>& first
                 free_[static_cast<std::size_t>((z * kAcross + y) * kAcross + x)] = 1;
 }
 
-// A region lies in one layer of cells, because rays to all sides are level.
+// A region is one layer of cells high. A place is judged by level rays alone, so the answer may change from
+// one height to the next.
 void RoomGrid::answer_region(std::int32_t seed, const std::function<bool(const Vec3&)>& holds,
                              std::size_t most) {
     std::vector<std::int32_t> region{seed};

@@ -1,5 +1,5 @@
-// Rigid bodies, to which faces and meshes belong, and the drive that moves them (WallMotion). The bodies are
-// the container, its floor, each plane of the scene and each mesh.
+// Rigid bodies, whose surfaces are faces and meshes, and the drive, which moves some of them (WallMotion).
+// The bodies are the container, its floor, each plane of the scene, each mesh, and a tray that never moves.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,8 @@ struct Pose {
     double time = 0;         // s, since the start of the motion
 };
 
-// Position and motion of a body. "At rest" means before anything moves; a body's origin is then the scene's.
+// Position and motion of a body. "At rest" means before anything moves. The origin of each body is then the
+// origin of the scene.
 struct BodyPose {
     Vec3 place{0, 0, 0};                           // m, of the body's origin
     Quaternion rotation = Quaternion::Identity();  // about that origin
@@ -43,10 +44,12 @@ struct BodyPose {
 // The numbers of a scene's bodies: container and floor, whatever the shape of the container, then the planes
 // in their order, then the meshes.
 constexpr std::int32_t kContainerBody = 0, kFloorBody = 1, kFirstPlaneBody = 2;
-// The tray's number. It stands still and has no pose in files.
+// The number of the tray, which catches what flows out of an outlet. The tray stands still and has no pose in
+// files.
 constexpr std::int32_t kTrayBody = -1;
 
-// The motion of a body: with the drive or not, and by a motion of its own on top of it.
+// How a body moves: with the drive if `driven`, and on top of that by a steady velocity, a turn or a path of
+// its own.
 struct Body {
     std::int32_t number = kContainerBody;
     bool driven = false;
@@ -55,10 +58,10 @@ struct Body {
     std::shared_ptr<const MotionPath> path = {};
 
     bool turns() const { return turn || (path && path->turns()); }
-    bool has_own_motion() const { return turn || path; }  // a motion other than a steady velocity
+    bool has_own_motion() const { return turn || path; }  // a turn or a path
     BodyPose at(const Pose& drive) const;
-    // Displacement and velocity of all points of a body that has no motion of its own except a steady
-    // velocity.
+    // Displacement and velocity by drive and steady velocity. They hold for all points of the body if
+    // has_own_motion() is false.
     Vec3 place_at(const Pose& drive) const {
         return (driven ? drive.offset : Vec3(0, 0, 0)) + drive.time * velocity;
     }
@@ -76,8 +79,8 @@ inline std::int32_t first_mesh_body(const Scene& scene) {
 // The poses of all bodies.
 std::vector<BodyPose> poses_of(const std::vector<Body>& bodies, const Pose& drive);
 
-// Adds the poses of the planes at `time` (s), by the formula that moved them in the run. Frames in files of
-// an earlier version hold only the poses of container and floor.
+// For frames of files of an earlier version, which hold only container and floor: adds the poses of the
+// planes at `time` (s), by the formula that moved them in the run.
 void add_planes(const std::vector<FreeWall>& planes, double time, std::vector<BodyPose>& poses);
 
 // WallMotion gives the pose of the drive at each step.
@@ -89,14 +92,17 @@ class WallMotion {
     bool moving() const { return moving_; }
 
     // z_w = a s(t) sin(wt + phi), v_w = a (s w cos(wt + phi) + s' sin(wt + phi)), where s rises from 0 to 1
-    // over the ramp as 10u^3 - 15u^4 + 6u^5 (twice differentiable). Without a ramp the sine's start is taken
-    // off, z_w = a (sin(wt + phi) - sin phi): the container starts from rest position, though not from rest.
-    // The phase comes from the step count, so it does not drift. Before step 0 the walls are at rest.
+    // over the ramp as 10u^3 - 15u^4 + 6u^5 (twice differentiable), and u is the share of the ramp that has
+    // passed. z_w is the displacement along the drive's direction. Without a ramp, the sine's value at the
+    // start is subtracted, z_w = a (sin(wt + phi) - sin phi): the container starts in its place at rest,
+    // though not from rest. The phase comes from the step count, so it does not drift. Before step 0 nothing
+    // moves.
     Pose at(std::int64_t step) const { return at(step, 0); }
-    // The pose between two steps; `share` is the share of the step that has passed, from 0 to 1. In a stage
-    // z_w = a (sin(p) - sin phi), with the last term only without a ramp. The phase p goes on from the stage
-    // before; a and f are constant, or change as engine/scene/drive_schedule.hpp says. A tap is z_w = a (1 -
-    // cos wt): the walls go up and down once, from rest to rest.
+    // The pose between two steps; `share` is the share of the step that has passed, from 0 to 1. For a drive
+    // with stages (engine/scene/drive_schedule.hpp), z_w = a sin p, or a (sin p - sin phi) without a ramp.
+    // The phase p has no jump between stages, and a and w are constant or change as that file says. With t
+    // from the start of a tap, the tap is z_w = a (1 - cos wt): the walls go up and down once, from rest to
+    // rest.
     Pose at(std::int64_t step, double share) const;
 
   private:
@@ -111,7 +117,7 @@ class WallMotion {
     bool moving_ = false;
     double amplitude_ = 0, angular_frequency_ = 0, ramp_ = 0, start_phase_ = 0;
     std::vector<DriveSchedule::Piece>
-        pieces_;  // one for each stretch of the clock's changes; empty for a drive without stages
+        pieces_;  // what the drive does in each stretch of clock_.changes; empty for a drive without stages
     Vec3 direction_{0, 0, 1};
     Clock clock_;
 };

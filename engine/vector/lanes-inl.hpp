@@ -3,7 +3,7 @@
 // Highway's foreach_target.h.
 //
 // Multiplications and additions are fused where the code says so and the processor can do it. So AVX2 and
-// AVX-512 give the same bits, and SSE4 and plain code give others.
+// AVX-512 give the same bits. SSE4 and the code for plain numbers round twice and give other bits.
 #if defined(GRAINREEL_VECTOR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_LANES_INL
 #undef GRAINREEL_VECTOR_LANES_INL
@@ -34,7 +34,7 @@ struct MaskOf {
     friend HWY_INLINE MaskOf differ(MaskOf a, MaskOf b) { return {hn::Xor(a.bits, b.bits)}; }
     friend HWY_INLINE bool none(MaskOf m) { return hn::AllFalse(D(), m.bits); }
     friend HWY_INLINE bool all(MaskOf m) { return hn::AllTrue(D(), m.bits); }
-    friend HWY_INLINE std::uint64_t bits(MaskOf m) {  // the first lane is the lowest
+    friend HWY_INLINE std::uint64_t bits(MaskOf m) {  // lane 0 is the lowest bit
         static_assert(hn::MaxLanes(D()) <= 8);
         std::uint8_t byte[8] = {};
         hn::StoreMaskBits(D(), m.bits, byte);
@@ -139,7 +139,8 @@ HWY_INLINE bool all(bool m) {
     return m;
 }
 
-// Memory is laid out in blocks of 16 numbers, whatever the width; `at` is aligned to the register.
+// `at` must be aligned to the register. A type that consists of two registers (`Twice`) names the type of one
+// of them `Half`, and is loaded in two halves.
 template <class L = Lanes>
 HWY_INLINE L load(const typename L::Number* at) {
     if constexpr (requires { typename L::Half; })
@@ -152,8 +153,8 @@ HWY_INLINE void store(LanesOf<D> a, hn::TFromD<D>* at) {
     hn::Store(a.value, D(), at);
 }
 
-// Loads and stores where memory and register may differ in precision. A register of floats has as many lanes
-// as one of doubles, or twice as many.
+// Loads and stores where memory and register may differ in precision. A tag D of floats has as many lanes as
+// one of doubles (half a register), or twice as many (a whole one, which takes two registers of doubles).
 template <class D>
 requires(LanesOf<D>::count == kLanes) HWY_INLINE hn::Vec<D> rounded(D d, const double* at) {
     return hn::DemoteTo(d, hn::Load(Doubles(), at));

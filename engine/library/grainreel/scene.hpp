@@ -23,30 +23,32 @@ struct ContactNumbers {
     double contact_time = 0;    ///< s, how long a free impact lasts.
 };
 
-/// A scene that can be run as it is. It never changes, and its copies share it. The keys of scene files are
-/// in docs/reference/scenes.md of the program.
+/// A scene that can be run as it is. A Scene never changes, so copies share its data and are cheap. The keys
+/// of scene files are in docs/reference/scenes.md of the program.
 class Scene {
   public:
-    /// Reads a scene file, or a scene that is shipped with the program where there is no such file
+    /// Reads a scene file. If there is no such file, reads the scene of that name that is shipped with the
+    /// program
     /// ("wedge_segregation"). `settings` take precedence over the file: "run.duration=2 s",
     /// "species.big.count=30". Throws Error at the first mistake, with file, line and column.
     static Scene from_file(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
-    /// The same from text. `file` is its name in messages, and paths in the scene count from its folder.
+    /// The same from text. `file` is its name in messages, and paths in the scene are relative to its folder.
     static Scene from_text(std::string_view text, const std::filesystem::path& file = "scene.toml",
                            const std::vector<std::string>& settings = {});
 
     std::string name() const;                   ///< The file's stem.
     std::string title() const;                  ///< As the scene says; may be empty.
-    std::vector<std::string> species() const;   ///< Names; a grain's species is a place in this list.
+    std::vector<std::string> species() const;   ///< Names; a grain's species is an index into this list.
     std::int64_t grains() const;                ///< Those at the start and all that come later.
     double duration() const;                    ///< s, from the start of the drive.
     double step() const;                        ///< s, of one time step.
     std::int64_t steps() const;                 ///< Steps in the whole duration.
     double period() const;                      ///< s, of the drive; 0 without one.
-    std::vector<std::string> walls() const;     ///< Names, in the order of the numbers in contacts.
-    std::vector<std::string> warnings() const;  ///< What can be run but is perhaps a mistake; a line each.
+    std::vector<std::string> walls() const;     ///< Names; wall w is -1 - w in Contact::second.
+    std::vector<std::string> warnings() const;  ///< What can be run but may be a mistake; one line for each.
 
-    /// The contact between two species, or with an empty name for `second` between a species and the walls.
+    /// The contact between two species, or with an empty name for `second` between a species and the walls
+    /// that are not meshes.
     /// Throws Error where there is no such species.
     ContactNumbers contact(const std::string& first, const std::string& second = "") const;
 

@@ -30,7 +30,8 @@ Scene started_from(const Scene& scene, const fs::path& checkpoint) {
     return there;
 }
 
-// Loads the last checkpoint that is whole.
+// Loads the last usable checkpoint at or before `step`. If there is none, throws the error of the last one
+// that was tried.
 Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
                               int threads) {
     std::optional<UserError> mistake;
@@ -126,8 +127,8 @@ namespace {
 
 constexpr const char* kDamaged = "is damaged, or of another version of grainreel";
 
-// The text of a scene as this version would write it. Keys that an earlier version did not know get their
-// defaults.
+// The checkpoint's scene as this version would write it. Keys that an earlier version did not know get their
+// defaults. Returns `kept`, the text as it was written, if the scene cannot be read.
 std::string meant_today(const fs::path& checkpoint, const std::string& kept) {
     try {
         const Scene scene = scene_of_checkpoint(checkpoint);

@@ -1,4 +1,5 @@
-// The geometry of contacts between grains and walls that end, for a register of contacts at once.
+// The geometry of contacts between grains and plates, which are walls that end at an edge or a gap, for as
+// many contacts at once as a register holds.
 #include "engine/step/geometry/contact_geometry.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -10,11 +11,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// A grain at a wall that may end. The nearest point of the wall is the grain's centre minus v = A u + B s;
-// see distance_to_plate() (engine/state/container_faces.hpp).
+// A grain at a wall that may end. v = A u + B s points from the nearest point of the wall to the centre of
+// the grain; see distance_to_plate() (engine/state/container_faces.hpp). u is the distance from the endless
+// wall, and A (`across`) its direction. s < 0 says how far the centre lies beyond the edge, and B (`back`)
+// points back onto the wall.
 //
-// Where s < 0 the grain touches the edge, and v turns as the grain moves in the plane of A and B. About a
-// round wall or gap, v also goes round with the grain: by `round_share` of the grain's way along A x B.
+// Where s < 0 the nearest point is on the edge, and v turns as the grain moves in the plane of A and B. At a
+// round wall or gap, v also turns about the axis: if the grain moves by d along A x B, the tip of v moves by
+// `round_share` times d.
 struct AtPlate {
     Triple<Lanes> v, around;  // `around` = A x B, unit, or zero where there is no edge
     Lanes distance, radius, round_share;
@@ -48,7 +52,8 @@ HWY_INLINE AtPlate at_plate(const double* place, const WallState& walls, const s
     at.around = across.cross(back);
     at.distance = select(two_sided, root(multiply_add(u, u, s * s)), select(round, -u, u));
     at.radius = Lanes(grain.d);
-    const LanesMask round_gap = Lanes(end.a) > zero;  // a plane has a gap, and so has a round wall
+    const LanesMask round_gap =
+        Lanes(end.a) > zero;  // of planes; for round walls the next line has its own case
     at.round_share = select(round, u * one_over_rho, select(round_gap, s * one_over_rho, zero));
     at.at_edge = s < zero;
     return at;
@@ -93,10 +98,11 @@ void plates_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& o
         if (in.wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? at.distance : at.radius;
             const Triple<Lanes> rate = triple(load_bundles(motion + 4, 8, i));
-            // Of the motion perpendicular to k, only this part turns v.
             const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
             const Lanes along_edge = at.around.dot(velocity);
             const Triple<Lanes> upright = velocity.less(k, closing).less(at.around, along_edge);
+            // The part of the motion perpendicular to k that turns v: along the edge by round_share, and the
+            // rest where the nearest point is on the edge.
             const Triple<Lanes> across =
                 (upright * select(at.at_edge, one, zero)).plus(at.around, along_edge * at.round_share);
             const Lanes farther = select(at.at_edge, less_product(one, Lanes(2.0) * in_half, closing), one);

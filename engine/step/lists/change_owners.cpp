@@ -24,7 +24,8 @@ void count_contacts(const ThreadContacts& contacts, const std::vector<std::int32
 
 namespace {
 
-// Changes the history of a contact whose bodies swap places.
+// Flips the signs of those numbers of a history that change sign when the two bodies of a contact swap
+// places.
 void turn_history(const ContactGroup& group, Histories& histories, std::int32_t c) {
     for (int k = 0; k < group.history_size(); ++k) {
         if (group.turns(k)) histories.set(c, k, -histories.get(c, k));
@@ -45,7 +46,7 @@ void renumber_group(const ContactGroup& group, int thread, const Renumbering& to
         }
         table.renumber(c, a, b);
         const int wants = owner_of(to.after, a), wants_too = pairs ? owner_of(to.after, b) : wants;
-        if (had == thread) {  // two threads may have had the contact; this one hands it over
+        if (had == thread) {  // two threads may have it; the owner of its first body hands it over
             const auto is_new = [&](int other) { return other != had && other != had_too; };
             if (is_new(wants)) table.keep(c, wants, leaving);
             if (wants_too != wants && is_new(wants_too)) table.keep(c, wants_too, leaving);

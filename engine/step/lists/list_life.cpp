@@ -14,8 +14,9 @@ void ListLife::restart() {
     for (Thread& thread : threads_) thread.reach = {};
 }
 
-// Lists that lasted too few steps get a wider skin. Lists that lasted longer than pays get a narrower one.
-// With a period the skin stays, because a wider one could list a pair twice.
+// Lists that lasted too few steps get a wider skin. Lists that lasted very long get a narrower one, because a
+// wide skin lists many pairs in vain. If the bed is periodic along x, the skin stays: with a wider one a pair
+// could be near both directly and across the boundary, and be listed twice.
 void ListLife::set_next_skin(double lasted) {
     constexpr double kShort = 400, kLong = 1500;  // steps
     constexpr double kFactor = 1.25;

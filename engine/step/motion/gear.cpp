@@ -43,8 +43,9 @@ Vec3 predict(Grains& grains, const KickInput& in, std::int32_t begin, std::int32
     return fastest;
 }
 
-// Gear's coefficients are 1/6, 5/6, 1, 1/3 where a force gives the second derivative (positions), and 5/12,
-// 1, 1/2 where a torque gives the first derivative (spins).
+// For the scaled derivatives h^k/k! d^k x/dt^k, Gear's coefficients are 1/6, 5/6, 1, 1/3 where a force gives
+// the second derivative (positions), and 5/12, 1, 1/2 where a torque gives the first derivative (spins). So
+// h^2/12 below is 1/6 of h^2/2, and 5 h/12 is 5/6 of h/2.
 void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32_t end) {
     const double h = in.drift;
     for (std::int32_t i = begin; i < end; ++i) {

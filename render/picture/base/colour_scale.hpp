@@ -1,5 +1,6 @@
 // Turns a quantity's value into a colour: the colour maps, the scale that uses them, and the values that the
-// colour bar needs. A new map is an array of colours in colour_scale.cpp.
+// colour bar needs. A new map needs an enumerator (render/scene/film.hpp), its word
+// (render/scene/shown_values.hpp), and its colours and a case in colour_scale.cpp.
 #pragma once
 
 #include <array>
@@ -27,11 +28,12 @@ struct ClippedCount {
     }
 };
 
-// "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where no value lies beyond an end. of:
-// the things that are coloured, such as "grains".
+// "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where there is nothing to say. With
+// bands, values above the end do not count as beyond it. `of` names the things that are coloured, such as
+// "grains".
 std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of);
 
-// The same for the triangles of meshes: "walls by wear: ...".
+// The same for the triangles of meshes, but for values above the range alone: "walls by wear: ...".
 std::string clipped_words(const FilmWalls& walls, const ClippedCount& count);
 
 class ColourScale {

@@ -1,5 +1,5 @@
 // What the drawings of containers share: paints and dashes of sketches, side walls, floors with a hole, and
-// the scale in the lab.
+// the ruler that stands still beside the container.
 #include "render/picture/container/drawing_kit.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace grainreel {
 
 namespace {
 
-// For a camera that moves, glass becomes solid, and far becomes near, over 8 degrees on each side of the
-// place where they change. This is the sine of that angle.
+// Sine of 8 degrees: half the angle over which a part changes from glass to solid, and the far end becomes
+// the near one, while the camera moves or the container turns.
 const double fade = std::sin(8 * std::numbers::pi / 180);
 
 }  // namespace
@@ -37,6 +37,8 @@ Paint blend(const Paint& one, const Paint& other, double share_of_other) {
 }
 
 double Sketch::solid(const Vec3& point, const Vec3& normal) const {
+    // The change is shifted by `fade`, so that a part is wholly glass when the eye comes into its plane.
+    // There it moves from the layer behind the grains to the layer in front of them.
     const View& view = views_.at_rest;
     if (turned_) {
         const Vec3 at = views_.now.orthographic ? Vec3(-views_.now.forward)
@@ -45,8 +47,6 @@ double Sketch::solid(const Vec3& point, const Vec3& normal) const {
     }
     if (!views_.moves) return view.faces(point, normal) ? 0 : 1;
     const Vec3 to_eye = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - point).normalized();
-    // The part has become glass by the time the eye is in its plane. There it changes from behind the grains
-    // to before them.
     return smooth_rise(-normal.dot(to_eye) - fade, fade);
 }
 
@@ -114,7 +114,7 @@ Vec3 at(double radius, double angle, double height) {
     return {radius * std::cos(angle), radius * std::sin(angle), height};
 }
 
-// reach(angle): m, the distance of the outline from the middle.
+// reach(angle): m, from the middle of the hole to the floor's outer edge.
 template <class Reach>
 Pieces around_hole(const Outlet& outlet, const std::vector<double>& angles, double height,
                    const Reach& reach) {
@@ -160,7 +160,7 @@ Pieces rectangle_around_hole(const Outlet& outlet, double half_depth, double hal
 
 namespace {
 
-// m: how far the container's floor reaches to the right of a camera at this azimuth (rad).
+// Half the width (m) of the floor in the picture, for a camera at this azimuth (rad). half: m, along y.
 double reach_aside(const Container& container, double half, double azimuth) {
     if (container.shape == Container::Shape::cylinder) return half;
     return half * std::abs(std::cos(azimuth)) + 0.5 * container.depth * std::abs(std::sin(azimuth));
@@ -182,12 +182,13 @@ std::vector<LabMark> lab_marks(const FilmedScene& scene, double azimuth) {
     if (!has_lab_marks(scene)) return {};
     const Container& container = scene.container;
     const double thickness = drawn_thickness(container), floor_half = outer_floor_half_width(container);
-    // The marks stand in the plane of the near cross-section. Beside a cylinder, or where the camera moves
-    // and near and far change places, they stand across the line of sight.
+    // The marks stand in the plane of the container's end that is nearer to the camera. For a cylinder, and
+    // for a camera that moves, they stand in the plane through the middle that is perpendicular to the line
+    // of sight.
     azimuth *= std::numbers::pi / 180;
     const bool across = container.shape == Container::Shape::cylinder || scene.film.camera.moves();
     const double eye_side = std::cos(azimuth) >= 0 ? 1 : -1;
-    // A vessel's marks stand at its lowest place; other floors rest at 0.
+    // A container made of a mesh has its marks at its lowest place. All other floors are at z = 0 at rest.
     const double base = container.shape == Container::Shape::mesh ? container.base() : 0;
     const Vec3 middle = across ? Vec3(0, 0, base) : Vec3(eye_side * 0.5 * container.depth, 0, base);
     const Vec3 side = across ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0) : Vec3(0, 1, 0);

@@ -1,5 +1,4 @@
-// Makes a layer of lit spheres of the grains of a frame: the grains themselves, the grains glued to walls,
-// and the light.
+// Paints the grains of a frame, and the grains glued to walls, as lit spheres: one layer of the picture.
 #pragma once
 
 #include <array>
@@ -26,15 +25,16 @@ class GluedSpheres {
         Vec3 centre;    // m, where it is now
         double radius;  // m
     };
-    // The glued grains that are drawn. At front, back, floor, lid and round walls these are only those whose
-    // wall the eye sees from inside; the others would hide the bed.
+    // The glued grains that are drawn. Those on the side walls (normal along y) are always drawn. Those on
+    // any other wall are drawn only if the eye sees that wall from inside; else they would hide the bed.
     std::vector<Seen> seen(const View& view, const Frame& frame) const;
     const Albedo& colour() const { return colour_; }
 
   private:
     struct Glued {
-        Vec3 at_rest, inward;  // m; unit, into the container
-        double radius;         // m
+        Vec3 at_rest;   // m
+        Vec3 inward;    // unit vector into the container
+        double radius;  // m
         std::size_t body;
         bool at_side;  // seen from everywhere
     };
@@ -46,16 +46,19 @@ class GluedSpheres {
 // light and shade may not change them much.
 Lamp lamp_of(const FilmLook& look, bool colours_are_read);
 
+// Paints grains frame after frame. The renderer has one of these, and a second one if the film has ghosts:
+// grains that are seen through what stands in front of them.
 class SpherePainter {
   public:
-    // width, height: pixels of the port. ghosts: paint only grains of the scene's ghost species, where
-    // nothing else stands before them; otherwise paint all grains of the frame.
+    // width, height: pixels of the part of the picture that shows the grains. If `ghosts` is true, it paints
+    // only the grains of species that the scene shows as ghosts. If it is false, it paints all grains.
     SpherePainter(const FilmedScene& scene, int width, int height, Team& team, bool ghosts);
 
-    // Paints all grains but these as ghosts, whatever their species. ids rise.
+    // From the next take() on, a painter of ghosts paints all grains except these, whatever their species.
+    // `ids` must rise. With an empty list the species decide again.
     void paint_all_but(const std::vector<std::int32_t>& ids) { not_painted_ = ids; }
 
-    // See Renderer.
+    // Tells the film's first frame, from which colours by the height at the start are taken.
     void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
 
     const ClippedCount& clipped() const { return grain_colours_.clipped(); }
@@ -64,16 +67,17 @@ class SpherePainter {
     // light().
     void take(const View& view, const Frame& frame);
     void find_visible(const SolidDepth& solid = {});
-    // The lines of sight and the cut of the frame that was taken.
+    // The projection and the cutting planes of the frame that take() was given.
     const Sight& sight() const { return sight_; }
     const Cut& cut() const { return cut_; }
     const Visibility& visibility() const { return layer_.visibility(); }
-    // walls: the walls as they were painted behind and before the grains.
+    // walls: the walls as they were painted behind and in front of the grains.
     void find_order(const View& view, const ContainerShapes& walls);
     void find_neighbours();
     const Layer& light();
     double seen_share(std::size_t grain) const { return layer_.visibility().seen_share(grain); }
-    // The pixels where the layers of walls are not right.
+    // The pixels where a grain reaches through a wall. There, one layer of walls behind the grains and one in
+    // front would hide the wrong things.
     const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
 
   private:
