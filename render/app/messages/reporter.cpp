@@ -220,18 +220,18 @@ void note_error() {
     if (first_error == 0) first_error = errno != 0 ? errno : EIO;
 }
 
-void put(std::string_view text) {
+void put_out(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
 }
 
 }  // namespace
 
 void print_result(std::string_view text) {
-    put(visible(text, "\n\t"));
+    put_out(visible(text, "\n\t"));
 }
 
 void print_exact(std::string_view text) {
-    ::isatty(STDOUT_FILENO) != 0 ? print_result(text) : put(text);
+    ::isatty(STDOUT_FILENO) != 0 ? print_result(text) : put_out(text);
 }
 
 void open_missing_streams() {
