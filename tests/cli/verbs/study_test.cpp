@@ -291,7 +291,7 @@ TEST_F(StudyVerb, SharesPackings) {
               {"--jobs", "1"}),
         setting);
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("packings: 2 settings begin with 1"));
+    EXPECT_THAT(ended.err, HasSubstr("packings: 2 settings begin with the same packing"));
     int found = 0;
     for (const fs::path& member : members())
         found += text_of(member / "log.txt").find("took the packing of an earlier run") != std::string::npos;
