@@ -105,7 +105,7 @@ TEST(Slabs, ATrayStandsStillBelow) {
 TEST(Slabs, PlanesHaveBodiesOfTheirOwn) {
     FilmedScene scene = with(Container::Shape::box);
     scene.walls = {{"shelf", {0, 0, 0.05}, {0, 0, 1}, {0, 0, 0}, false}};
-    const Slab& plane = slabs_of(scene).back();
+    const Slab plane = slabs_of(scene).back();
     EXPECT_EQ(plane.body, kFirstPlaneBody);
     EXPECT_TRUE(plane.outer.empty());
     for (const Vec3& corner : plane.inner) EXPECT_NEAR(corner.z(), 0.05, 1e-12);
