@@ -71,6 +71,7 @@ FolderRun::Ended FolderRun::run() {
     close_record(stopped);
     if (desk_.record.status == RunStatus::complete) desk_.folder->remove_previous();
     make_page();
+    find_folder_again(stopped);
     report_end();
     return {*desk_.record.exit_status, has_folder_ ? std::optional(folder()) : std::nullopt};
 }
@@ -111,6 +112,15 @@ void FolderRun::find_folder() {
     note_folder();
     close_side_work();
     has_folder_ = desk_.folder->follow();
+}
+
+// A folder may vanish while the page is made, which takes longer than all else at the end.
+void FolderRun::find_folder_again(bool stopped) {
+    if (!has_folder_ || desk_.failure.any() || desk_.folder->lock().is_there()) return;
+    find_folder();
+    settle_status(stopped);
+    desk_.record.error = desk_.failure.what();
+    if (has_folder_) desk_.failure.attempt([&] { write_record(); });
 }
 
 void FolderRun::close_side_work() {

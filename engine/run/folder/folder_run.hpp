@@ -108,6 +108,7 @@ class FolderRun {
   private:
     void note_folder();
     void find_folder();
+    void find_folder_again(bool stopped);
     void close_side_work();
     Ended end_as_before(bool mistaken);
     void settle_status(bool stopped);
