@@ -18,7 +18,7 @@ def gone(bench):
     for k in range(moments):
         run = here / "run"
         process = bench.start("movie", scene, "--out", run)
-        wait_for(process, run.exists)
+        wait_for(process, (run / "run.json").exists)  # before, the run may still make its folder once more
         time.sleep(took * k / moments)
         before = record_of(run)
         while run.exists():
