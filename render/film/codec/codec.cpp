@@ -156,7 +156,8 @@ int key_frame_distance(const CodecSettings& settings) {
     return std::max(1, static_cast<int>(av_q2d(settings.rate) / 2));
 }
 
-// A killed run loses mainly those frames of its film that the encoder holds back: a third of a second at most.
+// A killed run loses mainly those frames of its film that the encoder holds back: a third of a second at
+// most.
 int look_ahead(const CodecSettings& settings) {
     return std::min(10, static_cast<int>(av_q2d(settings.rate) / 3));
 }
