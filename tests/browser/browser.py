@@ -5,6 +5,7 @@ import pathlib
 import time
 
 from selenium import webdriver
+from selenium.common.exceptions import TimeoutException
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 
@@ -145,5 +146,11 @@ class Browser:
         height = min(most_height, self.run("return document.documentElement.scrollHeight"))
         self.resize(width, height)
         time.sleep(0.5)
-        self.driver.save_screenshot(str(file))
+        for attempt in range(6):  # the driver waits 10 s for a picture, and a busy machine may need longer
+            try:
+                self.driver.save_screenshot(str(file))
+                break
+            except TimeoutException:
+                if attempt == 5:
+                    raise
         self.resize(width, 1000)
