@@ -7,6 +7,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/team.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/carry.hpp"
 #include "engine/handover/decks.hpp"
@@ -24,6 +25,7 @@
 #include "render/film/run/engine_run.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -91,7 +93,9 @@ class Handover final : public Verb {
         folder_.base = output_base();
         folder_.command = command;
         check_replaceable();
-        const StartState start = start_state(carried, scene.run.threads, watcher(reporter));
+        const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
+        const int threads = plan_threads(processors, false, scene.grains()).engine;
+        const StartState start = start_state(carried, threads, watcher(reporter));
         if (start.stopped) return 128 + stop_signal();
         if (carried.engine == PeerEngine::liggghts) make_room_for_walls(carried);
         if (folder_.force && folder_.out) fs::remove_all(*folder_.out);

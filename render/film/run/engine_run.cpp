@@ -194,7 +194,9 @@ bool EngineRun::hand_over() {
         desk_.folder->lock().check_there();
         return desk_.listener.stop_signal() == 0;
     };
-    const StartState start = start_state(carried_, usable_processors(), watcher);
+    const int processors = scene_.run.threads > 0 ? scene_.run.threads : usable_processors();
+    const int threads = plan_threads(processors, false, scene_.grains()).engine;
+    const StartState start = start_state(carried_, threads, watcher);
     if (start.stopped) return false;
     if (carried_.engine == PeerEngine::liggghts) make_room_for_walls(carried_);
     fs::create_directories(place());
