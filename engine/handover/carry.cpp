@@ -52,14 +52,18 @@ CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& req
     return carried;
 }
 
+namespace {
+
 std::string refusal_text(const CarryNote& note) {
     return note.where + (note.where.empty() ? "" : ": ") + note.what;
 }
 
-void throw_refusals(const CarriedScene& carried) {
-    std::string text;
-    for (const CarryNote& note : carried.refusals) text += (text.empty() ? "" : "\n") + refusal_text(note);
-    if (!text.empty()) throw UserError(text);
+}  // namespace
+
+void throw_refusals(const CarriedScene& carried, const std::function<void(const std::string&)>& tell) {
+    if (carried.refusals.empty()) return;
+    for (std::size_t i = 0; i + 1 < carried.refusals.size(); ++i) tell(refusal_text(carried.refusals[i]));
+    throw UserError(refusal_text(carried.refusals.back()));
 }
 
 std::vector<DumpStretch> dump_stretches(const std::vector<std::int64_t>& steps) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,9 @@ struct CarryRequest {
 CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& request);
 
 // The text of a refusal: "file:line:column: what is wrong".
-std::string refusal_text(const CarryNote& note);
-// Throws UserError with all refusals, a line for each. Returns if there are none.
-void throw_refusals(const CarriedScene& carried);
+// Returns if nothing is refused. Otherwise tells all refusals but the last one, and throws UserError with
+// that.
+void throw_refusals(const CarriedScene& carried, const std::function<void(const std::string&)>& tell);
 
 // The parts of carry(). Only its two sources call them.
 

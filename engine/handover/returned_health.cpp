@@ -10,25 +10,13 @@
 #include "engine/handover/near_grains.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/health.hpp"
+#include "engine/run/import/import_measures.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {
 
 namespace {
-
-Grains grains_of(const Frame& frame, const Scene& scene) {
-    Grains grains;
-    grains.reserve(frame.size());
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        const auto species = static_cast<std::size_t>(frame.species[i]);
-        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
-                   scene.species[species].density);
-        grains.motion[i].velocity = frame.velocity[i];
-        grains.motion[i].spin = frame.spin[i];
-    }
-    return grains;
-}
 
 // What is known of a contact. ContactView has ten times as many numbers, and a large bed has millions of
 // these.

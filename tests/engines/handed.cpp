@@ -21,7 +21,7 @@ CarriedScene hand_over(const std::string& text, const CarryRequest& request,
                        const std::filesystem::path& folder) {
     const Scene scene = read_scene_text(text, folder / "handed.toml");
     CarriedScene carried = carry(scene, make_plan(scene), request);
-    throw_refusals(carried);
+    throw_refusals(carried, [](const std::string& line) { throw UserError(line); });
     const StartState start = start_state(carried, 1, [](const PackingProgress&) { return true; });
     if (request.engine == PeerEngine::liggghts) make_room_for_walls(carried);
     write_handover(folder, carried, start, "test");

@@ -40,10 +40,11 @@ CarriedScene carried_of(const std::string& text, CarryRequest request = {}) {
 }
 
 std::string refusals(const std::string& text, CarryRequest request = {}) {
+    std::string all;
     try {
-        throw_refusals(carried_of(text, request));
+        throw_refusals(carried_of(text, request), [&](const std::string& line) { all += line + "\n"; });
     } catch (const UserError& error) {
-        return error.what();
+        return all + error.what();
     }
     return {};
 }

@@ -37,19 +37,6 @@ std::vector<ObserverEntry> entries(const FrameSupply& supply) {
     return all;
 }
 
-Grains grains_of(const Frame& frame, const Scene& scene) {
-    Grains grains;
-    grains.reserve(frame.size());
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        const auto species = static_cast<std::size_t>(frame.species[i]);
-        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
-                   scene.species[species].density);
-        grains.motion[i].velocity = frame.velocity[i];
-        grains.motion[i].spin = frame.spin[i];
-    }
-    return grains;
-}
-
 std::int32_t row_of(const Frame& frame, std::int32_t id) {
     const std::optional<std::size_t> row = frame.row_of(id);
     return row ? static_cast<std::int32_t>(*row) : -1;
@@ -90,6 +77,19 @@ Scene as_layers(Scene scene) {
 }
 
 }  // namespace
+
+Grains grains_of(const Frame& frame, const Scene& scene) {
+    Grains grains;
+    grains.reserve(frame.size());
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto species = static_cast<std::size_t>(frame.species[i]);
+        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
+                   scene.species[species].density);
+        grains.motion[i].velocity = frame.velocity[i];
+        grains.motion[i].spin = frame.spin[i];
+    }
+    return grains;
+}
 
 struct ImportMeasures::Impl {
     Impl(const Scene& scene_in, const Clock& clock_in, const FrameSupply& supply)

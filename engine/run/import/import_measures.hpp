@@ -13,8 +13,12 @@
 #include "engine/frame.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/grains.hpp"
 
 namespace grainreel {
+
+// The grains of a frame. Their density is that of their species.
+Grains grains_of(const Frame& frame, const Scene& scene);
 
 // Runs those observers that need only places, velocities or contacts.
 class ImportMeasures {

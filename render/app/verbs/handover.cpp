@@ -84,10 +84,7 @@ class Handover final : public Verb {
         request_.edinburgh = law_ == "edinburgh";
         check_schedule(scene, count_film(scene, plan.clock, plan.steps));
         CarriedScene carried = carry(scene, plan, request_);
-        // Each refusal is a line of its own; the last one ends the verb.
-        for (std::size_t i = 0; i + 1 < carried.refusals.size(); ++i)
-            reporter.error(refusal_text(carried.refusals[i]));
-        if (!carried.refusals.empty()) throw UserError(refusal_text(carried.refusals.back()));
+        throw_refusals(carried, [&](const std::string& line) { reporter.error(line); });
         want_pictures(carried, scene);
         folder_.name = fmt::format("{}-{}", scene.name, engine_);
         folder_.base = output_base();

@@ -179,7 +179,7 @@ class Movie final : public Verb {
         carry_.accept_law = !accepted_.empty();
         carry_.edinburgh = !law_.empty();
         CarriedScene carried = carry(scene, plan, carry_);
-        throw_refusals(carried);
+        throw_refusals(carried, [&](const std::string& line) { reporter.error(line); });
         if (film_.film || film_.frames) want_pictures(carried, scene);
         EngineRun run(film_, reporter, scene, std::move(carried));
         return tell_folder(run.run(), film_);
