@@ -89,6 +89,17 @@ def read_list():
     return mutations
 
 
+def is_expression(text):
+    """Whether brackets and ?: come in pairs, and no comma stands outside brackets: else it cannot be put in brackets."""
+    depth = choices = 0
+    for sign in text.replace("::", ""):
+        depth += (sign in "([{") - (sign in ")]}")
+        choices += (sign == "?") - (sign == ":")
+        if depth < 0 or (depth == 0 and sign == ","):
+            return False
+    return depth == 0 and choices == 0
+
+
 def problems_of_texts(mutations):
     """Finds where each text stands. It must be there once, and two texts must be the same or apart."""
     for mutation in mutations:
@@ -101,6 +112,8 @@ def problems_of_texts(mutations):
         mutation.at = text.find(whole) + (len(before) if mark else 0)
         if found != 1:
             yield f"{mutation.file}: {mutation.title}: the text stands there {found} times: {whole.strip()}"
+        if not mutation.old.endswith(";") and not (is_expression(mutation.old) and is_expression(mutation.wrong)):
+            yield f"{mutation.file}: {mutation.title}: neither a statement nor a whole expression: {mutation.old}"
     for one, other in itertools.permutations(mutations, 2):
         same_text = one.at == other.at and one.old == other.old
         if one.file == other.file and one.at <= other.at < one.at + len(one.old) and not same_text:
