@@ -97,7 +97,7 @@ def is_expression(text):
         choices += (sign == "?") - (sign == ":")
         if depth < 0 or (depth == 0 and sign == ","):
             return False
-    return depth == 0 and choices == 0
+    return depth == 0 and choices == 0 and text.strip() != ""
 
 
 def problems_of_texts(mutations):
