@@ -57,7 +57,7 @@ class PeriodTable {
 // drifts. Where the drive's frequency changes, a table tells the number of periods before each step.
 struct Clock {
     double step = 0;                    // s, the length of one step
-    std::int64_t steps_per_period = 0;  // a multiple of 8; 0 without a drive; at the first of its frequencies
+    std::int64_t steps_per_period = 0;  // a multiple of 8; for the drive's first frequency; 0 without a drive
     double initial_phase = 0;           // turns, the drive's phase at step 0
     PeriodTable changes = {};           // times in steps; empty if the frequency stays the same
 

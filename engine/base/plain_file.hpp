@@ -1,7 +1,7 @@
 // Reading and writing files safely, in folders that may come from somebody else. Only ordinary files are
 // read: a pipe may never deliver anything, and a device has no end. Nothing is written through a link, which
-// may lead to any file. All files of the program are opened by these functions, and a failed write is never
-// overlooked.
+// may lead to any file. Files are to be opened by these functions. (A few places open files themselves, such
+// as FileBytes and some files of engine/handover.) TextFile and replace_file() report every failed write.
 #pragma once
 
 #include <cstdio>

@@ -80,8 +80,8 @@ struct ContactLaw {
     };
 
     // `velocity` (m/s) is the velocity of i's surface relative to j's between the last force and this one,
-    // and `step` (s) is the time between them. Dashpots need the velocity `ahead` steps later;
-    // `ahead` is 0.5 for Verlet.
+    // and `step` (s) is the time between them. Dashpots need the velocity at the time of this force. That is
+    // `ahead` steps after the time of `velocity`; `ahead` is 0.5 for Verlet.
     template <class R>
     static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
                                      const Triple<R>& velocity, R step, R ahead) {
@@ -132,10 +132,10 @@ struct ContactLaw {
     }
 
   private:
-    // Dashpots need the velocity at the time of the force, which with Verlet is half a step ahead of the
-    // known velocity. The velocity is taken to go on changing as it did over the last step. For two
-    // grains that move by forces alone this is exactly the half kick of the old force. A new contact has no
-    // earlier velocity, and the known one is taken as it is.
+    // Dashpots need the velocity at the time of the force. With Verlet this is half a step after the time of
+    // the known velocity. The velocity is assumed to go on changing as it did over the last step. For two
+    // grains that only forces move, this adds exactly what the old force does in half a step (the half kick
+    // of Verlet). A new contact has no earlier velocity, and the known one is taken as it is.
     template <class R>
     static HWY_INLINE Triple<R> later(const Triple<R>& velocity, const Triple<R>& before, R ahead) {
         const auto known = before.squared() > R(0);
@@ -159,9 +159,9 @@ struct ContactLaw {
     }
 };
 
-// Runs a law over a chunk of contacts, as many at once as a register holds. It reads rows and histories, and
-// writes the force and the new history of each contact. With `one_kind`, all contacts have the parameters of
-// the first.
+// Runs a law over a chunk of contacts, as many at once as a register holds. It reads the chunk's rows
+// (law_kernel.hpp) and the histories, and writes the force and the new history of each contact. With
+// `one_kind`, all contacts have the parameters of the first.
 template <class Law, class L, bool one_kind>
 void step_chunk(const LawInput& in, void* histories, ForceChunk& out) {
     using Number = NumberOf<L>;

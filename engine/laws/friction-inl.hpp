@@ -36,10 +36,10 @@ HWY_INLINE R squared_within(const Triple<R>& force, R limit) {
     return smaller(force.squared(), limit * limit);
 }
 
-// Turns a tangential force as its contact has turned: Cayley's rotation about the axis of `turn` by 2 atan
-// |turn|, which keeps the length exactly. Projecting the force onto the new contact plane, as the original
-// program does, cannot see the twist. The small part along `normal` (the present normal) that rounding leaves
-// is taken off.
+// Turns a tangential force with its contact, by Cayley's rotation about the axis of `turn` by 2 atan |turn|.
+// This keeps the length exactly. The original program projects the force onto the new contact plane instead,
+// which misses the twist. Rounding leaves a small part along `normal` (the present normal), which is taken
+// off.
 template <class R>
 HWY_INLINE Triple<R> carry_along(const Triple<R>& force, const Triple<R>& turn, const Triple<R>& normal) {
     const Triple<R> once = turn.cross(force), twice = turn.cross(once);

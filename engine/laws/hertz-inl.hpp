@@ -26,8 +26,7 @@ struct Hertz {
     struct Parameters {
         R modulus;         // Pa, 4/3 E*
         R damping;         // d
-        R sideways_share;  // root of tangential stiffness divided by normal stiffness: the ratio of the
-                           // dashpots
+        R sideways_share;  // tangential dashpot divided by normal one: root of the ratio of stiffnesses
         R lowest;          // N, lower bound of the force: 0, or so low that no force reaches it
 
         template <class Each>

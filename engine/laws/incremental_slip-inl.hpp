@@ -102,9 +102,9 @@ struct IncrementalSlip {
 
   private:
     // The factor [..]^gamma of the law, with its base held in [0, 1]. If T has no room left to grow or
-    // shrink, there is no stiffness. If T lies before its turning point, because T* has grown with N, the
-    // contact has its full stiffness. Otherwise a contact that turned at mu N and was then pressed harder
-    // would slide for ever. `sign` is -1 while |T| shrinks, else 1.
+    // shrink, there is no stiffness. T may lie before its turning point, because T* has grown with N. Then
+    // the contact has its full stiffness. Without this rule, a contact that turned at mu N and was then
+    // pressed harder would slide for ever. `sign` is -1 while |T| shrinks, else 1.
     template <class R>
     static HWY_INLINE R softening(const Parameters<R>& p, R sign, R turning_force, R old_size, R limit) {
         const R room = limit - sign * turning_force;

@@ -10,7 +10,8 @@
 
 namespace grainreel {
 
-// The lines of the sixteen level rays that go to all sides, among them those along x and y.
+// Number of level lines. Each line has two rays, so there are sixteen level rays to all sides. Two of the
+// lines lie along x and y.
 inline constexpr int kLevelAxes = 8;
 Vec3 level_direction(int i);  // unit; i from 0 to 2 kLevelAxes - 1
 

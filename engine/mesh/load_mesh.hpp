@@ -25,18 +25,18 @@ struct LoadedMesh {
     std::string hash;  // XXH64 of the file's bytes, as 16 hexadecimal digits
 };
 
-// Throws UserError with file and line (text) or byte (binary), which says what is wrong and what to do.
-// Nothing in the file is trusted: counts are bounded by the file's size before memory is allocated, and every
-// number must be finite.
+// Throws UserError, which gives the file and the line (text) or byte (binary), and says what is wrong and
+// what to do. Nothing in the file is trusted: counts are bounded by the file's size before memory is
+// allocated, and every number must be finite.
 LoadedMesh load_mesh(const std::filesystem::path& file, const MeshPlacement& placement = {});
 
 // The same hash for any file. Throws UserError if the file cannot be read.
 std::string hash_of_file(const std::filesystem::path& file);
 
 // Joins equal vertices, drops doubled triangles and triangles without area, and gives each connected part one
-// orientation (winding.hpp). Vertices are equal if they are closer than 1e-9 of the extent. Along open edges
-// they are equal if they are closer than 1e-5 of the extent and a hundredth of the shortest open edge at
-// them. Sets all of `facts` except format and read.
+// orientation (winding.hpp). Vertices are equal if they are closer than 1e-9 of the extent. Two vertices on
+// open edges are also equal if they are closer than 1e-5 of the extent, and closer than a hundredth of the
+// shortest open edge that ends at either of them. Sets all members of `facts` except `format` and `read`.
 void mend(TriangleMesh& mesh, MeshFacts& facts);
 
 }  // namespace grainreel

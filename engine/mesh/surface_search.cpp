@@ -81,9 +81,10 @@ double Surface::stays_on_face(std::int32_t triangle, const Vec3& point) const {
 
 // Rays through a surface. The triangles are sheared so that the ray is the axis of z, as in S. Woop, C.
 // Benthin and I. Wald, Watertight Ray/Triangle Intersection, J. Computer Graphics Techniques 2, 65 (2013). A
-// vertex then has the same place for all its triangles. On which side of an edge the axis passes is decided
-// without rounding. On the edge itself it counts as passing at (d, d^2) for an endlessly small d (H.
-// Edelsbrunner and E. Muecke, Simulation of Simplicity, ACM Trans. Graphics 9, 66, 1990).
+// vertex then has the same place for all its triangles. The side of an edge on which the axis passes is found
+// without rounding. If the axis passes through the edge itself, it counts as passing at (d, d^2) for an
+// endlessly small d (H. Edelsbrunner and E. Muecke, Simulation of Simplicity, ACM Trans. Graphics 9, 66,
+// 1990).
 
 namespace {
 

@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The clock of the frames. A single moment tells the step only roughly, so the scene's exact step is used.
+// The clock of the frames, with the scene's own step where the scene gives one. The frames tell the step only
+// up to rounding, and a moment at step 0 does not tell it at all.
 Clock clock_of_frames(const Scene& scene, const FrameArchive& frames) {
     Clock clock = clock_of(scene, frames.moments());
     if (scene.run.step) clock.step = *scene.run.step;

@@ -52,7 +52,8 @@ std::optional<std::size_t> Snapshot::place_of(std::int64_t id) const {
 
 namespace {
 
-// The offset of the container by the drive: a point of the axis moves with the drive alone.
+// How far the drive has moved the container. In a container that turns, only a point of the axis moves with
+// the drive alone, so its way is taken.
 Vec3 offset_of(const Scene& scene, const BodyPose& pose) {
     const std::optional<BodyTurn>& turn = scene.container.turn;
     return turn ? Vec3(pose.moved(turn->through) - turn->through) : pose.place;

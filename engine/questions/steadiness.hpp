@@ -1,13 +1,13 @@
 // Whether a measured column is steady: where its transient ends, and whether it drifts after that.
 //
-// There are two questions with one test each. Where the transient ends is found by MSER-m, which drops so
-// many batches at the front that the squared standard error of the mean of the rest is least (White,
-// Simulation 69, 1997; White, Cobb and Spratt, Proc. Winter Simulation Conf., 2000). It needs no parameter
-// and is hard to mislead. Whether the rest drifts is decided by the Mann-Kendall test (Mann, Econometrica
-// 13, 1945; Kendall, Rank Correlation Methods, 1975), which looks for a trend of any shape and assumes no
-// distribution, with the slope of Sen (J. Am. Stat. Assoc. 63, 1968). It assumes independent values, so it
-// gets means of long batches. Geweke's test (1992) would answer both with one number, but it needs spectral
-// estimates that short series do not give.
+// There are two questions with one test each. MSER-m finds where the transient ends: it drops as many batches
+// at the front as make the squared standard error of the mean of the rest least (White, Simulation 69, 1997;
+// White, Cobb and Spratt, Proc. Winter Simulation Conf., 2000). It needs no parameter and is hard to mislead.
+// The Mann-Kendall test decides whether the rest drifts (Mann, Econometrica 13, 1945; Kendall, Rank
+// Correlation Methods, 1975). It looks for a trend of any shape and assumes no distribution. The size of the
+// drift is the slope of Sen (J. Am. Stat. Assoc. 63, 1968). The test assumes independent values, so it gets
+// means of long batches. Geweke's test (1992) would answer both questions with one number, but it needs
+// spectral estimates that short series do not give.
 #pragma once
 
 #include <cstddef>
@@ -42,8 +42,8 @@ struct Steadiness {
 // (s) is the drive's; the rows of one period make a batch. It is 0 without a drive.
 Steadiness steadiness_of(const std::vector<double>& times, const std::vector<double>& values, double period);
 
-// The number of batches that MSER drops: at most half of them. It is all of them where the least error lies
-// in the second half, because then the transient is not over.
+// The number of batches that MSER drops. If the least error lies in the second half, the transient is not
+// over, and the number is that of all batches. Otherwise it is at most half of them.
 std::size_t mser_truncation(const std::vector<double>& batch_means);
 
 struct MannKendall {

@@ -62,8 +62,9 @@ constexpr UnreadPacking unread[] = {
     {"7z\xBC\xAF\x27\x1C"sv, "7-Zip", "7z x"},
 };
 
-// Whether the file is really compressed in this way, because a text may begin with "BZh" or "]" too. In bzip2
-// a digit and the digits of pi follow the magic. The header of lzma has sizes, which must be possible.
+// Whether the file is really compressed in this way. The magic alone does not tell, because a text may begin
+// with "BZh" or "]" too. In bzip2 a digit and the digits of pi follow the magic. The header of lzma has
+// sizes, which must be possible.
 bool really(const UnreadPacking& packing, std::string_view head) {
     const auto byte = [head](std::size_t k) {
         return k < head.size() ? static_cast<unsigned char>(head[k]) : 0u;
@@ -237,7 +238,7 @@ void PackedBytes::damaged(const std::string& why) const {
                     shown(file_->path()), read_ - left(), why));
 }
 
-// gzip, RFC 1952. Members that follow each other are one content.
+// gzip, RFC 1952. A file may have several members, one after the other. Together they are its content.
 
 namespace {
 
@@ -304,7 +305,7 @@ std::unique_ptr<ByteSource> gzip_bytes(std::unique_ptr<FileBytes> file) {
     return std::make_unique<GzipBytes>(std::move(file));
 }
 
-// zstd, RFC 8878. Frames that follow each other are one content.
+// zstd, RFC 8878. A file may have several frames, one after the other. Together they are its content.
 
 namespace {
 

@@ -49,7 +49,7 @@ struct FileState {
 };
 
 // An ordinary file that is read at any place. It is not mapped into memory: if another program truncates it
-// while it is read, there must be a message, and a mapped file would end in a signal.
+// meanwhile, reading must end with a message. With a mapped file, a signal would end the process.
 class FileBytes {
   public:
     // Throws UserError where there is no ordinary file or where it cannot be opened.

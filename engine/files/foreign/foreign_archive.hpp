@@ -19,7 +19,8 @@
 
 namespace grainreel {
 
-// The walls at one moment. A file has a surface once, or again at each moment in its present place.
+// The walls at one moment. A file gives a surface either once, or again at each moment in its place at that
+// moment.
 struct WallMoment {
     std::optional<std::int64_t> step{};
     std::optional<double> time{};

@@ -126,9 +126,9 @@ void GrainMeaning::find_places(const RawTable& table) {
         place_unit_ = units_.length;
 }
 
-// Throws UserError where there is no column z and the grains are not discs in a plane. They are if the file
-// says so, or if the box is periodic along z and at most 1 or a tenth of its width thick (in units of the
-// file).
+// For a file without a column z: throws UserError unless the grains are discs in a plane. They are discs if
+// the file says so. They are also discs if the box is periodic along z and its thickness is at most 1 (in
+// units of the file) or at most a tenth of its width.
 void GrainMeaning::check_flat(const RawFrame& frame) const {
     if (facts_.dimensions == 2) return;
     const bool thin = frame.box && frame.box->periodic[2] &&

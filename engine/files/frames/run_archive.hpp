@@ -27,8 +27,8 @@ class RunArchive final : public FrameArchive {
     // `folder` comes from folder_of_run(), and `scene` is the scene in this folder. Throws UserError when
     // there is no trajectory.nc with a frame, and when the files are of two runs.
     //
-    // for_questions: other missing files are no error but stand in faults(), and so do contacts that cannot
-    // be used. The caller can compute contacts by running parts of the scene again.
+    // for_questions: if other files are missing, or contacts cannot be used, nothing is thrown. These faults
+    // become lines of faults(). The caller can compute contacts by running parts of the scene again.
     RunArchive(const std::filesystem::path& folder, const Scene& scene, bool for_questions);
 
     // Makes contacts available. alone: there is no other source of contacts, so this throws UserError when

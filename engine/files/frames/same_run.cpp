@@ -245,7 +245,9 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
 
 void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
                     const std::string& contacts) {
-    constexpr double room = 1.05;  // most distance divided by the sum of radii; contacts have less than 1
+    // Largest distance of two centres that still counts as touching, divided by the sum of the radii. In a
+    // contact it is less than 1.
+    constexpr double room = 1.05;
     const double depth = scene.container.periodic_depth ? scene.container.depth : 0;
     const auto index_of = [&](std::int32_t id) { return frame.row_of(id); };
     const auto apart = [&](std::size_t a, std::size_t b) {

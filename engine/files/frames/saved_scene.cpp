@@ -70,7 +70,7 @@ Clock clock_of(const Scene& scene, const std::vector<Frame>& moments) {
     double step = 0;
     for (const Frame& moment : moments)
         if (moment.step != 0) step = moment.time / static_cast<double>(moment.step);
-    // The quotient may differ from a whole number by rounding; then the whole number is meant.
+    // The quotient may differ from the scene's own step by rounding. Then the scene's step is used.
     if (scene.run.step && std::abs(step - *scene.run.step) <= 1e-12 * step) step = *scene.run.step;
     return clock_of_steps(scene, step);
 }

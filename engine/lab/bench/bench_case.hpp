@@ -47,7 +47,7 @@ BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k);
 std::vector<BenchCase> peers_cases();
 
 // A bed at rest, with 4.7 contacts a grain throughout. In the phase "settled" of the other beds most grains
-// are still falling, and a grain has half a contact to one contact.
+// are still falling, and there are only 0.5 to 1 contacts a grain.
 
 BenchCase rest_case();
 

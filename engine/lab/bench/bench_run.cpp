@@ -119,8 +119,8 @@ class BenchRun {
                        result_.threads, run.step);
     }
 
-    // Runs so many steps, and times them if `result` is not null. The loop's stages are timed only in every
-    // fourth stretch of steps, which does not count for the speed, because that slows the loop down.
+    // Runs so many steps, and times them if `result` is not null. In every fourth stretch of steps the loop's
+    // stages are timed too. This slows the loop down, so these stretches do not count for the speed.
     bool advance(Running& run, std::int64_t steps, const std::string& what, double drag,
                  PhaseResult* result) {
         run.loop->clear_costs();

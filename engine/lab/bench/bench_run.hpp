@@ -24,7 +24,8 @@ struct PhaseResult {
     std::string name;
     std::int64_t steps = 0;              // number of timed steps
     std::vector<double> particle_steps;  // grain-steps a second, one value for each repetition
-    // If the grains are copies of a bed: the same for a single copy in the same steps.
+    // Grain-steps a second of a single copy in the same steps, one value for each time that it was timed.
+    // Empty if the grains are not copies of a bed.
     std::vector<double> of_one_copy;
     std::int64_t listed = 0;             // pairs in the neighbour lists at the phase's end
     std::int64_t touching = 0;           // touching pairs at the phase's end

@@ -1,5 +1,6 @@
 // The bed on which other engines are measured: 9,000 grains of 1 mm above 1,125 of 2 mm in a box of 20 mm,
-// spring-dashpot contacts with friction history, and a floor that is shaken at 25 Hz.
+// spring-dashpot contacts with friction history, and a floor that is shaken at 25 Hz. These engines are
+// called peers here.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct PeersBed {
     std::vector<Vec3> small_ones, big_ones;  // m, centres; the box goes from 0 to `side`
 };
 
-// The places from which the grains fall: lattices with random shifts, rounded to the eight digits of the
-// peers' own files (their seed is 7).
+// The places from which the grains fall: lattices with random shifts. The coordinates are rounded to eight
+// digits, as in the files that the peers read. Those files were made with seed 7.
 PeersBed peers_bed(std::uint32_t seed = 7, int small_count = 9000, int big_count = 1125, double side = 0.02);
 
 // Diameters of the small and the big grains in m.
@@ -33,8 +34,8 @@ Plan peers_plan();
 // Walls and gravity. The floor moves as a (1 - cos wt) with a = 1.19 mm from step 0 on.
 Surroundings peers_surroundings(const PeersBed& bed, const Plan& plan);
 
-// A bed at rest, to be drawn: the peers' grains, settled on softer springs with a longer step, since only
-// their places matter.
+// A bed at rest, for pictures. The peers' grains settle with softer springs than in peers_plan(), so that the
+// step can be longer. Only the places of the grains matter.
 
 struct SettledBed {
     Grains grains;      // with the floor at z = 0 and the box around the z axis
@@ -42,9 +43,9 @@ struct SettledBed {
     double height = 0;  // m, top of the highest grain
 };
 
-// Settles about `grains` grains. Fewer than 10,125 lie in a narrower box; more are k x k copies side by
-// side, as near to this number as copies come. watcher(share done) returns false to stop, and the result is
-// then empty.
+// Settles about `grains` grains. If they are fewer than 10,125, the box is narrower. If they are more, k x k
+// copies of the bed of 10,125 grains stand side by side, where k is the root of grains / 10,125, rounded.
+// watcher(share done) returns false to stop, and the result is then empty.
 SettledBed settled_bed(int grains, int threads, const std::function<bool(double)>& watcher);
 
 }  // namespace grainreel

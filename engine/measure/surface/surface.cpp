@@ -19,7 +19,7 @@ namespace grainreel {
 namespace {
 
 constexpr double kColumn = 2;  // diameters, width and depth
-constexpr double kGap = 1.5;   // diameters between grains that stand on each other, at most
+constexpr double kGap = 1.5;   // diameters, the largest gap between grains that stand on each other
 constexpr double kEmpty = -std::numeric_limits<double>::infinity();
 constexpr int kMostColumns = 512;  // along one edge
 

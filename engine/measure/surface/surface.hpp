@@ -40,8 +40,8 @@ std::size_t bins_across(const SurfaceFrame& frame);
 BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
 
 //
-// The frame in which a scene's surface is searched for: that of the container at rest, with its free width at
-// the height that the grains fill. Bins are sized by the mean diameter of all grains. It has no width in
+// The frame of a scene's surface: that of the container at rest. Its width is the free width at the height to
+// which the grains fill the container. Bins are sized by the mean diameter of all grains. It has no width in
 // empty space, nor in a drum (surface_observers.hpp).
 SurfaceFrame surface_frame(const Scene& scene);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kFewest = 20;  // grains
 constexpr double kOutermost = 0.01;  // share of the grains at either end, which may be in flight
-constexpr double kStands = 0.5;      // sine of the angle between axis and gravity
+constexpr double kStands = 0.5;      // sine of the angle from axis to gravity; below it the axis is upright
 
 // Slope of the least-squares line through the bins between two places.
 double slope_between(const BedOutline& surface, double from, double to) {
@@ -33,7 +33,8 @@ std::optional<DrumAxes> drum_axes(const BodyTurn& turn, const Vec3& gravity) {
     const Vec3 axis = turn.axis.normalized(), against = -gravity.normalized();
     const Vec3 up = against - against.dot(axis) * axis;
     if (up.norm() < kStands) return std::nullopt;
-    // The lowest part of the drum moves towards axis x (-up), and from there on upwards.
+    // At its lowest point the drum moves along the cross product of `axis` and -`up`, and rises on that side.
+    // With a negative rate it moves the other way.
     const Vec3 across = up.normalized().cross(axis) * (turn.rate < 0 ? -1.0 : 1.0);
     return DrumAxes{axis, across, up.normalized()};
 }

@@ -26,8 +26,8 @@
 
 namespace grainreel {
 
-// Three perpendicular unit vectors: along the axis, level across it to the side where the drum carries the
-// bed up, and upwards.
+// Three perpendicular unit vectors. `along` is the axis. `across` is level and points to the side on which
+// the drum carries the bed up. `up` is perpendicular to both.
 struct DrumAxes {
     Vec3 along, across, up;
 };
@@ -35,8 +35,8 @@ struct DrumAxes {
 std::optional<DrumAxes> drum_axes(const BodyTurn& turn, const Vec3& gravity);
 
 // The angle (rad) is above 0 if the bed is highest on the side where the drum carries it up. `diameter` (m)
-// is the mean of the grains. NaN with fewer than 20 grains, or if the middle third has fewer than three bins.
-// Bins are about two diameters wide.
+// is the mean diameter of the grains. NaN with fewer than 20 grains, or if the middle third has fewer than
+// three bins. Bins are about two diameters wide.
 double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, double diameter);
 
 // The Froude number w^2 R / g. Below 1e-4 a bed slips or slumps, up to about 0.1 it rolls and cascades, above
@@ -127,8 +127,8 @@ class BedSurface final : public Observer {
         std::vector<double> height;  // m
     };
 
-    static constexpr double kHair =
-        1e-3;  // as a share of a period, tolerance because rows are at whole steps
+    // Tolerance as a share of a period. Rows are at whole steps, so they may miss a whole period by a little.
+    static constexpr double kHair = 1e-3;
 
     static double periods_since(const ObservedState& m, const Earlier& earlier) {
         return m.clock.cycles(m.step) - m.clock.cycles(earlier.step);

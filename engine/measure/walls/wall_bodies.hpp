@@ -19,7 +19,7 @@ struct WallBody {
     bool mesh = false;     // true for a mesh, false for a face
     bool fixed = true;     // whether it stays where it is, apart from the drive's motion of a face
     bool turns = false;    // whether it turns about `axis`, through `point`
-    Vec3 point{0, 0, 0};   // m, at rest, about which its moments count
+    Vec3 point{0, 0, 0};   // m, point about which its moments are taken, given for the wall at rest
     Vec3 axis{0, 0, 0};    // unit
 };
 std::vector<WallBody> wall_bodies(const Scene& scene);
@@ -30,7 +30,8 @@ std::optional<std::size_t> vessel_of(const Scene& scene);
 // Whether the container turns about an axis that is not vertical, so that left, right and floor mean nothing.
 bool turns_over(const Scene& scene);
 
-// The point (m, at rest) about which the moment of the grains on a mesh counts. It moves with the mesh.
+// The point (m) about which the moment of the grains on a mesh is taken, given for the mesh at rest. It moves
+// with the mesh.
 Vec3 moment_point(const SceneMesh& mesh);
 
 // A body that turns about an axis.

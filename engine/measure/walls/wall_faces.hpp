@@ -16,8 +16,8 @@
 
 namespace grainreel {
 
-// The quantum of a force is 2^-48 of the force of the stiffest wall on the largest grain at an overlap of its
-// radius.
+// The quantum of a force. It is 2^-48 of the force of the stiffest wall on the largest grain when they
+// overlap by the grain's radius, rounded down to a power of two.
 WallScale wall_scale(const Scene& scene, const Plan& plan);
 
 // Area (m2) of a face of the container ("left slant") between two heights (m); 0 for a level face. Below the

@@ -1,7 +1,8 @@
 // Observer of each wall: the mean force on it and its moment, the weight that it carries, and the pressure by
-// height. For walls that turn or move by themselves, also the torque about their axis and the power that they
-// give (WallWork in wall_faces.hpp). The forces are summed at every step, so that no impact is missed. Forces
-// are means between two rows of measures.csv, pressures between two ends of records of fields.nc.
+// height. A wall that turns also has the torque about its axis. A wall that turns or moves by itself has the
+// power that it gives to the grains (WallWork in wall_faces.hpp). The forces are summed at every step, so
+// that no impact is missed. Forces are means between two rows of measures.csv. Pressures are means over a
+// record of fields.nc.
 //
 // Between the steps n1 < n2 the impulse on a face is dt (C(n2) - C(n1)) with C(n) = F_1 + ... + F_n - (1 - s)
 // F_n, where s is the share of a step's force that the grains have felt by its end: 1/2 with velocity Verlet.

@@ -146,8 +146,8 @@ class Wear final : public Observer {
     }
 
   private:
-    // The beginning of a record, with the sums of normal forces of each mesh at that step; empty if not
-    // known.
+    // The step at which a record begins, and each mesh's sums of normal forces at that step. The sums are
+    // empty if they are not known.
     struct Record {
         std::int64_t step = 0;
         std::vector<std::vector<double>> press;  // N s

@@ -38,7 +38,7 @@ FilmedScene as_carried(FilmedScene scene, const CarriedScene& carried) {
     return scene;
 }
 
-// The newest restart file of a run that has not come to its end.
+// Step of the newest restart file. Throws UserError if there is none, or if the run has come to its end.
 std::int64_t restart_to_go_on(const fs::path& run) {
     const fs::path place = run / ReturnedRun::kFolder;
     const HandoverFacts facts = read_handover(place);

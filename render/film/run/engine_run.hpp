@@ -18,23 +18,24 @@
 
 namespace grainreel {
 
-// Steps of all pictures of a run from step 0 on, and the steps over which the pictures are exposed or
-// averaged; rising.
+// All steps that the pictures of a run from step 0 on need, rising and each once: the step of each picture,
+// and the steps over which it is exposed or averaged.
 std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
-// Adds the steps of the film's pictures to carried.dumps, the steps that the engine writes. The trajectory's
-// steps are left out if all these together would interrupt the engine's run too often.
+// Adds the steps of the film's pictures to carried.dumps, the steps at which the engine writes a frame.
+// Before the call these are the steps of the trajectory. They are dropped if both together would interrupt
+// the engine's run too often.
 void want_pictures(CarriedScene& carried, const FilmedScene& scene);
 
 class EngineRun final : public FilmRun {
   public:
-    // scene: the scene as it was read; it is run with the laws of `carried`. Throws UserError before anything
-    // is written.
+    // scene: the scene as it was read. Its film is kept, and everything else is taken from `carried`, which
+    // has the engine's laws. Throws UserError before anything is written.
     EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene,
               CarriedScene carried);
-    // Goes on in the folder of such a run from the engine's last restart file: the dump is read again from
-    // its beginning. scene, plan: those of the folder's scene.toml. Throws UserError when there is nothing to
-    // go on from.
+    // Continues such a run in its folder, from the engine's last restart file. The dump is read again from
+    // its beginning. scene, plan: those of the folder's scene.toml. Throws UserError when there is no restart
+    // file, or when the run has come to its end.
     EngineRun(const FilmRequest& request, RunListener& listener, const FilmedScene& scene, const Plan& plan,
               std::shared_ptr<FolderLock> lock);
 
@@ -55,12 +56,13 @@ class EngineRun final : public FilmRun {
     void show_progress();
     bool draw();
 
-    std::optional<std::int64_t> restart_;  // the engine's step in the restart file that it goes on from
+    // Step of the restart file from which the engine goes on, as the engine counts; empty for a new run.
+    std::optional<std::int64_t> restart_;
     CarriedScene carried_;
     FilmedScene scene_;
     EngineJob job_;
     std::unique_ptr<ReturnedRun> back_;
-    std::string unsound_;  // why no more of the dump may be taken
+    std::string unsound_;  // what is wrong with the dump, so that no more of it is read; empty: nothing
     Stopwatch running_;
     FilmTimesTable film_times_;
 };

@@ -32,8 +32,8 @@ class FilmInParts {
     bool is_part() const { return wanted_.number > 0; }
     // The pictures that are drawn here, and the frames that they become.
     const FilmPart& here() const { return here_; }
-    // The first picture whose frame this part must take: the one where the trails on its own first picture
-    // begin. Without trails, its own first picture.
+    // The first picture whose frame this part must take. The trails on the part's own first picture begin
+    // there. Without trails it is that picture itself.
     std::int64_t known_from() const;
     FilmExtent extent() const;
     std::string folder_name() const;  // "-part-03", which is added to the run's name

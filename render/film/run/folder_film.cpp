@@ -23,7 +23,8 @@ void FolderFilm::check(const FilmedScene& scene, std::int64_t frames) const {
     if (wanted()) check_addresses(scene.film);
     if (!request_.film) return;
     check_max_size(scene, frames);
-    if (scene.film.format != FilmFormat::png) quiet_ffmpeg();  // told before a packing that takes minutes
+    // A missing library of FFmpeg is reported here, before a packing that takes minutes.
+    if (scene.film.format != FilmFormat::png) quiet_ffmpeg();
 }
 
 void FolderFilm::make_frames_place(const FilmedScene& scene) const {
@@ -120,7 +121,7 @@ bool is_of_single_moments(const Film& film) {
 }
 
 // The first step before `end` at which the planned film has another picture than the kept moments; `end` if
-// there is none. That a locked picture was left out is no difference.
+// there is none. It is no difference if a picture of a locked segment was not kept.
 std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
                                const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t end) {
     const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);

@@ -38,8 +38,8 @@ class FolderFilm final : public SideWork {
         extent_ = std::move(extent);
         frames_here_ = frames;
     }
-    // Makes the folder of numbered pictures where they are wanted. By it `resume` knows that they are, so a
-    // run makes it before its first checkpoint.
+    // Makes the folder of numbered pictures if they are wanted. `resume` sees by this folder that they are
+    // wanted, so a run makes it before its first checkpoint.
     void make_frames_place(const FilmedScene& scene) const;
     // Opens the film; does nothing where no pictures are wanted. pictures: number of the whole film's
     // pictures. start: frame from which start heights are counted; null: the film's first picture. draw:
@@ -89,10 +89,10 @@ class FilmRun : public FolderRun {
 // Whether the run's folder has a film or the beginning of one.
 bool has_film(const FilmedScene& scene, const std::filesystem::path& run);
 
-// Up to where a run with a film can be resumed. Its film is drawn again: up to the checkpoint from the kept
-// moments of its pictures, and from there on as the run goes. So a run whose film shows more than one moment
-// in a picture, or whose moments were not kept, starts from its beginning. The scene and the plan must
-// outlive the result.
+// Finds the last step from which a run with a film can be resumed. The film is drawn again: up to the
+// checkpoint from the kept moments of its pictures, and after that as the run goes on. A run starts from its
+// beginning if its moments were not kept, or if a picture shows more than one moment. The scene and the plan
+// must outlive the result.
 FramesReach reach_of_film(const FilmedScene& scene, const Plan& plan);
 
 // Adds a caption about a change of the scene, from `time` (s of simulated time) on, and calls tell_engine().

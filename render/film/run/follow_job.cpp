@@ -24,10 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kReading = 0.25;  // s, after which it looks whether there is something to draw
-constexpr double kPause = 10;      // times what it takes to open the run anew
+constexpr double kReading = 0.25;  // s, longest time of reading before it looks for something to draw
+constexpr double kPause = 10;  // least pause before the run is opened again, divided by the time of opening
 
-// Several may follow one job.
+// Takes a free working folder. The folders are numbered, because several programs may follow one job.
 std::unique_ptr<ReturningFolder> free_folder(const fs::path& folder) {
     for (int number = 1;; ++number)
         if (auto made = ReturningFolder::take(folder, fmt::format(".following-{}", number))) return made;
@@ -82,7 +82,7 @@ bool FollowJob::read_some() {
     try {
         while (unsound_.empty() && reading.seconds() < kReading && !stopped() && back_->take_next())
             some = true;
-    } catch (const std::exception& wrong) {  // what there is is drawn all the same
+    } catch (const std::exception& wrong) {  // what was read so far is still drawn
         unsound_ = wrong.what();
     }
     if (some) idle_ = Stopwatch();
@@ -105,7 +105,7 @@ std::vector<std::string> FollowJob::warnings() const {
     return all;
 }
 
-// Reads the run's files as they are now. A run on disk has the moments that it had when it was opened.
+// Opens the run's files again, as they are now. An open run does not see moments that are written later.
 void FollowJob::open_anew() {
     constexpr bool replay = false;
     const Stopwatch opening;
@@ -160,7 +160,8 @@ bool FollowJob::work() {
                     facts_.dump.string(), name_of(facts_.engine), plan_.clock.time(facts_.last), what_.idle));
     End end = End::none;
     while (end == End::none) {
-        // A job that has ended before a look has written all that it does.
+        // Whether the job has ended is asked before its dump is read. A job that had ended by then writes no
+        // more. If reading then finds nothing, all of the dump was read.
         const End now = end_now();
         const bool some = read_some();
         if (stopped()) return false;
