@@ -133,7 +133,7 @@ struct ContactLaw {
 
   private:
     // Dashpots need the velocity at the time of the force, which with Verlet is half a step ahead of the
-    // known velocity. The velocity is taken to go on changing as it did over the last step. For two
+    // known velocity. It is assumed that the velocity goes on changing as it did over the last step. For two
     // grains that move by forces alone this is exactly the half kick of the old force. A new contact has no
     // earlier velocity, and the known one is taken as it is.
     template <class R>

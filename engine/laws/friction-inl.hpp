@@ -29,17 +29,17 @@ HWY_INLINE Triple<R> capped_at(const Triple<R>& force, R limit) {
     return select(slides, shortened, force);
 }
 
-// The square (N^2) of the part of `force` that a cap lets act. A spring beyond the cap gives back no more
-// energy than a spring at the cap.
+// The square (N^2) of `force`, or of `limit` where the force is larger. A spring beyond the cap gives back no
+// more energy than a spring at the cap.
 template <class R>
 HWY_INLINE R squared_within(const Triple<R>& force, R limit) {
     return smaller(force.squared(), limit * limit);
 }
 
 // Turns a tangential force as its contact has turned: Cayley's rotation about the axis of `turn` by 2 atan
-// |turn|, which keeps the length exactly. Projecting the force onto the new contact plane, as the original
-// program does, cannot see the twist. The small part along `normal` (the present normal) that rounding leaves
-// is taken off.
+// |turn|, which keeps the length exactly. The original program projects the force onto the new contact plane
+// instead, and so leaves out the twist about the normal. The small part along `normal` (the present normal)
+// that rounding leaves is taken off.
 template <class R>
 HWY_INLINE Triple<R> carry_along(const Triple<R>& force, const Triple<R>& turn, const Triple<R>& normal) {
     const Triple<R> once = turn.cross(force), twice = turn.cross(once);

@@ -3,7 +3,8 @@
 //
 //   N = k a^(3/2) + d sqrt(m_eff k) a^(1/4) v_n,   k = 4/3 E* sqrt(R_eff).
 //
-// Its restitution does not depend on speed. `attraction` is as in spring_dashpot-inl.hpp.
+// a is the overlap, v_n the closing speed and d a number without unit. The restitution does not depend on
+// speed. `attraction` is as in spring_dashpot-inl.hpp.
 #if defined(GRAINREEL_LAWS_HERTZ_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_HERTZ_INL
 #undef GRAINREEL_LAWS_HERTZ_INL
@@ -26,8 +27,8 @@ struct Hertz {
     struct Parameters {
         R modulus;         // Pa, 4/3 E*
         R damping;         // d
-        R sideways_share;  // root of tangential stiffness divided by normal stiffness: the ratio of the
-                           // dashpots
+        R sideways_share;  // ratio of the two dashpots, sideways to normal: the root of the ratio of the
+                           // stiffnesses
         R lowest;          // N, lower bound of the force: 0, or so low that no force reaches it
 
         template <class Each>

@@ -52,7 +52,7 @@ struct LinearSpring {
         const Triple<R> damping = dashpot(normal, touch);
         const Triple<R> whole = h.spring_force + damping;
         const Triple<R> capped = capped_at(whole, p.friction * size_of(normal_force));
-        h.spring_force = capped - damping;  // while sliding, the spring keeps what the cap leaves it
+        h.spring_force = capped - damping;  // while sliding, spring and dashpot add up to the cap
         return capped;
     }
     // Tangential force (N) on j at the present instant, without a step.

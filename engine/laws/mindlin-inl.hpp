@@ -56,7 +56,7 @@ struct Mindlin {
         h.spring_force += touch.slip * stiffness;
         const Triple<R> damping = touch.slip_velocity * normal.sideways_damping(touch);
         const Triple<R> capped = capped_at(h.spring_force + damping, p.friction * size_of(normal_force));
-        h.spring_force = capped - damping;  // while sliding, the spring keeps what the cap leaves it
+        h.spring_force = capped - damping;  // while sliding, spring and dashpot add up to the cap
         return capped;
     }
     // Tangential force (N) on j at the present instant, without a step.
