@@ -29,7 +29,7 @@ int checksum_of(const Row& row, bool meshes) {
     return static_cast<int>(XXH32(&row, meshes ? sizeof row : sizeof row - sizeof row.triangle, 0));
 }
 
-constexpr std::int32_t most_faces = 1000;  // a container with the walls and meshes of its scene has fewer
+constexpr std::int32_t most_faces = 1000;  // no scene has so many faces and meshes
 
 // Whether a run can have written such a row, whatever its checksum says.
 bool possible(const Row& row) {

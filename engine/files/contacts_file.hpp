@@ -3,10 +3,10 @@
 // table.
 //
 // Its dimension is `row`. Its columns are frame (number of the trajectory's frame, from 0), first and second
-// (ids; a wall is -1 - its face), normal (N), tangential (N, on `second`), point (m) and checksum (XXH32 of
-// the row's other numbers as they stand in memory, in this order). Forces and points are floats. In a scene
-// with meshes `triangle` follows the point: the number of the triangle that is touched, counted from 0 as in
-// trajectory.nc, or -1. A grain that touches several parts of a mesh has a row for each.
+// (ids of grains; a wall is -1 minus its number), normal (N), tangential (N, on `second`), point (m) and
+// checksum (XXH32 of the row's other numbers as they stand in memory, in this order). Forces and points are
+// floats. In a scene with meshes `triangle` follows the point: the number of the triangle that is touched,
+// counted from 0 as in trajectory.nc, or -1. A grain that touches several parts of a mesh has a row for each.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +25,8 @@ class ContactsWriter {
     // Throws RunError when the file cannot be written.
     ContactsWriter(const std::filesystem::path& path, const std::string& title,
                    const std::string& program_version, const FileFacts& facts = {}, bool meshes = false);
-    // Continues a file after the contacts of the trajectory's first `frames`; later rows are cut off. Throws
-    // UserError where the file is damaged.
+    // Continues a file. The contacts of the trajectory's first `frames` frames stay, and later rows are cut
+    // off. Throws UserError where the file is damaged.
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);
     ~ContactsWriter();
 
@@ -56,16 +56,16 @@ class ContactsReader {
     std::vector<Touch> touches(std::size_t frame) const;
     // The same with points and tangential forces.
     std::vector<SavedContact> contacts(std::size_t frame) const;
-    // Whether all contacts of the frame are in the file. In a file that was cut off, they may not be for the
-    // last frame with rows and all later ones.
+    // Whether all contacts of the frame are in the file. In a file that was cut off, contacts may be missing
+    // from the last frame that has rows and from all later frames.
     bool has_all(std::size_t frame) const;
-    // Number of rows of the trajectory's first `frames`.
+    // Number of rows of the trajectory's first `frames` frames.
     std::size_t rows_of_first(std::size_t frames) const;
     // Whether the end of the file is missing, so that contacts of the last frames are missing too.
     bool cut_off() const;
     // Number of rows in the file beyond those that its header counts.
     std::size_t uncounted() const;
-    // False for a file of an earlier version, in which damage may look like data.
+    // False for a file of an earlier version. Damage in it may go unnoticed.
     bool has_checksums() const;
 
   private:

@@ -19,8 +19,8 @@ namespace grainreel {
 // classic NetCDF has no integer of 64 bits. Source: Y. Collet, xxHash fast digest algorithm, version 0.1.1.
 class Checksum {
   public:
-    // Adds the bytes of the numbers as they lie in memory: the lowest byte of each first on the processors
-    // that this program runs on. Reader and writer must add the same pieces.
+    // Adds the bytes of the numbers as they lie in memory. On the processors that this program runs on, the
+    // lowest byte of a number comes first. Reader and writer must add the same pieces.
     template <class Value>
     void add(const Value* values, std::size_t count) {
         static_assert(std::is_arithmetic_v<Value>);

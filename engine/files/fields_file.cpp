@@ -267,8 +267,8 @@ struct FieldsReader::Impl {
                 damaged(fmt::format("the cells along {} are not evenly spaced", name));
     }
 
-    // Takes a variable: a field whose axes are all places, in the order of the grid, or one that only the
-    // checksum needs.
+    // Takes a variable that has records. It is a field to be read if its axes are those of the grid, in the
+    // same order. Any other variable is needed only for the checksum.
     void find(const std::string& name) {
         const int id = file.find_variable(name);
         const std::vector<std::string> axes = file.dimensions_of(id);

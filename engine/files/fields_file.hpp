@@ -25,8 +25,8 @@ class FieldsWriter {
     // Throws RunError when the file cannot be made.
     FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets,
                  const std::string& title, const std::string& program_version, const FileFacts& facts = {});
-    // Continues a file that was written with these sets after the records that end before `time` (s). Later
-    // records are cut off.
+    // Continues a file that was written with these sets. The records that end before `time` (s) stay, and
+    // later ones are cut off.
     FieldsWriter(const std::filesystem::path& path, const std::vector<const FieldSet*>& sets, double time);
     // Number of records that end before `time`, and how much of the file they are. Throws UserError where the
     // file is damaged or was written with other sets.

@@ -92,7 +92,7 @@ std::optional<FolderLock> FolderLock::take(const fs::path& folder, const std::st
             throw UserError(fmt::format("{}: is {}, not the lock of a run; remove it", path.string(), other));
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file < 0) {
-            if (holder(folder)) return std::nullopt;  // another user has it
+            if (holder(folder)) return std::nullopt;  // the file is another user's, and a process has it
             return FolderLock(folder, -1);
         }
         if (!lock_patiently(file)) {

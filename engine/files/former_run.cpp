@@ -78,8 +78,8 @@ void copy_bytes(const OpenFile& from, std::uintmax_t begin, std::uintmax_t end, 
     }
 }
 
-// The beginning of a file with a kept end: how many bytes of the growing file stay, and its first bytes,
-// because the header of a NetCDF file counts its records.
+// A file with a kept end begins with this. `bytes` is how many bytes of the growing file stay. `first` are
+// the first bytes of that file: in a NetCDF file they hold the number of records, which changes.
 struct EndHead {
     std::uint64_t bytes = 0;
     std::array<char, 16> first{};

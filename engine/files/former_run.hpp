@@ -32,7 +32,8 @@ class FormerRun {
     void cut(const std::string& name, const KeptRecords& kept) {
         cuts_.push_back({name, kept.bytes, kept.records});
     }
-    // Returns where to make a file that will replace one that grows.
+    // Returns the path at which the caller makes a new file. begin() puts it in the place of the growing file
+    // of this name.
     std::filesystem::path new_file(const std::string& name);
 
     // Keeps the run as it is. Afterwards the new files are in their places, and the others may be cut and

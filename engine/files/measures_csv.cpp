@@ -1,3 +1,5 @@
+// Reads and writes measures.csv. Its columns come from engine/measure; this file knows only how rows stand as
+// text. If that changes, the reader, the writer and cut_before() must change together.
 #include "engine/files/measures_csv.hpp"
 
 #include <algorithm>
@@ -26,7 +28,7 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-// The number in a cell that holds nothing else.
+// The number in a cell. None where the cell is empty or holds anything besides a number.
 std::optional<double> number_of(const std::string& cell) {
     double value = 0;
     const char* const end = cell.data() + cell.size();
@@ -52,7 +54,7 @@ std::string fault_of(const std::vector<std::string>& cells, const std::vector<st
     return "";
 }
 
-// Removes the carriage return of a file from Windows.
+// Removes the carriage return that ends each line of a file from Windows.
 void drop_return(std::string& line) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
 }

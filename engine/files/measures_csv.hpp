@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// The content of a file. A last row without its end was cut off and is left out.
+// The content of a file. If the last line has no line end, its row was cut off, and it is left out.
 struct MeasuresFile {
     std::shared_ptr<const MeasureTable> table;  // the rows; null when there is no file or it is empty
     // What is wrong with the first damaged row, "FILE:LINE: its time_s is no number but \"x\"". The table
@@ -27,8 +27,8 @@ class MeasuresWriter {
   public:
     MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns);
 
-    // Continues a file after the rows of steps before `step`; later rows are cut off. Throws UserError where
-    // the file has other columns.
+    // Continues a file. The rows of steps before `step` stay, and later rows are cut off. Throws UserError
+    // where the file has other columns.
     MeasuresWriter(const std::filesystem::path& path, std::vector<std::string> columns, std::int64_t step);
 
     // How many bytes of the file stay if it is continued. Throws UserError as above.

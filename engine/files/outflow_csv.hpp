@@ -20,7 +20,7 @@ class OutflowWriter {
     // Throws RunError when the file cannot be made.
     explicit OutflowWriter(const std::filesystem::path& path);
 
-    // Continues a file after the rows up to `time` (s); later rows are cut off.
+    // Continues a file. The rows up to `time` (s) stay, and later rows are cut off.
     OutflowWriter(const std::filesystem::path& path, double time);
 
     // How many bytes and rows of the file stay if it is continued. Throws UserError where it is no

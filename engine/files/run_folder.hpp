@@ -31,7 +31,7 @@ class RunFolder {
     //  - `out` is an empty name,
     //  - it is not empty and `force` is not set,
     //  - `force` is set and it holds something other than a run of ours,
-    //  - another process fills it, or in it the folder of a panel (one of several runs in a film),
+    //  - another process fills it or the folder of a panel in it (a panel is one of several runs in a film),
     //  - the folder cannot be made or written.
     explicit RunFolder(const RunFolderRequest& request);
 

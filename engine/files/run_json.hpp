@@ -22,8 +22,9 @@ struct DrawnPart {
     std::int64_t first_frame = 0, frames = 0, all_frames = 0;  // including still ones for a caption
     double rate = 0;                                           // frames per second
     std::string file, format;  // the film's file and its format; empty without one
-    // Checksums of 16 hexadecimal digits: of the run and of the settings that decide its pictures, which are
-    // the same in all parts of a film; and of the film's file, which is empty until the file is complete.
+    // Checksums of 16 hexadecimal digits. `run` is of the run, and `settings` of the settings that decide its
+    // pictures; both are the same in all parts of a film. `checksum` is of the film's file, and it is empty
+    // until that file is complete.
     std::string run, settings, checksum;
 };
 
@@ -43,7 +44,7 @@ std::string checksum_of_file(const std::filesystem::path& path);
 
 enum class RunStatus { running, complete, interrupted, failed };
 
-// A finished run of which frames were drawn.
+// A finished run whose frames were drawn.
 struct DrawnRun {
     std::string folder;
     std::int64_t frames = 0;     // number of frames drawn

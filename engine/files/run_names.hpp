@@ -9,11 +9,12 @@ namespace grainreel {
 // The frames that a run handed out while it went on, for a film's pictures for example, in the format of
 // trajectory.nc. Frame k is the k-th of them.
 inline constexpr const char* kFilmMoments = "film_moments.nc";
-// The key moments of a run (engine/run/driver/agenda.hpp): grains in the format of trajectory.nc, contacts
-// in that of contacts.nc, whose `frame` counts the frames of the former.
+// The key moments of a run (engine/run/driver/agenda.hpp): grains in the format of trajectory.nc, contacts in
+// that of contacts.nc. There `frame` counts the frames of key_moments.nc.
 inline constexpr const char *kKeyMoments = "key_moments.nc", *kKeyContacts = "key_contacts.nc";
 
-// The folders in which FormerRun keeps a run as it was, and prepares to do so.
+// FormerRun keeps a run as it was in .before. While it prepares or removes that folder, it is called
+// .before.part.
 inline constexpr const char *kFormerRun = ".before", *kFormerRunPart = ".before.part";
 
 // The folder with the run in formats of other programs ([output] also).

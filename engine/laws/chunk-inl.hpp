@@ -14,8 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Base of the visitors that each() takes through the numbers of a history or of parameters. A `turning`
-// triple changes sign when the bodies swap places; here it is only three numbers.
+// each() calls a visitor for each number of a history or of parameters. This is the base of these visitors. A
+// `turning` triple changes sign when the bodies swap places; here it is only three numbers.
 template <class Visit>
 struct Visitor {
     template <class R>

@@ -137,8 +137,8 @@ struct LawKernel {
     LawParameters (*parameters)(const std::vector<PairPlan>& kinds);
 
     // `history` is laid out in blocks of kBlock contacts, and within a block number by number. It is set to
-    // zero for contacts that do not touch. Chunks hold numbers of number_size. step_one_kind() is for
-    // contacts that are all of one kind, and gives the same bits in less time. (With a large grain among
+    // zero for contacts that do not touch. Each number in a chunk has `number_size` bytes. step_one_kind() is
+    // for contacts that are all of one kind, and gives the same bits in less time. (With a large grain among
     // small ones, nearly all chunks are of one kind, and take a tenth less time.)
     void (*step)(const LawInput& in, void* history, ForceChunk& out);
     void (*step_one_kind)(const LawInput& in, void* history, ForceChunk& out);

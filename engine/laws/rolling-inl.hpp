@@ -4,8 +4,9 @@
 //
 //   M = k_r theta,   k_r = K0 R_eff^2,   |M| <= mu_r R_eff N.
 //
-// A spring holds a grain at rest on a slope, which a constant torque does not. The resistance comes on top of
-// any law that rubs.
+// K0 is the tangential stiffness of the pair (PairPlan), R_eff the effective radius, mu_r the coefficient of
+// rolling friction and N the normal force. A spring can hold a grain at rest on a slope; a torque of constant
+// size cannot. The resistance is added to any contact law with friction.
 #if defined(GRAINREEL_LAWS_ROLLING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_ROLLING_INL
 #undef GRAINREEL_LAWS_ROLLING_INL
@@ -46,7 +47,7 @@ struct RollingSpring {
     };
 
     // Torque (N m) on j. `angle` (rad) is the rotation of i relative to j in this step, without its part
-    // about k; `normal` and `turn` are as in Touch.
+    // about the normal; `normal` and `turn` are as in Touch.
     template <class R>
     static HWY_INLINE Triple<R> torque(const Parameters<R>& p, History<R>& h, const Triple<R>& normal,
                                        const Triple<R>& turn, const Triple<R>& angle, R effective_radius,

@@ -1,9 +1,9 @@
-// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, where v_n is the closing speed. c is a
-// constant of the contact's kind, as in LAMMPS' hooke/history, or c_1 / sqrt(m_eff), which gives grains of
-// all sizes the same restitution. At the end of contact the dashpot would pull. With attraction it may pull,
-// as in LAMMPS' hooke/history, and a free impact has e = exp(-pi b / sqrt(1 - b^2)), b = c / (2 sqrt(k /
-// m_eff)). Without attraction, N is at least 0 and e is a little larger (Schwager & Poeschel 2007, Granul.
-// Matter 9, 465).
+// Normal force: linear spring and dashpot, N = k a + m_eff c v_n, where a is the overlap and v_n the closing
+// speed. c is a constant of the contact's kind, as in LAMMPS' hooke/history, or c_1 / sqrt(m_eff), which
+// gives grains of all sizes the same restitution. At the end of contact the dashpot would pull. With
+// attraction it may pull, as in LAMMPS' hooke/history, and a free impact has e = exp(-pi b / sqrt(1 - b^2)),
+// b = c / (2 sqrt(k / m_eff)). Without attraction, N is at least 0 and e is a little larger (Schwager &
+// Poeschel 2007, Granul. Matter 9, 465).
 #if defined(GRAINREEL_LAWS_SPRING_DASHPOT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_SPRING_DASHPOT_INL
 #undef GRAINREEL_LAWS_SPRING_DASHPOT_INL

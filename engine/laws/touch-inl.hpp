@@ -33,7 +33,7 @@ template <class R>
 struct Energies {
     R stored;    // J, energy that the contact would give back if it were unloaded
     R sideways;  // J, the part of it in tangential and rolling springs
-    R latched;   // J, energy that latching would have taken since the bodies met, if they were unloaded now
+    R latched;   // J, energy lost in the latching spring since the bodies met, if they were unloaded now
     R damping;   // W, lost in the normal dashpot
     R rubbing;   // W, that slip and rolling put into springs, friction and tangential dashpots
 };

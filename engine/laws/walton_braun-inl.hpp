@@ -2,10 +2,11 @@
 //
 //   N = max(0, min(K1 a, K2 (a - a0))),   a0 = a_max (1 - K1/K2),   e = sqrt(K1/K2) at any speed
 //
-// Loading follows slope K1. Unloading follows K2 down to the residual overlap a0, and reloading follows K2 up
-// until it meets K1 again. Between 0 and a0 the force is zero. The residual is forgotten when the spheres
-// part. Some codes lower a0 when a contact reloads from inside that gap; the min() rule of the original
-// program does not, and this code does not either.
+// a is the overlap and a_max the largest one since the spheres met. Loading follows slope K1. Unloading
+// follows K2 down to the residual overlap a0, and reloading follows K2 up until it meets K1 again. Between 0
+// and a0 the force is zero. The residual is forgotten when the spheres part. Some codes lower a0 when a
+// contact reloads from inside that gap; the min() rule of the original program does not, and this code does
+// not either.
 #if defined(GRAINREEL_LAWS_WALTON_BRAUN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_WALTON_BRAUN_INL
 #undef GRAINREEL_LAWS_WALTON_BRAUN_INL

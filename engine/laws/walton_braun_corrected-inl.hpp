@@ -66,9 +66,9 @@ struct WaltonBraunCorrected {
         const R since = select(v > R(0), smaller(dt, touch.overlap / v), dt);
         return select(begins, since, dt);
     }
-    // Normal force (N), >= 0, over the step around the time of this overlap. (Divisions and roots took most
-    // of the time. So the inverses of masses and stiffnesses are stored, and terms that only some contacts
-    // need are computed only if one of the contacts needs them.)
+    // Normal force (N), >= 0: the mean over the step that has this overlap in its middle. (Divisions and
+    // roots took most of the time. So the inverses of masses and stiffnesses are stored, and terms that only
+    // some contacts need are computed only if one of the contacts needs them.)
     template <class R>
     static HWY_INLINE R force(const Parameters<R>& p, History<R>& h, const Touch<R>& touch) {
         const R by_mass = touch.inverse_mass, dt = touch.step, by_step = R(1) / dt;

@@ -22,7 +22,7 @@ struct ContactView {
     Vec3 torque_on_second;   // N m; not set for a wall
     double stored_energy;    // J, energy that unloading would give back
     double sideways_energy;  // J, the part of it in tangential and rolling springs
-    double latched_energy;   // J, energy that latching would have taken since the bodies met, if they were
+    double latched_energy;   // J, energy lost in the latching spring since the bodies met, if they were
                              // unloaded now
     double damping_power;    // W, lost in the normal dashpot
     double rubbing_power;    // W, that slip and rolling put into springs, friction and tangential dashpots

@@ -69,10 +69,10 @@ class StepLoop {
     void begin_account() { traffic_ = {.next_id = traffic_.next_id}; }
 
     // Sums the forces of grains on the walls from now on. The first forces are those of the last evaluation.
-    // If it was not tallied, they are the forces that contacts have at the present step, `step`. The tally
-    // does not change the run. It takes a few percent of the time that the walls take.
+    // If walls were not tallied then, they are the forces that contacts have at the present step, `step`. The
+    // tally does not change the run. It takes a few percent of the time that the walls take.
     void tally_walls(const WallScale& scale, std::int64_t step);
-    // Tallies walls too, but goes on from the sums `before`. Their vectors must fit the numbers of faces and
+    // Like tally_walls(), but goes on from the sums `before`. Their vectors must fit the numbers of faces and
     // slices.
     void go_on_tallying(const WallSums& before, const WallScale& scale);
     WallSums wall_sums() const;

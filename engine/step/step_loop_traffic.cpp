@@ -56,12 +56,13 @@ bool StepLoop::in_exit(std::int32_t i) const {
                        [&](const Exit& exit) { return exit.holds(grains_.place[i].position); });
 }
 
-// Whether the run must stop at the end of this step because a grain of this member may leave then.
+// Whether the run must stop at the end of this step because a grain of this member (a thread of the team) may
+// leave then.
 //
 // If the scheme still moves grains after the forces, the run stops when a grain comes near an exit. How near
-// depends only on the grain, not on the threads, because these schemes round differently where a run stops. A
-// grain moves by at most the way of a step and what the forces of a step add to it. That is far less than a
-// hundredth of its radius, since a contact lasts many steps.
+// depends only on the grain, not on the threads, because these schemes round differently where a run stops.
+// In a step a grain moves by its velocity times the step, and by what the forces add to that. The addition is
+// far less than a hundredth of its radius, since a contact lasts many steps.
 bool StepLoop::may_leave(int member, double step) const {
     constexpr double kPushed = 0.01;  // as a share of a radius
     if (around_.exits.empty()) return false;

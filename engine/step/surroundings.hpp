@@ -1,5 +1,6 @@
 // The surroundings that a scene gives its grains: faces, glued grains, meshes, gravity and exits. They are
-// made from a scene and its plan. The step loop reads them and never changes them.
+// made from a scene and its plan. The step loop only reads them. In a run only open_outlet() changes them
+// later, while the loop stands still.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,7 @@ struct MeshWall {
     std::string name;
     std::shared_ptr<const Surface> surface;
     Body body;
-    Vec3 point{0, 0, 0};  // m, at rest, about which its moment counts
+    Vec3 point{0, 0, 0};  // m, place at rest of the point about which the mesh's moments are taken
 };
 
 struct Surroundings {
@@ -31,14 +32,15 @@ struct Surroundings {
     std::vector<MeshWall> meshes;
     WallMotion motion;
     Vec3 gravity{0, 0, 0};  // m/s2
-    double period = 0;      // m, of x; 0 for none
-    double skin =
-        0;  // m, how far beyond contact the first neighbour lists reach; later ones adapt to the motion
-    std::vector<Exit> exits;  // regions in which grains leave; may change between two runs
+    double period = 0;      // m, along x; 0 where x is not periodic
+    // m: the first neighbour lists hold grains up to this distance beyond contact. Later lists use a distance
+    // that suits the motion.
+    double skin = 0;
+    std::vector<Exit> exits;  // regions in which grains leave; open_outlet() may add one
 };
 
-// The name of a wall in messages. `wall` counts faces first and then meshes, as in ContactView (wall = -1 -
-// second).
+// The name of a wall in messages. `wall` numbers the faces from 0 and then the meshes. For a ContactView it
+// is -1 - second.
 inline std::string wall_name(const Surroundings& around, std::int32_t wall) {
     const auto number = static_cast<std::size_t>(wall);
     const std::size_t faces = around.faces.size();

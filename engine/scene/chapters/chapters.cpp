@@ -1,4 +1,5 @@
-// The keys above all tables, and functions that several chapters need.
+// The keys that stand in a scene file before its first table (title and gravity), and functions that several
+// chapters use. A new key of this kind needs an entry in top_level_table().
 #include "engine/scene/chapters/chapters.hpp"
 
 #include <cmath>
@@ -49,7 +50,8 @@ void write_top_level(SceneText& out, const Scene& scene) {
 void make_unit(const Document& document, const std::string& path, Vec3& direction) {
     const double length = direction.norm();
     if (length == 0) document.fail(path, "must not be zero; write for example [0, 0, 1]");
-    // A unit vector keeps its bits, so that a resolved scene reads back as it was.
+    // A direction that is a unit vector already is not divided again, since rounding would change its last
+    // bits. So a scene that the program has written reads back exactly as it was.
     if (std::abs(length - 1) >= 1e-15) direction /= length;
 }
 

@@ -1,6 +1,7 @@
 // The chapters of a scene file: the code for one table each, such as [drive], or for a few that belong
 // together. A chapter adds its keys to the list of all keys, reads them and writes them back. The chapters of
-// [film] are in render/scene/keys. Internal to the reader and the writer of scenes.
+// [film] are in render/scene/keys. Internal to the reader and the writer of scenes. Comments such as "after
+// species" say which chapters must have been read before.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,7 @@ template <class T>
 class KeyTable;
 }
 
-// Title and gravity, above all tables.
+// Title and gravity, the keys that stand before the first table.
 void list_top_level(keys::Keys& all);
 void read_top_level(Document& document, Scene& scene);
 void write_top_level(SceneText& out, const Scene& scene);
@@ -83,13 +84,14 @@ void list_fields(keys::Keys& all);
 void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains
 void write_fields(SceneText& out, const Scene& scene);
 
-// Finds the box in which each mesh moves, after all else has been read.
+// Finds the box in which each mesh moves. To be called when all keys have been read.
 void measure_meshes(Scene& scene);
 
-// After that, gives empty space the size of what happens in it.
+// Gives a scene without a container the size of the box around all that it holds. To be called after
+// measure_meshes().
 void size_empty_space(Scene& scene);
 
-// Checks what can be wrong between keys that are right by themselves. Throws UserError.
+// Checks keys against each other: keys that are allowed alone may be wrong together. Throws UserError.
 void check_scene(const Scene& scene);
 void check_meshes(const Scene& scene);  // the same for meshes, exits and turning containers
 
@@ -120,7 +122,7 @@ class TableReader {
     virtual void read_species(Document& document, std::size_t species) = 0;
     // Reads the tables of this reader. The engine has read all of its own.
     virtual void read_tables(Document& document) = 0;
-    // Checks what can be wrong between keys that are right by themselves. Throws UserError.
+    // Checks keys against each other, like check_scene(). Throws UserError.
     virtual void check() const = 0;
 };
 

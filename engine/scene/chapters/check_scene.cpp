@@ -1,4 +1,4 @@
-// Checks what can be wrong between values that are right by themselves.
+// Checks values against each other: values that are allowed alone may be wrong together.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,13 +24,13 @@ namespace grainreel {
 
 namespace {
 
-// The largest share of the container's volume that spheres growing in layers fill without jamming. Random
-// packings of equal spheres end at 0.64, and one that can still be sheared ends near 0.55.
+// The largest share of the container's volume that spheres growing in layers fill without jamming. A random
+// packing of equal spheres has at most 0.64. Near 0.55 it can still be sheared.
 constexpr double most_solid = 0.55;
-constexpr double closest_packing = 0.64;  // solid fraction of equal spheres at random
+constexpr double closest_packing = 0.64;  // solid fraction of a random packing of equal spheres
 
-// Shortest period, in largest diameters. From two on, no grain touches two images of another; the half
-// diameter more is for neighbour lists, which may reach that far beyond contact.
+// The shortest period, in diameters of the largest grain. With two diameters or more no grain touches two
+// images of another. Neighbour lists may reach half a diameter beyond contact, so they need that much more.
 constexpr double shortest_period = 2.5;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
@@ -321,7 +321,7 @@ double smallest_diameter(const Scene& scene) {
     return smallest;
 }
 
-// Grains leave a vessel only where the scene says so.
+// If the scene has no exits, its vessel must have no hole through which grains could leave.
 void check_vessel(const Scene& scene) {
     const SceneMesh* vessel = scene.vessel();
     if (vessel == nullptr || !scene.exits.empty()) return;

@@ -21,8 +21,8 @@ const ChoiceWords<LeverArms> arms_words{{"contact-plane", LeverArms::contact_pla
 
 // What the tables say about one kind of contact, before defaults are filled in.
 struct PairText {
-    PairContact value;                        // has the laws only; all other values are in `said`
-    std::map<std::string, PairContact> said;  // for each key, a contact that has its value
+    PairContact value;                        // only its laws count; all other values are taken from `said`
+    std::map<std::string, PairContact> said;  // for each key that was written, a contact that holds its value
 };
 
 // Refuses combinations of laws that have no meaning.

@@ -95,7 +95,7 @@ BoundKey<C> mesh_key() {
         });
 }
 
-// A width in the scene is twice the value that is kept.
+// The scene gives a whole width, but half of it is kept.
 BoundKey<C> width(const char* name, Fallback fallback, const char* about) {
     return bound_by<C>(
                quantity(name, Dimension::length, positive, std::move(fallback), about),
@@ -184,7 +184,7 @@ const KeyTable<C>& container_table() {
     return table;
 }
 
-// Finds the sizes of a mesh's room. Half-width and depth are the largest of all its levels.
+// Finds the sizes of a mesh's room. Half-width and depth are the largest that the room has at any height.
 void measure_room(const Document& document, const Scene& scene, C& c) {
     constexpr int levels = 64;
     c.room.of = room_of(scene.vessel()->surface.of);

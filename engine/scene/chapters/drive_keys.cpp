@@ -230,8 +230,8 @@ void check_order(const Scene& scene) {
                         first, grown));
 }
 
-// Checks that the change to each stage is over before the next stage begins, and that then at least a tap or
-// a period of the stage is left.
+// Checks that the change to each stage is over before the next stage begins or the run ends. A stage of taps
+// must then have time left for at least one tap.
 void check_lengths(const Scene& scene) {
     const std::vector<DriveStage>& stages = scene.drive.stages;
     const DriveSchedule schedule(scene.drive);
@@ -254,7 +254,8 @@ void check_lengths(const Scene& scene) {
     }
 }
 
-// Whether the last stage has begun, and has a period or a tap left, when the run ends.
+// Whether the last stage begins, and the change to it is over, before the run ends. A stage of taps must also
+// have time for a tap.
 bool last_stage_counts(const Scene& scene) {
     const DriveStage& last = scene.drive.stages.back();
     const double end = scene.run.duration;
@@ -288,8 +289,8 @@ bool begins_too_late(double from, const Scene& scene) {
     return !clearly_less(from, scene.run.duration);
 }
 
-// Leaves out feeds that begin too late. A feed stays, and is refused later, where its species has no other
-// grains: neither at the start nor from a feed that begins in time.
+// Leaves out feeds that begin too late. But if a species has no grains at the start and no feed that begins
+// in time, its feeds stay, and the reader refuses them later.
 void shorten_feeds(Scene& scene) {
     std::vector<bool> has_others;
     for (const Species& species : scene.species) has_others.push_back(species.count > 0);

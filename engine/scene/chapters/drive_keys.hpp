@@ -19,8 +19,8 @@ std::size_t shorten_stages(Scene& scene);
 // Throws UserError where stages do not fit each other, the ramp or the run.
 void check_stages(const Scene& scene);
 
-// If the command line ends a run earlier than its scene does, what would begin only after that end is left
-// out.
+// The command line may end a run earlier than its scene does. Then the parts of the scene that would begin
+// after this end are left out.
 
 // Whether `run.duration` comes from the command line.
 bool ends_early(const Document& document);
@@ -29,7 +29,8 @@ bool ends_early(const Document& document);
 // The film's keys are read later, and their reader leaves out its own parts.
 void shorten(const Document& document, Scene& scene);
 
-// Adds "2 captions", say, to the scene's one note about what is left out. Does nothing for a count of 0.
+// The scene has one note that lists what is left out. Adds to it, for example, "2 captions". Does nothing for
+// a count of 0.
 void leave_out(Scene& scene, std::size_t count, const char* one, const char* many);
 
 }  // namespace grainreel

@@ -52,7 +52,7 @@ std::string hash_with_placement(const SceneMesh& mesh) {
                        a.z(), mesh.rotation.angle);
 }
 
-// Checks that a file has the hash that the scene gives, as the scene in a run's folder does.
+// If the scene gives a hash of the file, checks that the file has it. The scene in a run's folder gives one.
 void check_hash(const Document& document, const std::string& key, const std::string& file,
                 const std::string& said, const std::string& found) {
     if (said.empty() || said == found) return;
@@ -61,7 +61,7 @@ void check_hash(const Document& document, const std::string& key, const std::str
                                    excerpt(file, kLongestPath), found, said));
 }
 
-// Reads a file; an error gets the place of the key that names the file.
+// Reads a file. An error then names the place in the scene of the key that names the file.
 template <class Read>
 auto at_key(const Document& document, const std::string& key, const Read& read) {
     try {

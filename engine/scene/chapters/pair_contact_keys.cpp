@@ -11,8 +11,8 @@ namespace {
 
 using namespace keys;
 
-constexpr double spring_ratio =
-    2.0 / 7;  // for linear-spring: a sphere then oscillates with one period along the normal and sideways
+// For linear-spring: a sphere then oscillates along the normal and sideways with the same period.
+constexpr double spring_ratio = 2.0 / 7;
 constexpr double mindlin_ratio = 2 * (1 - 0.3) / (2 - 0.3);  // for Mindlin, at Poisson's ratio 0.3
 
 using Reason = const char*;

@@ -20,8 +20,8 @@ namespace {
 
 using namespace keys;
 
-// Whether contact corrections are possible: they need a spring of constant slopes, and the velocities of
-// velocity Verlet.
+// Whether contact corrections are possible: they need a Walton-Braun spring with constant slopes, and
+// velocity Verlet, whose velocities belong to the middle of the step.
 bool correctable(const Contact& contact, Integrator integrator) {
     const auto constant = [](const PairContact& pair) {
         return pair.normal == NormalLaw::walton_braun && !pair.restitution_speed &&
@@ -217,8 +217,9 @@ namespace {
 
 using namespace keys;
 
-// No cell may miss a grain: the smaller kernel ends three widths away, and the middle of a cell is at most
-// 0.87 of its side away.
+// Every grain must count in some cell, so its kernel must reach the middle of the cell in which it lies. That
+// middle is at most 0.87 of the cell's side away (half the diagonal of a cube). The Gaussian, the smaller of
+// the two kernels, ends three widths away.
 constexpr double largest_cell = 2;  // in widths
 
 const char* without_fields(const FieldOutput& fields) {

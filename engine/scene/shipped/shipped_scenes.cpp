@@ -1,3 +1,5 @@
+// Finds shipped scenes by their names. The build generates their list, shipped_scenes(), from the files in
+// scenes/ (embed_scenes.cmake). A new scene needs no change here.
 #include "engine/scene/shipped/shipped_scenes.hpp"
 
 #include <algorithm>
@@ -16,7 +18,7 @@ std::string plain_name(std::string_view name) {
     return plain;
 }
 
-// The lines of the comment at the top of a text, joined into one.
+// The first paragraph of the comment at the top of a text, as one line. An empty comment line ("#") ends it.
 std::string first_comment(std::string_view text) {
     std::string comment;
     while (!text.empty() && text.front() == '#') {

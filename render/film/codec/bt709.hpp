@@ -1,7 +1,7 @@
 // Converts sRGB pixels to what a video codec stores: Y'CbCr of ITU-R BT.709-6 in limited range, with half the
-// chroma samples in each direction. It takes half the time of swscale, rounds to the nearest code, and puts
-// chroma where the film says that it is. It computes with integers alone, so the bits are the same with every
-// instruction set.
+// chroma samples in each direction. It takes half the time of swscale, rounds to the nearest code, and
+// computes chroma at the places that the film's file states (see to_bt709). It computes with integers alone,
+// so the bits are the same with every instruction set.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ namespace {
 
 struct LibraryName {
     const char* name;
-    int major;  // of the headers; the libraries of another one have other structs
+    int major;  // version of the headers; libraries of another major version have other structs
 };
 
 LibraryName library_name(FfmpegLibrary library) {
@@ -98,7 +98,7 @@ void encode_nothing(AVCodecContext& codec) {
 }  // namespace
 
 void free_codec(AVCodecContext* codec) {
-    // SVT-AV1 1.4 that never had a picture waits for one for ever when it is closed.
+    // When SVT-AV1 1.4 is closed before it has had a picture, it waits for one for ever.
     const bool waits = avcodec_is_open(codec) && av_codec_is_encoder(codec->codec) &&
                        codec->codec_id == AV_CODEC_ID_AV1 && codec->frame_number == 0;
     if (waits) encode_nothing(*codec);

@@ -23,7 +23,8 @@ struct FfmpegDeleter {
 struct InputDeleter {
     void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
 };
-// A file being written; closed without a trailer unless one was written before.
+// A file being written. Deleting closes the file but does not write the trailer, FFmpeg's last part of a
+// file. Whoever wants a complete file writes the trailer before.
 struct OutputDeleter {
     void operator()(AVFormatContext* p) const {
         avio_closep(&p->pb);
@@ -38,16 +39,17 @@ using ScalerPtr = std::unique_ptr<SwsContext, FfmpegDeleter>;
 using InputPtr = std::unique_ptr<AVFormatContext, InputDeleter>;
 using OutputPtr = std::unique_ptr<AVFormatContext, OutputDeleter>;
 
-// Opens FFmpeg's libraries, but for the one of filters. From now on they and their codecs print nothing;
-// their errors are kept for ffmpeg_error. Throws RunError where a library is missing.
+// Opens all libraries of FFmpeg except libavfilter. From then on they and their codecs print nothing, except
+// that SVT-AV1 prints its errors. The errors that FFmpeg logs are kept for ffmpeg_error(). Throws RunError
+// where a library is missing.
 void quiet_ffmpeg();
 
 // Names and versions of FFmpeg and its libraries, as loaded. Opens them, and throws RunError where one is
 // missing.
 std::vector<std::pair<std::string, std::string>> ffmpeg_versions();
 
-// "No space left on device" for a negative return code of FFmpeg, with the last error line that FFmpeg logged
-// since the previous call, if any.
+// Says in words what a negative return code of FFmpeg means: "No space left on device". If FFmpeg has logged
+// an error since the previous call, the last such line follows in brackets.
 std::string ffmpeg_error(int code);
 
 // A dictionary of options that is freed in any case.
@@ -57,7 +59,7 @@ class AvOptions {
     AvOptions(const AvOptions&) = delete;
     AvOptions& operator=(const AvOptions&) = delete;
     ~AvOptions() {
-        if (dictionary_) av_dict_free(&dictionary_);  // an empty one calls nothing: FFmpeg may be missing
+        if (dictionary_) av_dict_free(&dictionary_);  // a call would open FFmpeg, which may be missing
     }
     void set(const std::string& key, const std::string& value) {
         av_dict_set(&dictionary_, key.c_str(), value.c_str(), 0);
@@ -71,8 +73,8 @@ class AvOptions {
 // One filter of libavfilter between frames that go in and frames that come out.
 class FilterGraph {
   public:
-    // Frames have the size and pixels of `codec`. second: a still picture for the filter's second input, if
-    // it has one. Throws RunError.
+    // The frames that go in have the size and the pixel format of `codec`. second: a still picture for the
+    // filter's second input, if it has one. Throws RunError.
     FilterGraph(const AVCodecContext& codec, const std::string& filter, const AVFrame* second = nullptr);
 
     void push(AVFrame& frame);  // the frame stays the caller's

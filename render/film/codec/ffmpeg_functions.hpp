@@ -1,6 +1,6 @@
-// The functions of FFmpeg that we call. Its libraries are opened when one of them is called for the first
-// time, because they bring some seventy others, which would take half of the start of every command. A
-// function that is new to us gets a line here.
+// The functions of FFmpeg that we call. Each library of FFmpeg is opened when one of its functions is called
+// for the first time. These libraries load some seventy others. If every command opened them, its start would
+// take twice as long. A function that is new to us gets a line here.
 #pragma once
 
 extern "C" {
@@ -25,7 +25,8 @@ void* ffmpeg_function(FfmpegLibrary library, const char* name);
 template <class Function>
 class Late;
 
-// Is called like the function whose name it has, and looks it up once.
+// Stands for the function of FFmpeg with its name, and is called like it. The first call looks the function
+// up.
 template <class Result, class... Arguments>
 class Late<Result(Arguments...)> {
   public:
@@ -55,7 +56,7 @@ class Late<Result(Arguments...)> {
     }
 
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wignored-attributes"  // that a result must be looked at is no part of a type
+#pragma GCC diagnostic ignored "-Wignored-attributes"  // decltype drops attributes such as [[nodiscard]]
 
 GRAINREEL_LATE(avutil, av_d2q);
 GRAINREEL_LATE(avutil, av_dict_copy);

@@ -23,10 +23,11 @@ struct FilmPiece {
 enum class JoinEnd { joined, stopped };
 
 // Writes the pieces, in their order, as one film with `rate` frames a second, in the container of `codec`.
-// `to` is replaced once all of it is there, and nothing else is left beside it. Only the times of packets
-// change. Throws UserError that names the piece when a piece cannot be read, has a wrong number of frames or
-// wrong times, or is coded otherwise than the first one. Throws RunError when writing fails. go_on is called
-// now and then and stops the work by returning false.
+// The film gets the name `to` only when it is complete, and no unfinished file stays beside it. Joining
+// changes the times of the packets and nothing else in them. Throws UserError that names the piece when a
+// piece cannot be read, has a wrong number of frames or wrong times, or is coded otherwise than the first
+// one. Throws RunError when writing fails. go_on is called now and then and stops the work by returning
+// false.
 JoinEnd join_films(const std::vector<FilmPiece>& pieces, const Codec& codec, double rate,
                    const std::filesystem::path& to, const std::function<bool()>& go_on);
 
@@ -38,8 +39,8 @@ class PieceReader {
     const AVFormatContext& file() const { return *file_; }
     const AVStream& stream() const { return *file_->streams[0]; }
 
-    // Reads the next packet in the order of coding. False after the last one; then each frame has come
-    // exactly once.
+    // Reads the next packet in the order of coding. Returns false after the last packet. By then each frame
+    // has come exactly once; otherwise it throws.
     bool next(AVPacket& packet);
     // The frame that the last packet shows, from 0, and how many packets came before it.
     std::int64_t frame() const { return frame_; }

@@ -84,8 +84,8 @@ class CappedFilm final : public FilmWriter {
     [[noreturn]] void refuse(std::int64_t size, std::int64_t floor, double overhead) const;
     void take_fitted() const;
     std::string first_pass() const;
-    // These encode the film anew and return its bytes: with the given settings, at the least legible quality,
-    // or at a rate in bits/s.
+    // These encode the film anew and return its size in bytes. They use the given settings, the least legible
+    // quality, or a rate in bits/s.
     std::int64_t encode(EncoderSettings settings) const;
     std::int64_t encode_legible() const;
     std::int64_t encode_at(std::int64_t bit_rate, const std::string& log) const;

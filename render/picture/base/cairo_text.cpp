@@ -230,8 +230,8 @@ Stamp make_stamp(double reach) {
     return stamp;
 }
 
-// The halo's alpha over the pixel's own. It is above 1 because strokes of small letters are thinner than a
-// pixel and never opaque.
+// The halo's alpha divided by the alpha of the letter's pixel. It is above 1 because strokes of small letters
+// are thinner than a pixel and never opaque.
 constexpr float kGain = 2.2f;
 
 // The halo's alpha in the part, 0 to 255. Clear pixels, which are most of a surface, are skipped.

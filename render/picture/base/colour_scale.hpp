@@ -28,9 +28,9 @@ struct ClippedCount {
     }
 };
 
-// "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where there is nothing to say. With
-// bands, values above the end do not count as beyond it. `of` names the things that are coloured, such as
-// "grains".
+// "colours by speed: 0.4 % of the grains lie above 0.75 m/s"; empty where there is nothing to say. Where
+// colours come in bands, the highest band has no upper end, so no value is said to lie above it. `of` names
+// the things that are coloured, such as "grains".
 std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of);
 
 // The same for the triangles of meshes, but for values above the range alone: "walls by wear: ...".

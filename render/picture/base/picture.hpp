@@ -35,7 +35,8 @@ struct Picture {
     }
 };
 
-// Turns colours multiplied by alpha, which layers have, into plain colours, which pictures have.
+// Divides colours by alpha. The layers of a picture have colours multiplied by alpha; pictures have plain
+// ones.
 void divide_by_alpha(Picture& picture, const Rectangle& port);
 
 // Sizes of letters and gaps, pixels.

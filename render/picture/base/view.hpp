@@ -45,8 +45,8 @@ struct View {
 // A view with directions only. azimuth and elevation (degrees) and up (unit) are those of Camera.
 View looking(double azimuth, double elevation, const Vec3& up = Vec3(0, 0, 1));
 
-// The direction towards the eye at azimuth and elevation 0: the part of z across `up` where `up` is nearly
-// level, else the part of x across `up`.
+// The direction towards the eye at azimuth and elevation 0. It is the component perpendicular to `up` of z
+// where `up` is nearly level, and of x elsewhere.
 Vec3 front_of(const Vec3& up);
 
 // Pixels for one unit of x/z at the camera's field of view, without its zoom; 1 for an orthographic camera.

@@ -132,7 +132,8 @@ Picture ContactSheet::draw(const Picture& last) const {
     set_colour(on.get(), background_);
     cairo_paint(on.get());
     const std::vector<Tile> tiles = chosen(last);
-    // So many decimals that the times of neighbouring tiles differ, and by two figures at the mean distance.
+    // Enough decimals to show different times on neighbouring tiles, and the mean distance of times to two
+    // figures.
     double between = tiles.size() > 1
                          ? (tiles.back().time - tiles.front().time) / static_cast<double>(tiles.size() - 1)
                          : 1;

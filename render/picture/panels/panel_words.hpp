@@ -24,8 +24,9 @@ struct WordBlock {
     double x = 0, y = 0;  // pixels: the top left corner, which flow() sets
 };
 
-// The blocks that hold for all panels: captions of time, clock, dial, playback, drive, legend, colour bar,
-// what marks mean, and scale bar. scale: pixels a metre; 0 where panels have scales of their own.
+// The blocks that hold for all panels: captions (film.caption), clock, dial, drive, exaggeration, speed of
+// playback, legend, colour bar, what marks mean, and scale bar. scale: pixels a metre; 0 where panels have
+// scales of their own.
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
                                      const Common& common, double scale, double width);
 
@@ -35,8 +36,8 @@ double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width)
 // The height of the notes under panels of this width: words that change with the frames. 0 without notes.
 double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width);
 
-// The height of the caption of time over each panel, which tells how fast its film plays; 0 where all panels
-// share one.
+// Each panel may have a caption of time: words over it that tell how fast its film plays. Returns the height
+// of these captions; 0 where one caption of time holds for all panels.
 double pace_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,
                    double width);
 // Writes the caption of time over one panel.

@@ -11,7 +11,9 @@
 namespace grainreel {
 
 struct Panel {
-    FilmedScene scene;  // of its film these count: camera, `shows`, captions, look
+    // Its film gives the camera, what is shown, the captions and the look. The whole picture's film gives
+    // size and background.
+    FilmedScene scene;
     std::string caption;
     std::vector<std::string> playback = {};  // how fast the film plays, in words, for each of its segments
 };

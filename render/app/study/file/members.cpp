@@ -18,7 +18,8 @@
 namespace grainreel {
 namespace {
 
-// Which value of each variation the setting of that number has; the last one changes fastest.
+// Which value of each variation the setting of that number has. From setting to setting the last variation
+// changes fastest.
 std::vector<std::size_t> place_in_grid(const Study& study, std::size_t setting) {
     std::vector<std::size_t> at(study.variations.size());
     for (std::size_t i = at.size(); i-- > 0;) {

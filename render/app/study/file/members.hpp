@@ -20,21 +20,23 @@ namespace grainreel {
 constexpr std::size_t most_members_unasked = 10'000;
 constexpr std::size_t most_members = 1'000'000;  // about a gigabyte of lists
 
-// A file of a mesh or of a path, of which the study keeps a copy.
+// A file that the scene names for a mesh: its surface, or the path along which it moves. The study keeps a
+// copy.
 struct MemberFile {
     std::string key;         // key of the scene, "mesh[0].file"
     std::string from, hash;  // its path, and a hash of its contents
 };
 
 struct Member {
-    std::size_t setting = 0;      // number of its setting in the grid, which all seeds share
+    std::size_t setting = 0;      // number of its setting; members that differ in the seed have the same
     std::vector<std::size_t> at;  // for each variation, the index of the value
     std::size_t seed_index = 0;
     std::optional<std::uint64_t> seed;
-    Assignments sets;  // in this order: the study's own, the values, the start file, the seed
+    Assignments sets;  // keys to set: for the whole study, then by the values, the start file, the seed
     std::vector<MemberFile> files;
-    // Name of its folder: a short description, and a hash of its scene with all values resolved, but without
-    // the film. By the hash a study that was changed finds the members that are still the same.
+    // Name of its folder: a short description, and a hash of its complete scene without what does not change
+    // its numbers (film, title, name, threads). When a study was changed, this hash tells which members are
+    // still the same.
     std::string name;
 };
 
@@ -60,19 +62,20 @@ class PackingSharing {
     // To be called for each setting when it is planned.
     void add_setting(const Scene& scene, const Plan& plan);
 
-    // Says how many packings the settings begin with when some share one, or why settings that differ in the
-    // drive alone share none. The text is empty where there is nothing to say: for a single setting, or when
-    // none packs.
+    // If some settings share a packing, says how many packings there are. If settings that differ in the
+    // drive alone share none, says why. Otherwise the text is empty, for example where fewer than two
+    // settings pack.
     std::string text() const;
 
   private:
-    // The most settings that are looked at, since each costs some milliseconds.
+    // No more settings than this are looked at, because each takes some milliseconds.
     static constexpr std::size_t kMost = 200;
 
     std::size_t settings_ = 0, packing_ = 0;  // settings that were looked at, and those of them that pack
     std::set<std::string> packings_;
-    std::set<std::string> without_drive_;  // packings of the scenes without their drives
-    bool grows_ = false;                   // whether the radii of some setting grow
+    // The scenes as text without their drives. Scenes that differ in the drive alone have the same text.
+    std::set<std::string> without_drive_;
+    bool grows_ = false;  // whether the radii of some setting grow
 };
 
 }  // namespace grainreel

@@ -21,9 +21,9 @@ Study read_study(const std::filesystem::path& file);
 // Gives the keys of a study file with their meanings, which docs/reference/studies.md lists.
 const std::vector<Key>& study_keys();
 
-// From here on: functions that read the parts of a study file, in the order in which read_study() calls them;
-// only read_study() does. variations.cpp has those of seeds, variants and variations, and read_measures.cpp
-// has the others. Each throws UserError with the place of the mistake.
+// From here on: functions that read the parts of a study file. Only read_study() calls them, in this order.
+// variations.cpp has those of seeds, variants and variations, and read_measures.cpp has the others. Each
+// throws UserError with the place of the mistake.
 
 // Reads the seeds at that path, given as a number of seeds or a list; none when the key is absent.
 Seeds read_seeds(Document& document, const std::string& path);
@@ -31,7 +31,8 @@ Seeds read_seeds(Document& document, const std::string& path);
 void read_variants(Document& document, Study& study);
 // Reads one element of a list of tables, "vary[0]", and adds it to the study.
 void read_variation(Document& document, const std::string& table, Study& study);
-// scene: that of the variant that runs longest. All members have its species and so its columns.
+// scene: the scene of the variant that runs longest. All members have the same species, so they have the same
+// columns.
 void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study);
 void read_chart(Document& document, const std::string& table, Study& study);
 // Adds a chart for each measure when the file asks for none.

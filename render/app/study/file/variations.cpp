@@ -146,7 +146,8 @@ const Key& key_of_scene(const std::string& scene_text, const std::filesystem::pa
     Document probe(scene_text, scene.string(), keys);
     probe.set({path + "=0", place});
     probe.check_keys();
-    // The key that was set is the one with that place; the tables around it have shorter paths.
+    // The key that was set has that place, and so have the tables around it. The longest path, which comes
+    // last, is that of the key.
     const Key* key = nullptr;
     for (const auto& [written, where] : probe.written())
         if (where.file == place && find_key(written, keys) != nullptr) key = find_key(written, keys);

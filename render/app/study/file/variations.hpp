@@ -34,8 +34,9 @@ struct ValueRange {
 // write. The caller adds the place and the names of the keys.
 std::vector<std::string> range_values(const ValueRange& range);
 
-// Finds out whether all values are numbers, and their unit, from what is written and from the dimension of
-// the key. If all values have the same unit they stay in it; otherwise all are converted to SI units.
+// Finds out whether all values are numbers, and which unit they have. It looks at the values as written and
+// at the dimension of the key. If all values have the same unit they stay in it; otherwise all are converted
+// to SI units.
 void make_numeric(Variation& variation, const Key& key);
 
 }  // namespace grainreel
