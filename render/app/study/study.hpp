@@ -97,7 +97,7 @@ struct Study {
 // counts even if it is NaN.
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values);
 
-// The mean of rows that are all finite.
+// The mean of values that are all finite; NaN for none.
 double mean_of_values(const std::vector<double>& values);
 // The standard deviation of the sample, with n - 1. NaN for fewer than two values.
 double deviation_of_values(const std::vector<double>& values);

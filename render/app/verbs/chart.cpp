@@ -16,7 +16,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
+constexpr int signal_base = 128;  // plus a signal's number: exit status of a program that it stopped
 
 class ChartVerb final : public Verb {
   public:
