@@ -30,6 +30,7 @@ struct LiveSnapshot {
     Bytes meshes;    // packed as in page_meshes.hpp; they belong to every bed; empty without meshes
 };
 
+// Plans a scene; none when this version of the program would not run the scene.
 using Planner = std::function<std::optional<PlannedScene>(const FilmedScene&)>;
 
 class LiveRun {
@@ -80,7 +81,7 @@ class LiveRun {
     int pictures_ = 0;
     std::chrono::duration<double> picture_took_{0};
     std::chrono::steady_clock::time_point picture_at_;
-    std::deque<Wall> seen_;  // times seen lately; rising
+    std::deque<Wall> seen_;  // simulated times seen lately, rising, and when they were seen
     mutable std::mutex mutex_;
     LiveSnapshot now_;
 };

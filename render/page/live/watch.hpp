@@ -47,8 +47,8 @@ class Visitors {
     bool keyed() const { return keyed_; }
     // "http://host:port/", with the key that is good now.
     std::string address() const;
-    // Takes a key and returns the text by which the visitor is known from then on. A key works once; then
-    // there is a new one.
+    // Takes a key and returns the text by which the visitor is known from then on, or none for a wrong key. A
+    // key works once; then there is a new one.
     std::optional<std::string> admit(std::string_view key);
     // Whether a Cookie header has a text that admit() returned.
     bool admitted(std::string_view cookies) const;
