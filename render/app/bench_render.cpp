@@ -28,7 +28,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr int kSignalBase = 128;  // plus a signal's number: exit status of a program that it stopped
+constexpr int kSignalBase = 128;  // 128 + N is the exit status after signal N
 
 Species species(const char* name, double diameter) {
     Species s;

@@ -102,7 +102,7 @@ std::vector<std::string> words_of_check(const CLI::Option& option) {
 }
 
 // The values of options that check their values themselves. A list that is written out here must name what
-// the option accepts: provider_of() and set_moves_with() in render/app/options, progress_form() there.
+// the option accepts (provider_of(), progress_form() and set_moves_with() in render/app/options).
 std::vector<std::string> words_of(const std::string& option) {
     if (option == "--format") return all_of(film_format_words);
     if (option == "--for") return purpose_names();

@@ -20,14 +20,14 @@ namespace grainreel {
 
 namespace {
 
-// Words for how often records come.
+// The interval between two records in words: "period", "2 periods", "5 ms".
 std::string interval_text(double periods, double steps, const Plan& plan) {
     if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
     return span_text(steps * plan.clock.step);
 }
 
 constexpr double engine_bytes_a_grain = 600;
-constexpr double bytes_a_pixel = 122;  // on the way from the renderer to the encoder, and inside both
+constexpr double bytes_a_pixel = 122;  // for pictures in the renderer, in the encoder and between them
 constexpr double bytes_of_program =
     138e6;  // with its libraries, of which the software rasteriser is the largest
 

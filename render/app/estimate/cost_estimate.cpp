@@ -35,9 +35,9 @@ constexpr double seconds_to_start = 0.1;
 // s for a million pixels, used when no frame can be drawn for a measurement.
 constexpr double assumed_seconds = 0.02;
 
-// The wall time of work that takes so many s of processor time. Drawing and encoding have a thread each, and
-// more if there are processors for them. Two threads are not twice as fast as one if their processors share a
-// core or the caches.
+// The wall time of a film in s. processor_seconds: its processor time; drawing: the share of drawing in that.
+// Drawing and encoding have a thread each, and more if there are processors for them. Two threads are not
+// twice as fast as one if their processors share a core or the caches.
 double film_wall(double processor_seconds, double drawing, const ThreadPlan& threads,
                  const MachineFigures& machine, int processors) {
     if (processors < 2) return processor_seconds;

@@ -63,9 +63,9 @@ DiskEstimate estimate_disk(const FilmedScene& scene, const Plan& plan, std::int6
 // s that a film takes in addition to its frames: for the OpenGL context, the first frame, and poster.png.
 constexpr double film_setup_seconds = 0.2;
 
-// Draws and encodes some frames of the scene's grains, stacked as the bed will lie, in a folder that is
-// removed afterwards. None when that is not possible here (no OpenGL, no codec, no room), and for beds of
-// more than 200,000 grains.
+// Measures how fast the scene's film is made: draws and encodes some frames of its grains, stacked as the bed
+// will lie, in a folder that is removed afterwards. None when that is not possible here (no OpenGL, no codec,
+// no room), and for beds of more than 200,000 grains.
 std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads);
 
 // The scene's grains in a stack from the floor up, as loose as a shaken bed. Exposed for tests.

@@ -27,7 +27,7 @@ struct InspectRequest {
 
     MomentRequest moment;
     double phase = 0;                      // in periods, from 0 to 1; added to moment.cycle
-    std::optional<double> average, every;  // number of periods; s between moments of a series
+    std::optional<double> average, every;  // average: number of periods; every: s between moments
     bool over_time = false, no_replay = false;
 
     std::optional<std::int64_t> grain;  // id of a grain

@@ -60,8 +60,8 @@ class Reporter final : public RunListener {
 
 std::string to_string(Progress::Stage stage);
 
-// "vibrating  3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left", cut to `width`
-// columns from its end, whole parts at a time.
+// "vibrating  3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left", without
+// the last parts when it is longer than `width` columns.
 std::string progress_line(const Progress& progress, int width);
 
 // The progress as a JSON object in one line, without the line's end.

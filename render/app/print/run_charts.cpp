@@ -84,8 +84,8 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-// Names of the measures to draw: the wanted ones; all that have values if "all" is wanted; without a wish
-// those that the pages of the runs show at first.
+// Names of the measures to draw: the wanted ones; for "all", all that have values; if none is wanted, those
+// that the runs' pages show at first.
 std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::vector<std::string>& wanted) {
     std::vector<std::string> names;
     const bool all = wanted == std::vector<std::string>{"all"};

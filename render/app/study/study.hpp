@@ -43,6 +43,7 @@ struct Variation {
 
 // How a column of measures.csv becomes one number.
 struct Reduction {
+    // end: the last value. crossing: last_crossing(). deviation: deviation_of_values().
     enum class Kind { end, mean, slope, crossing, first_passage, max, min, deviation };
     Kind kind = Kind::end;
     // s; the rows within this window count, ends included.

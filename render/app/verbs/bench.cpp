@@ -84,7 +84,7 @@ std::string bench_table(const BenchResult& result, bool quick) {
     return text;
 }
 
-constexpr int signal_base = 128;  // plus a signal's number: exit status of a program that it stopped
+constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
 
 void read_size(const std::string& size, Film& film) {
     int end = 0;

@@ -16,7 +16,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;  // plus a signal's number: exit status of a program that it stopped
+constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
 
 class ChartVerb final : public Verb {
   public:

@@ -26,7 +26,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;  // plus a signal's number: exit status of a program that it stopped
+constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
 
 // Refuses keys of the film's segments together with --every, which draws the frames of the trajectory at
 // their own pace.

@@ -31,7 +31,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;      // plus a signal's number: exit status of a program that it stopped
+constexpr int signal_base = 128;      // 128 + N is the exit status after signal N
 constexpr double table_interval = 5;  // s between two versions of study.csv while members run
 constexpr std::size_t most_listed = 40;
 
