@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_table_bytes = 2'000'000;  // bytes of measures.csv, packed
 
-// Limits for moments that get their pairs beside the key moments: their number, and all their pairs as
-// estimated.
+// If the run kept contacts at all moments, the page gets the pairs of some of them besides the key moments:
+// of at most this number of moments, with at most this number of pairs in all, estimated from the grains.
 constexpr std::size_t most_chosen_keys = 40, most_chosen_pairs = 500'000, pairs_a_grain = 3;
 
 // Puts bytes into an element that no browser runs or shows.

@@ -40,7 +40,7 @@ class RunPart {
     std::string lead() const { return lead_; }
     std::string film(bool beside) const;  // beside: whether the page lies beside the film's file
     std::string bed() const;
-    std::string fields(int level) const;  // level: of its heading; empty when the run kept no fields
+    std::string fields(int level) const;  // level of its heading, 1 to 6; empty when the run kept no fields
     std::string charts_about() const;
     // on_page_of_its_own: whether the page lies in the run's folder, so that it has links to the files there.
     std::string chapters(const std::filesystem::path& page, bool on_page_of_its_own) const;

@@ -63,8 +63,8 @@ class FilmColours {
     FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start);
 
     // Colours of the grains at a moment of the run, in the frame's order: 0 when the quantity is not known,
-    // else 1 to 255 from the low end of the film's range to its high end. A film with colour bands gets the
-    // middle of the band. touches: those of the moment, if they are known.
+    // else 1 to 255 from the low end of the film's range to its high end. If the film's scale has bands, each
+    // value counts as the middle of its band. touches: those of the moment, if they are known.
     std::vector<std::uint8_t> of(std::size_t index, Frame& frame,
                                  const std::optional<std::vector<Touch>>& touches);
 

@@ -90,7 +90,7 @@ constexpr std::size_t kMostGrainsOnPage = 100000;
 // DamagedFrame.
 BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes,
                      const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
-// The page's frames of these moments, by rising index into the run's.
+// The page's frames at these moments. chosen: rising indices of the run's moments.
 BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
 

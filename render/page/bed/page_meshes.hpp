@@ -51,8 +51,8 @@ PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes,
 void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& moments);
 
 // Fewer triangles of the same shape: the vertices in a cell of a cubic grid become one, their mean, and
-// triangles that lose a corner go (Rossignac and Borrel 1993, Multi-resolution 3D approximations for
-// rendering complex scenes).
+// triangles whose corners are no longer three different ones vanish (Rossignac and Borrel 1993,
+// Multi-resolution 3D approximations for rendering complex scenes).
 struct ThinnedMesh {
     TriangleMesh mesh;
     std::vector<std::int32_t>

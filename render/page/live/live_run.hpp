@@ -23,7 +23,7 @@ namespace grainreel {
 struct LiveSnapshot {
     using Bytes = std::shared_ptr<const std::string>;
     Bytes page;     // HTML
-    Bytes state;    // JSON: how far the run is, and the newest versions of the other parts
+    Bytes state;    // JSON: how far the run is, and the numbers of the newest versions of the parts
     Bytes picture;  // JPEG: the film's newest picture; empty without one
     Bytes bed;  // uint32 length of JSON, little-endian; JSON; packed places. empty before there are places
     Bytes measures;  // JSON; empty before there are measures
