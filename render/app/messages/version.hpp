@@ -9,8 +9,8 @@
 
 namespace grainreel {
 
-// Name and version of the libraries in use, without FFmpeg: ffmpeg_versions() (render/film/codec/ffmpeg.hpp)
-// has its versions.
+// Name and version of the libraries in use; of most shared libraries, the version that is loaded. FFmpeg is
+// left out: ffmpeg_versions() (render/film/codec/ffmpeg.hpp) has its versions.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 // Where the program is: "installed in /usr/bin" or "built in /home/me/grainreel/build/release".
