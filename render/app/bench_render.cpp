@@ -28,7 +28,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr int kSignalBase = 128;
+constexpr int kSignalBase = 128;  // 128 + N is the exit status after signal N
 
 Species species(const char* name, double diameter) {
     Species s;
@@ -74,7 +74,7 @@ Frame frame_of(const SettledBed& bed) {
 // Moves the camera closer until the grains fill the height or the width of their part of the picture, then
 // applies the zoom that was asked for.
 void fill_picture(FilmedScene& scene, const Frame& frame) {
-    scene.film.words = WordPlace::gutters;  // this zoom is not one that a user has set
+    scene.film.words = WordPlace::gutters;  // otherwise a zoom would put the words over the picture
     const double zoom = std::exchange(scene.film.camera.zoom, 1.0);
     const View view = frame_container(scene, plan_layout(scene));
     double widest = 1, highest = 1;  // largest distances from the middle in pixels
@@ -192,8 +192,8 @@ double encode_time(const Picture& picture, const Film& film, int threads) {
     return taken / kFrames;
 }
 
-// Writes the picture, and what another renderer needs for the same picture: the spheres in view coordinates
-// (x right, y up, z away from the eye) and the camera.
+// Writes the picture, and the two files from which another renderer can draw the same picture: the spheres in
+// view coordinates (x right, y up, z away from the eye) and the camera.
 void keep(const std::filesystem::path& folder, const Picture& picture, const Frame& frame, const View& view) {
     std::filesystem::create_directories(folder);
     write_png(folder / "picture.png", picture, {});

@@ -20,7 +20,8 @@ struct BenchRenderRequest {
     bool json = false;
 };
 
-// Draws a bed at rest again and again and prints milliseconds a frame by stage. Returns the exit status.
+// Draws a bed at rest again and again and prints how many milliseconds a frame takes in each stage. Returns
+// the exit status.
 int bench_render(const BenchRenderRequest& request, Reporter& reporter);
 
 }  // namespace grainreel

@@ -41,7 +41,7 @@ void check_verb(const Verbs& verbs, const std::string& word) {
         meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", ")));
 }
 
-// The option's name in a word: "--duratoin" for "--duratoin=3". Empty when the word is no option.
+// The option's name in a word: "--duratoin" for "--duratoin=3". Empty when the word is not a long option.
 std::string option_name(const std::string& word) {
     return word.compare(0, 2, "--") == 0 && word.size() > 2 ? word.substr(0, word.find('=')) : "";
 }
@@ -60,7 +60,7 @@ void check_options(const Verb& verb, const CLI::App& parser, int argc, const cha
     }
 }
 
-// A formatter of help whose line for an option does not name all the options that it excludes.
+// A formatter of help that leaves out the list of excluded options where the list is long.
 class ShortFormatter final : public CLI::Formatter {
   public:
     std::string make_option_opts(const CLI::Option* option) const override {
@@ -92,7 +92,8 @@ std::vector<std::string> pieces(const std::string& text, char border) {
     return all;
 }
 
-// The words that a check of CLI11 allows.
+// The values that an option's check by CLI11 allows. CLI11 writes them into the type, as in
+// "CASE:{wedge,sea}".
 std::vector<std::string> words_of_check(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     const auto begin = type.find(":{"), end = type.find('}');
@@ -100,7 +101,8 @@ std::vector<std::string> words_of_check(const CLI::Option& option) {
     return pieces(type.substr(begin + 2, end - begin - 2), ',');
 }
 
-// The words of options that check their words themselves. They come from the lists that those options use.
+// The values of options that check their values themselves. A list that is written out here must name what
+// the option accepts (provider_of(), progress_form() and set_moves_with() in render/app/options).
 std::vector<std::string> words_of(const std::string& option) {
     if (option == "--format") return all_of(film_format_words);
     if (option == "--for") return purpose_names();

@@ -1,5 +1,5 @@
-// Parses the command line into a verb with its options. Here is also the table of verbs and options from
-// which man pages and completion for shells are written.
+// Parses the command line into a verb with its options. It also makes the table of verbs and options from
+// which man pages and completions for shells are written.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -25,7 +25,7 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv);
 // man pages and completion cannot differ.
 struct CommandOption {
     std::vector<std::string> names;   // "-h", "--help"; a positional argument has one name, "SCENE"
-    std::string value;                // "DIR"; empty for a flag
+    std::string value;                // how --help names its value, as in "DIR"; empty for a flag
     std::string about;                // one sentence or a few
     std::string group;                // heading in --help, "Options" unless the verb says otherwise
     bool required = false;            // the verb cannot do without it

@@ -1,5 +1,6 @@
-// The public pictures (grainreel/picture.hpp): turns scenes, frames and settings into those of the renderer.
-// The public header has types of its own; engine/library/internal.hpp converts between them and ours.
+// Draws the pictures of the public library (grainreel/picture.hpp): turns scenes, frames and settings into
+// those of the renderer. The public header has types of its own; engine/library/internal.hpp converts between
+// them and ours.
 #include "engine/library/internal.hpp"
 
 #include "grainreel/picture.hpp"
@@ -51,6 +52,8 @@ void write_png_file(const std::filesystem::path& path, int width, int height,
     throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
 }
 
+// Adds species that only the frame has, as "type 2" and so on. Counts the grains of species that the scene
+// gives no grains, and enlarges each species' largest diameter to that in the frame.
 void name_species(const Frame& frame, std::vector<Species>& species) {
     std::vector<bool> counted;
     for (const Species& one : species) counted.push_back(one.all() > 0);
@@ -67,6 +70,7 @@ void name_species(const Frame& frame, std::vector<Species>& species) {
     }
 }
 
+// Lists the frame's grains in the scene, and gives its container the size of the box around them.
 void list_grains(const Frame& frame, Scene& scene) {
     for (std::size_t i = 0; i < frame.size(); ++i) {
         ListedGrain grain;
@@ -81,8 +85,8 @@ void list_grains(const Frame& frame, Scene& scene) {
 }
 
 // A film for frames that come without one: it has all defaults, and the species have the palette's colours.
-// What the scene itself says of its film and colours is ignored. Where the scene has neither a container nor
-// listed grains, the frame tells which species there are and how much room the grains take.
+// What the scene itself says of its film and colours is ignored. The frame adds species that the scene lacks.
+// If the scene has neither a container nor listed grains, the frame also tells how much room the grains take.
 FilmedScene with_plain_film(const Scene& scene, const Frame& frame) {
     FilmedScene filmed{scene, {}, {}};
     name_species(frame, filmed.species);

@@ -27,7 +27,7 @@ std::string json_in_html(std::string json);
 std::string file_link(std::string_view name);
 
 // The template with each {{name}} replaced by its text. Names inside the inserted text are not replaced. A
-// check fails for a name that has no text.
+// name of the template without a text is a bug and fails GRAINREEL_CHECK.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& texts);
 
 // Base64 of RFC 4648 with padding, in one line. None of its characters has a meaning in HTML.

@@ -38,17 +38,19 @@ struct FilmTimes {
     std::string why_not;        // a sentence for the page when they are not known
 };
 
-// The times in the run's own table (film_times.csv), if its number of frames is right and its times rise.
+// The times in the run's own table (film_times.csv), if its number of frames is right and its times never go
+// back.
 std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, std::int64_t frames);
 
-// The times without that table, computed from the scene as the run did. They are known only if the number of
-// frames agrees, since a film leaves out locked frames where the run finds that the bed repeats itself only
-// every other period. frames: number of the film's frames in run.json. first: time in s at which the run
+// The times without that table, computed from the scene as the run did. They are known if the number of
+// frames agrees, or if an incomplete run made fewer and cannot have left out any in between. A run leaves out
+// frames of locked segments (one picture a period of the drive) when it finds that the bed repeats itself
+// only every few periods. frames: number of the film's frames in run.json. first: time in s at which the run
 // began. whole: whether the run was complete.
 FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first, bool whole);
 
-// A JPEG, at most 960 pixels wide, of a frame from this decoder. Empty when none can be made. Throws
-// RunError.
+// A JPEG, at most 960 pixels wide, of a frame from this decoder. Empty when none can be made. Throws RunError
+// when the frame cannot be scaled.
 std::vector<std::uint8_t> small_jpeg(const AVCodecContext& decoder, AVFrame& frame);
 
 }  // namespace grainreel

@@ -19,8 +19,8 @@ namespace grainreel {
 namespace {
 
 constexpr std::size_t most_charts = 4;
-// The measures that usually matter: how two species separate, how loose the bed is, how high it lies, how
-// large its granular temperature is.
+// The measures that usually matter: how two species separate (the first two), how high the bed lies, how many
+// contacts a grain has, how large the kinetic energy is.
 constexpr const char* usual[] = {"height_difference", "unlike_neighbours", "centre_z_m", "contact_number",
                                  "kinetic_J"};
 
@@ -128,7 +128,8 @@ class FieldsFile {
         return {ends[0], ends[1]};
     }
 
-    // The values in the plane. For a grid in three dimensions they are the mean over the depth, or the sum.
+    // The values in the plane. For a grid in three dimensions they are the mean over the depth, weighted by
+    // each cell's room, or the sum.
     Values plane(const std::string& name, std::size_t record, bool sum = false) const {
         const int variable = file_.find_variable(name);
         if (nx_ == 1) return read(variable, record);
@@ -231,8 +232,8 @@ void append(std::vector<std::uint8_t>& bytes, const FieldQuantity& quantity, con
     }
 }
 
-// Appends the share of each cell inside the container, from the first record: the container does not move on
-// the grid.
+// Appends the room of each cell inside the container, relative to the cell with most room. The first record
+// has it for all, since the container does not move on the grid.
 void append_room(std::vector<std::uint8_t>& bytes, const FieldsFile& file) {
     const bool sum = true;
     const Values room = file.plane("free_volume", 0, sum);

@@ -24,13 +24,14 @@ struct PageMeasures {
     std::size_t time = 0;              // index of the column of time
 };
 
-// At most `most` of so many rows, evenly spread, with the first and the last.
+// The indices of at most `most` out of so many rows, evenly spread, with the first and the last.
 std::vector<std::size_t> spread_rows(std::size_t rows, std::size_t most);
 
 constexpr std::size_t kMostRowsAtOnce = 2000;
 
-// Chooses columns and charts. The film's plots come first, then the measures that usually matter, if their
-// values change. Without a column of time nothing is charted.
+// Chooses columns and charts, four charts at most. The film's plots come first, then the measures that
+// usually matter. A measure gets a chart only if its values change. Without a column of time nothing is
+// charted.
 PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table);
 
 // The fields of a run as a page has them: in the plane that the film looks at, one byte for each cell and

@@ -66,7 +66,8 @@ class Page {
             taken += part.taken();
             done += each;
         }
-        // Bytes before base64, for each run. Even if no room is left, the page gets one moment of a run.
+        // Room of each run in bytes before base64, which makes four characters of three bytes. Even if no
+        // room is left, the page gets one moment of a run.
         const std::size_t room =
             taken >= kMostPageBytes ? 1 : (kMostPageBytes - taken) / parts_.size() / 4 * 3;
         done = 0;

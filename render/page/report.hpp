@@ -19,7 +19,7 @@ namespace grainreel {
 struct PlannedScene {
     Plan plan;
     std::vector<std::pair<std::string, std::string>> lines;  // lines with a name and a text
-    std::string contacts;                                    // a table in columns
+    std::string contacts;                                    // the table of contacts
 };
 
 struct ReportMade {
@@ -33,14 +33,14 @@ constexpr std::size_t kMostPageBytes = 20'000'000;
 // A run that a page shows.
 struct PageRun {
     std::filesystem::path folder;
-    FilmedScene scene;                 // named after the folder
-    std::shared_ptr<RecordedRun> run;  // null for a run that kept no moment of its grains
-    bool contacts = false;  // whether its frames come with touches (RecordedRun of a film that shows them)
+    FilmedScene scene;                    // named after the folder
+    std::shared_ptr<RecordedRun> run;     // null for a run that kept no moment of its grains
+    bool contacts = false;                // whether the frames of `run` come with their contacts
     std::optional<PlannedScene> planned;  // empty when the scene cannot be planned any more
 };
 
 // Writes the page of one run, or of several side by side on one time axis. It is written completely or not at
-// all. Returns none when `progress` stopped it. Throws RunError.
+// all. Returns none when `progress` stopped it. Throws RunError when it cannot be written.
 std::optional<ReportMade> write_report(const std::vector<PageRun>& runs, const std::filesystem::path& out,
                                        const PageProgress& progress);
 

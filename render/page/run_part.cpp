@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_table_bytes = 2'000'000;  // bytes of measures.csv, packed
 
+// If the run kept contacts at all moments, the page gets the pairs of some of them besides the key moments:
+// of at most this number of moments, with at most this number of pairs in all, estimated from the grains.
 constexpr std::size_t most_chosen_keys = 40, most_chosen_pairs = 500'000, pairs_a_grain = 3;
 
 // Puts bytes into an element that no browser runs or shows.
@@ -29,7 +31,7 @@ std::string blob(const std::string& id, const std::vector<std::uint8_t>& bytes) 
                        base64(bytes));
 }
 
-// The packed table; empty when it is too long.
+// The packed table; empty when it is too long or cannot be read.
 std::vector<std::uint8_t> packed_table(const fs::path& file) {
     try {
         std::vector<std::uint8_t> packed = zlib_packed(read_bytes(file));

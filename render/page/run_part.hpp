@@ -26,7 +26,7 @@ class RunPart {
     void read(const PageProgress& progress);
     // Bytes of the page that the results of read() take.
     std::size_t taken() const;
-    // Reads the grains into at most `most_bytes` packed bytes. Throws as above.
+    // Reads the grains into at most `most_bytes` packed bytes. Throws PageStopped.
     void read_bed(std::size_t most_bytes, const PageProgress& progress);
 
     const FilmedScene& scene() const { return run_.scene; }
@@ -34,17 +34,20 @@ class RunPart {
     const std::string& name() const { return name_; }
     std::string title() const;  // HTML
     Span span() const;          // span of the trajectory and the film
+    // Whether the moments of the film's frames are known, so that the film moves with charts and bed.
     bool tied() const { return !times_.times.empty(); }
 
     std::string lead() const { return lead_; }
     std::string film(bool beside) const;  // beside: whether the page lies beside the film's file
     std::string bed() const;
-    std::string fields(int level) const;  // level: of its heading; empty when the run kept no fields
+    std::string fields(int level) const;  // level of its heading, 1 to 6; empty when the run kept no fields
     std::string charts_about() const;
-    // on_page_of_its_own: whether the page has links to the files beside it, with their names.
+    // on_page_of_its_own: whether the page lies in the run's folder, so that it has links to the files there.
     std::string chapters(const std::filesystem::path& page, bool on_page_of_its_own) const;
-    std::string facts() const;     // JSON
-    std::string bed_blob() const;  // packed data in elements at the page's end: the bed, then all others
+    std::string facts() const;  // JSON
+    // Packed data in elements at the page's end: bed_blob() has the bed with its meshes and forces,
+    // late_blobs() the table of measures, the fields and the film.
+    std::string bed_blob() const;
     std::string late_blobs() const;
     std::vector<std::string> news() const;  // lines that the user should see
 

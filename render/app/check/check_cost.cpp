@@ -20,14 +20,14 @@ namespace grainreel {
 
 namespace {
 
-// Words for how often records come.
+// The interval between two records in words: "period", "2 periods", "5 ms".
 std::string interval_text(double periods, double steps, const Plan& plan) {
     if (periods > 0) return periods == 1 ? "period" : fmt::format("{:.3g} periods", periods);
     return span_text(steps * plan.clock.step);
 }
 
 constexpr double engine_bytes_a_grain = 600;
-constexpr double bytes_a_pixel = 122;  // on the way from the renderer to the encoder, and inside both
+constexpr double bytes_a_pixel = 122;  // for pictures in the renderer, in the encoder and between them
 constexpr double bytes_of_program =
     138e6;  // with its libraries, of which the software rasteriser is the largest
 
@@ -136,7 +136,7 @@ void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<Se
 namespace {
 
 constexpr double usual_lattice = 1e7;  // grain-steps a second: MachineFigures::lattice_one of a usual machine
-// What the poster of a setting costs, which is made for its first seed.
+// Cost of a setting's poster, a picture of its first member's last frame: s of one thread, and bytes.
 constexpr double poster_seconds = 0.5, poster_bytes = 0.5e6;
 
 }  // namespace
@@ -146,8 +146,8 @@ void StudyEstimate::add_setting(const FilmedScene& scene, const Plan& plan) {
     if (settings_.empty()) {
         machine_.lattice_one = machine_.lattice_team = usual_lattice;
         if (measured_) {
-            // A team on all processors is measured too: its threads share caches and clock rate as members
-            // will.
+            // A team of as many threads as jobs is measured too, for its threads share caches and clock rate
+            // as the members will.
             machine_ = machine_figures(scene, plan, {jobs_, 1, 1, true}, films_);
             const int team = std::min(jobs_, machine_.processors);
             side_by_side_ =

@@ -142,7 +142,7 @@ std::string counted(std::int64_t count, const char* one, const char* many) {
     return fmt::format("{} {}", grouped(count), count == 1 ? one : many);
 }
 
-// "drum: drum.stl, binary STL, 720 triangles, 200 mm x 300 mm x 200 mm"
+// "drum: drum.stl, binary STL, 720 triangles, 200 mm x 300 mm x 200 mm from (...) to (...) m"
 std::string shape_text(const SceneMesh& mesh) {
     const MeshFacts& facts = mesh.surface->facts();
     const Vec3 size = facts.high - facts.low;

@@ -1,6 +1,6 @@
-// What `grainreel check` prints: the plan of a scene, in chapters of lines about one subject. Each chapter is
-// a function declared below. print_plan.cpp has the first one, about the experiment; check_model.cpp and
-// check_cost.cpp have the others.
+// Prints what `grainreel check` says: the plan of a scene, in chapters of lines about one subject.
+// print_plan.cpp has the chapters about the experiment and about time steps, check_model.cpp those about the
+// model, contacts and meshes, and check_cost.cpp those about files and cost.
 #pragma once
 
 #include <fmt/ostream.h>
@@ -23,14 +23,14 @@ namespace grainreel {
 void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out);
 
 // The lines of the plan that are also true of a finished run. Each has a name and a text; the name is empty
-// when the line continues the one before. The table of contacts is in columns.
+// when the line continues the one before. `contacts` is the table of contacts, with its rows as lines.
 struct PlanWords {
     std::vector<std::pair<std::string, std::string>> lines;
     std::string contacts;
 };
 PlanWords plan_words(const FilmedScene& scene, const Plan& plan);
 
-// Prints lines of a name and a text, with the texts below each other, and keeps them.
+// Prints lines of a name and a text, with all texts in one column, and keeps the lines.
 class Listing {
   public:
     explicit Listing(std::ostream& out) : out_(out) {}

@@ -28,15 +28,16 @@ namespace grainreel {
 
 namespace {
 
-// With this many grains two threads gain half of what they could gain: they wait for each other once a step.
+// With this many grains several threads gain half of what they gain in a large bed, because they wait for
+// each other in each step.
 constexpr double grains_of_half_gain = 1000;
 constexpr double seconds_to_start = 0.1;
 // s for a million pixels, used when no frame can be drawn for a measurement.
 constexpr double assumed_seconds = 0.02;
 
-// The wall time of work that takes so many s of processor time. Drawing and encoding have a thread each, and
-// more if there are processors for them. Two threads are not twice as fast as one if their processors share a
-// core or the caches.
+// The wall time of a film in s. processor_seconds: its processor time; drawing: the share of drawing in that.
+// Drawing and encoding have a thread each, and more if there are processors for them. Two threads are not
+// twice as fast as one if their processors share a core or the caches.
 double film_wall(double processor_seconds, double drawing, const ThreadPlan& threads,
                  const MachineFigures& machine, int processors) {
     if (processors < 2) return processor_seconds;
@@ -56,7 +57,8 @@ double film_processor_seconds(const std::vector<SegmentCount>& film, const Machi
     return pictures * machine.frame_seconds;
 }
 
-// A text of everything in the scene on which the cost of a picture depends, and as little else as possible.
+// A key for the cache: a hash of everything in the scene on which the cost of a picture depends, and of as
+// little else as possible; and the numbers of threads.
 std::string look_of(const FilmedScene& scene, const Plan& plan, const ThreadPlan& threads) {
     FilmedScene look = scene;
     look.run = Run();
@@ -130,7 +132,7 @@ MachineFigures machine_figures(const FilmedScene& scene, const Plan& plan, const
 
 namespace {
 
-// Bytes for each grain and frame: id, type, radius, x in double, v, spin, contact number.
+// Bytes for each grain and frame: id, type, radius, position in double, velocity, spin, number of contacts.
 constexpr double trajectory_bytes = 68;
 constexpr double orientation_bytes = 16;
 constexpr double measures_bytes = 400;     // bytes of a row
@@ -226,7 +228,8 @@ std::vector<std::size_t> spread_species(const FilmedScene& scene) {
     return all;
 }
 
-// Moves the bed as between two frames in slow motion: as a whole, and every grain a little off its place.
+// Moves the bed about as far as it moves between two frames in slow motion: all grains together, and each a
+// little by itself.
 FramePtr shaken(const Frame& bed, int k, Random& random) {
     Frame frame = bed;
     frame.step = k;

@@ -18,26 +18,27 @@ namespace grainreel {
 
 // The speed of this machine, measured now or kept from an earlier time.
 struct MachineFigures {
-    double lattice_one = 0;      // grain-steps a second of lattice_speed on one thread
+    double lattice_one = 0;      // grain-steps a second of lattice_speed() on one thread
     double lattice_team = 0;     // the same on the engine's threads
     double frame_seconds = 0;    // s of processor time to draw and encode a frame of one moment
-    double frame_drawing = 0.5;  // share of it that is drawing
+    double frame_drawing = 0.5;  // share of drawing in frame_seconds
     int processors = 1;          // processors that the program may use
     double gain_of_two = 2;      // speed of two threads divided by that of one, from 1 to 2
 };
 
 struct CostEstimate {
-    double grain_steps = 0;                          // including those of packing
+    double grain_steps = 0;                          // of packing and run
     double packing_share = 0;                        // the share of packing in grain_steps
     double engine_one = 0;                           // grain-steps a second of one thread, in this scene
     double packing_seconds = 0, engine_seconds = 0;  // on the planned threads
     std::int64_t frames = 0;
-    double frame_seconds = 0;  // s of processor time, mean; with exposures
+    double frame_seconds = 0;  // s of processor time of a mean frame, with all its exposures
     double film_seconds = 0;
     double total_seconds = 0;
 };
 
-// Engine and film take turns on one or two processors and work beside each other on more (film_request.hpp).
+// On one or two processors the engine waits while pictures are made; on more it works beside the film
+// (ThreadPlan in render/film/sources/film_request.hpp).
 CostEstimate estimate_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,
                            const ThreadPlan& threads, const MachineFigures& machine);
 
@@ -59,13 +60,12 @@ struct DiskEstimate {
 // pictures: number of the film's pictures; 0 without a film.
 DiskEstimate estimate_disk(const FilmedScene& scene, const Plan& plan, std::int64_t pictures);
 
-// s of processor time that a film takes in addition to its frames: for the context, the first frame, the
-// poster.
+// s that a film takes in addition to its frames: for the OpenGL context, the first frame, and poster.png.
 constexpr double film_setup_seconds = 0.2;
 
-// Draws and encodes some frames of the scene's grains, stacked as the bed will lie, in a folder that is
-// removed afterwards. None when that is not possible here (no OpenGL, no codec, no room), and for beds of
-// more than 200,000 grains.
+// Measures how fast the scene's film is made: draws and encodes some frames of its grains, stacked as the bed
+// will lie, in a folder that is removed afterwards. None when that is not possible here (no OpenGL, no codec,
+// no room), and for beds of more than 200,000 grains.
 std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads);
 
 // The scene's grains in a stack from the floor up, as loose as a shaken bed. Exposed for tests.

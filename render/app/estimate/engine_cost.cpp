@@ -33,14 +33,16 @@ constexpr double kAtRest = 4.5, kAtRestWithoutFriction = 5.8;
 // strength, at the rate kFallsOff.
 constexpr double kThrown = 0.25, kFallsOff = 2.6;
 
-// Costs relative to a step of a grain of the lattice: a step of a grain without contacts, and what each
-// contact adds.
+// Costs relative to a step of a grain of the lattice: of a grain's step without contacts (the first three),
+// and of each contact (kContact).
 constexpr double kGrain = 0.23, kGrainWithoutSpin = 0.115, kGrainOfGas = 0.15, kContact = 0.165;
-// The part of a grain's cost that is for new lists of neighbours. Lists last for a certain time, so for short
-// steps they last more steps, and the cost is less than kLists.
-constexpr double kLists = 0.1, kStepsOfLists = 5000;  // for so many steps in which a grain falls its diameter
-constexpr double kStep = 4.2;                         // cost of a step without its grains
-// For a bed that does not fit into the caches; from kSmallBed grains on these help less.
+// The part of a grain's cost that is for new lists of neighbours. A list lasts for a certain time, so shorter
+// steps share it. The cost is kLists while the time sqrt(diameter / g) has at most kStepsOfLists steps; with
+// more steps it decreases as 1 / steps.
+constexpr double kLists = 0.1, kStepsOfLists = 5000;
+constexpr double kStep = 4.2;  // cost of a step without its grains
+// A step of a grain costs up to kLargeBedCost times as much in a bed that does not fit into the caches. The
+// factor grows with the logarithm of the number of grains, from kSmallBed to kLargeBed grains.
 constexpr double kLargeBedCost = 1.5;
 constexpr double kSmallBed = 2000;
 constexpr double kRow = 3.7;          // cost of a row of measures for each grain
@@ -49,8 +51,8 @@ constexpr double kFieldMoment = 8.4;  // cost of a moment of fields for each gra
 // What the energy balance adds to a step: for a grain, and for each of its contacts.
 constexpr double kBalance = 0.3, kBalanceContact = 0.4;
 
-// Radii grow in about kGrowingSteps steps. Then the bed falls and comes to rest (kFalling). It counts as calm
-// after kCalm times the time in which a grain falls through its diameter.
+// Radii grow in about kGrowingSteps steps. Then the bed falls and comes to rest (kFalling). It counts as at
+// rest after it has been calm for kCalm sqrt(diameter / g), as in settle() (engine/start/settle.cpp).
 constexpr double kGrowingSteps = 8e3, kFalling = 0.28 /* s, under Earth's gravity */, kCalm = 10;
 // Without friction a bed takes longer to come to rest, since it slides into closer order: 0.63 s in all, 0.31
 // s with friction.
@@ -82,7 +84,7 @@ bool rubs(const PairPlan& pair) {
     return pair.model.tangential != TangentialLaw::none;
 }
 
-// What a grain saves on its lists when steps are short: up to all of kLists.
+// What a grain saves on its lists when steps are short: kLists at most.
 double saved_of_lists(const FilmedScene& scene, const Plan& plan) {
     const double steps = std::sqrt(mean_diameter(scene) / scene.gravity.norm()) / plan.clock.step;
     return kLists * (1 - std::min(1.0, kStepsOfLists / steps));
@@ -122,8 +124,8 @@ double contacts_in_stage(const FilmedScene& scene, double at_rest, const DriveSt
     const double shaken =
         contacts_when_shaken(at_rest, level_along_gravity(scene, stage.frequency, stage.amplitude));
     if (stage.kind == DriveStage::Kind::vibrate) return shaken;
-    const double share = std::min(
-        1.0, 2 / (stage.frequency * stage.interval));  // a bed flies for the length of a tap after it
+    // A tap lasts 1 / frequency, and the bed flies for as long after it.
+    const double share = std::min(1.0, 2 / (stage.frequency * stage.interval));
     return at_rest + share * (shaken - at_rest);
 }
 

@@ -18,9 +18,9 @@
 namespace grainreel {
 
 struct EngineCost {
-    // Grain-steps of the lattice.
+    // Work, in grain-steps of the lattice.
     double packing = 0, run = 0;
-    // Steps of the scene's grains.
+    // Number of time steps.
     double packing_steps = 0, run_steps = 0;
 };
 
@@ -33,7 +33,7 @@ double mean_contacts(const FilmedScene& scene, const Plan& plan);
 // How fast films of one look are made.
 struct FilmSpeed {
     double seconds = 0;    // s of processor time to draw and encode a frame of one moment
-    double drawing = 0.5;  // share of it that is drawing
+    double drawing = 0.5;  // share of drawing in seconds
 };
 
 // How fast this machine computes and draws, measured once and kept in a file of $XDG_CACHE_HOME/grainreel or

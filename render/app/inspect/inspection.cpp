@@ -75,7 +75,8 @@ class Inspection {
         return answer;
     }
 
-    // The marks of an answer. A question about forces gets arrows.
+    // What the picture of an answer marks: the forces on the grain or wall that is asked for, else the
+    // answer's grains.
     AnswerMarks marks_of(const Snapshot& snapshot, const Answer& answer) const {
         if (!asks_.grain && !asks_.wall) {
             const std::string count =
@@ -96,7 +97,8 @@ class Inspection {
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
                             option, asks_.run.string()));
         bring_back_to_read(asks_.run, reporter);
-        // Frames are counted in the file that was named, so it is read without its series.
+        // A number of a frame counts the frames of the named file, so the other files of its series are left
+        // out.
         asks_.reading.one = true;
         if (foreign && asks_.draws()) return open_import(reporter);
         asked_ = foreign || fs::is_regular_file(asks_.run, ignored)
@@ -127,7 +129,7 @@ class Inspection {
             for (const std::string& line : lines) reporter.warning(line);
     }
 
-    // The settings, with one added by which contacts are read, if the run kept them.
+    // The settings. If the run kept contacts, film.force_chains is added, which makes them be read.
     Assignments sets_for_contacts(const fs::path& folder) const {
         std::error_code ignored;
         Assignments sets = asks_.sets;
@@ -136,10 +138,11 @@ class Inspection {
         return sets;
     }
 
-    // Whether the question is about forces, which only the engine knows.
+    // Whether the question is about forces on walls or overlaps. Runs do not keep them; only the engine can
+    // compute them.
     bool asks_for_forces() const { return asks_.wall || asks_.largest_overlap; }
 
-    // Time in s of film, on which the place of a moving camera depends.
+    // Time in the film in s. The place of a moving camera depends on it.
     double film_time() const {
         if (asks_.film_time) return *asks_.film_time;
         return asks_.moment.frame ? static_cast<double>(*asks_.moment.frame) / asked_->scene().film.rate : 0;
@@ -234,7 +237,7 @@ class Inspection {
         return replay_progress([&reporter](const Progress& progress) { reporter.progress(progress); });
     }
 
-    // The answer as a mean over periods up to the moment.
+    // The mean of the answers at the moments of the last periods before the asked moment.
     Answer mean_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) const {
         const AskedMoment asked = finder.find(asks_.moment);
         const bool replay = !asks_.no_replay && finder.can_bring_back(asked);

@@ -26,8 +26,8 @@ struct InspectRequest {
     Assignments sets;  // values given to keys of [film]
 
     MomentRequest moment;
-    double phase = 0;                      // phase in turns within the period, used with moment.cycle
-    std::optional<double> average, every;  // periods; s
+    double phase = 0;                      // in periods, from 0 to 1; added to moment.cycle
+    std::optional<double> average, every;  // average: number of periods; every: s between moments
     bool over_time = false, no_replay = false;
 
     std::optional<std::int64_t> grain;  // id of a grain
@@ -35,13 +35,14 @@ struct InspectRequest {
     std::optional<std::string> steady;  // name of a column of measures.csv
     std::optional<double> compare;      // s, time of the earlier moment
     std::vector<double> pixel;          // x, y of a pixel; empty: not asked
+    // through: all that lies behind the pixel, not only what is seen there.
     bool through = false, largest_overlap = false, pairs = false;
     std::string mean;  // a quantity whose mean over a series is wanted
     int bins = 20;
     std::size_t limit = 10;
 
     std::filesystem::path picture;    // file of the picture; empty: none
-    std::optional<double> film_time;  // s
+    std::optional<double> film_time;  // s of the film, for the place of a moving camera
     gl::Provider gl = gl::Provider::automatic;
 
     bool json = false, csv = false;  // how the answer is printed

@@ -36,9 +36,9 @@ Dimension dimension_of(const AnswerTable& table, std::size_t row, std::size_t co
     return own == Dimension::number && row < table.row_dimensions.size() ? table.row_dimensions[row] : own;
 }
 
-// The units of an answer: one for each dimension, the same in all tables. It suits the geometric mean of two
-// numbers: the largest one, and the geometric mean of the largest ones of all columns. No number has more
-// than four digits before the point.
+// Chooses the units of an answer: one for each dimension, the same in all tables. The unit suits the
+// geometric mean of two numbers: the largest number of that dimension, and the geometric mean of the columns'
+// largest numbers. It is made larger if a number would have more than four digits before the point.
 class Units {
   public:
     explicit Units(const Answer& answer) {
@@ -65,7 +65,8 @@ class Units {
 
   private:
     struct Seen {
-        double most = 0, logarithms = 0, count = 0;  // over the largest number of each column or row
+        // Of the largest numbers of the columns or rows: the largest, the sum of logarithms, and the count.
+        double most = 0, logarithms = 0, count = 0;
     };
 
     static void see(const AnswerTable& table, std::map<Dimension, Seen>& all) {

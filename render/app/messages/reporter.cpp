@@ -33,7 +33,7 @@ bool is_terminal() {
     return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::strcmp(term, "dumb") != 0;
 }
 
-// See no-color.org: set and not empty.
+// By no-color.org, NO_COLOR switches colours off when it is set and not empty.
 bool colour_wanted() {
     const char* no_color = std::getenv("NO_COLOR");
     return no_color == nullptr || *no_color == '\0';
@@ -235,8 +235,8 @@ void print_exact(std::string_view text) {
 }
 
 void open_missing_streams() {
-    // open() gives the lowest free number, and these are tried from the lowest on. Stdout is opened for
-    // reading alone, so that printing fails as it does without a stdout.
+    // open() returns the lowest free number, so each missing stream gets its own if the lowest is opened
+    // first. Stdout is opened for reading alone, so that printing fails as it does without a stdout.
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (::fcntl(stream, F_GETFD) < 0) [[maybe_unused]]
             const int opened = ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);

@@ -32,7 +32,7 @@ class Reporter final : public RunListener {
     void info(const std::string& text) override;
     void warning(const std::string& text) override;
     void error(const std::string& text) override;
-    // Shows the progress when it is time to.
+    // Shows the progress if enough time has passed since it was last shown.
     void progress(const Progress& progress) override;
 
     int stop_signal() const override;
@@ -60,8 +60,8 @@ class Reporter final : public RunListener {
 
 std::string to_string(Progress::Stage stage);
 
-// "vibrating  3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left", cut to `width`
-// columns from its end, whole parts at a time.
+// "vibrating  3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left", without
+// the last parts when it is longer than `width` columns.
 std::string progress_line(const Progress& progress, int width);
 
 // The progress as a JSON object in one line, without the line's end.
@@ -103,15 +103,15 @@ void print_result(std::string_view text);
 void print_exact(std::string_view text);
 
 // If the program was started without stdin, stdout or stderr (`>&-`), opens something harmless in their
-// place. Else a file of the run would get the number of a stream, and messages would be written into it. What
-// is printed on such a stdout fails in close_results(). To be called before anything else is opened.
+// place. Else a file of the run would get the number of a stream, and messages would be written into it. If
+// anything is printed on such a stdout, close_results() throws. Call this before anything else is opened.
 void open_missing_streams();
 
-// To be called once, at the end. Throws RunError when some of what was printed did not get there. A reader
-// that closes the pipe is no failure.
+// Call it once, at the end. Throws RunError when some of the results could not be written. A reader that
+// closes the pipe is no failure.
 void close_results();
 
-// Prints where the run's files are, on stdout unless the film went there; returns the exit status.
+// Prints the run's folder on stdout, or on stderr if the film went to stdout. Returns the exit status.
 int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request);
 
 }  // namespace grainreel

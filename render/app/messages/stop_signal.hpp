@@ -1,6 +1,6 @@
-// Ctrl-C, SIGTERM and SIGHUP (the terminal is gone): the first asks the run to end in good order. A second
-// Ctrl-C or SIGTERM ends the program at once, unless a run has something to keep: then its state is kept
-// first and the film is left as it is. A third one ends it at once in any case.
+// Handles Ctrl-C, SIGTERM and SIGHUP (the terminal is gone). The first one asks the run to end in good order.
+// A second Ctrl-C or SIGTERM ends the program at once, unless a run has a state to keep: then the run writes
+// that state first and leaves the film as it is. A third one ends it at once in any case.
 #pragma once
 
 #include <csignal>

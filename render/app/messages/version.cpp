@@ -33,8 +33,8 @@ std::string three(unsigned major, unsigned minor, unsigned patch) {
     return fmt::format("{}.{}.{}", major, minor, patch);
 }
 
-// FFmpeg is opened when a film is made or read, so these are the versions that we were built with. The verb
-// doctor tells those that are opened.
+// The versions of FFmpeg that the program was built with. FFmpeg is loaded only when a film is made or read;
+// the verb `doctor` tells the versions that are loaded.
 std::vector<std::pair<std::string, std::string>> ffmpeg_of_build() {
     return {
         {"FFmpeg", FFMPEG_VERSION},

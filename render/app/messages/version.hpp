@@ -9,8 +9,8 @@
 
 namespace grainreel {
 
-// Name and version of every library in use, shared ones as loaded. FFmpeg is not among them:
-// ffmpeg_versions().
+// Name and version of the libraries in use; of most shared libraries, the version that is loaded. FFmpeg is
+// left out: ffmpeg_versions() (render/film/codec/ffmpeg.hpp) has its versions.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 // Where the program is: "installed in /usr/bin" or "built in /home/me/grainreel/build/release".

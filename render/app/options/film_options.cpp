@@ -14,7 +14,7 @@ namespace grainreel {
 
 namespace {
 
-// The value of an environment variable; none when it is empty.
+// The value of an environment variable; none when it is unset or empty.
 std::optional<std::string> variable(const char* name) {
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0' ? std::optional<std::string>(value) : std::nullopt;
@@ -100,7 +100,7 @@ void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
 }
 
 CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest) {
-    constexpr double worth_a_file = 1;  // s, shortest packing that is worth a file
+    constexpr double worth_a_file = 1;  // s; a packing that took less is not kept
     shortest = worth_a_file;
     if (const auto word = variable("GRAINREEL_PACKINGS")) {
         if (*word != "off" && *word != "all")

@@ -82,7 +82,8 @@ bool is_option(const std::string& word, const std::string& option, bool& value_f
     return value_follows || word.rfind(option + "=", 0) == 0;
 }
 
-// The words of the command without the options that the script adds itself.
+// The words of the command without its program, and without --slurm, --out and --force, which the script
+// gives itself.
 std::vector<std::string> words_of_part(const std::vector<std::string>& words) {
     std::vector<std::string> kept;
     for (std::size_t k = 1; k < words.size(); ++k) {

@@ -1,5 +1,6 @@
 // Groups of options that several verbs have. Each function adds the options of a group to a verb's parser;
-// their values go into the function's other arguments.
+// their values go into the function's other arguments. option_groups.cpp and film_options.cpp have the
+// functions.
 #pragma once
 
 #include <fmt/format.h>

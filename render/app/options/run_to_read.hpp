@@ -19,16 +19,17 @@ std::string given_reading(const ReadingOptions& reading);
 
 struct RunToRead {
     std::filesystem::path folder;  // folder of a run, with scene.toml
-    std::filesystem::path
-        beside;  // the folder in which results are put: that of the files, or that around the run
+    // The folder in which results are put: that of the imported files, or that around the run.
+    std::filesystem::path beside;
     bool imported = false;
 };
 
 // The folder that a file, a pattern or a folder lies in.
 std::filesystem::path folder_around(const std::filesystem::path& path);
 
-// Where the folder is of a hand-over, makes the run's files in it from the dump, unless they are there, and
-// tells what is to be known of a job that has not come to its end. Throws as bring_back() does.
+// If the folder was written by `grainreel handover` and another engine has run in it, makes our run's files
+// there from that engine's dump, unless they are there already. Warns if that engine's run is not complete.
+// Throws as bring_back() does.
 void bring_back_to_read(const std::filesystem::path& path, Reporter& reporter);
 
 // Finds the run, or imports the files and tells what was guessed and derived. Throws UserError when options

@@ -27,8 +27,8 @@ double whole_points(double mm) {
     return std::round(mm / inch * points_an_inch);
 }
 
-// The `set terminal` command of gnuplot. gnuplot gives letters and lines sizes for a screen of 96 pixels an
-// inch; ours are in points of print.
+// The `set terminal` command of gnuplot. gnuplot makes letters and lines for a screen of 96 pixels an inch;
+// the factors here bring them to points of print.
 std::string terminal(const std::string& form, const Paper& paper) {
     const double wide = whole_points(paper.width_mm), high = whole_points(paper.height_mm());
     constexpr double letters = points_an_inch / 96;
@@ -146,7 +146,7 @@ void say_size_in_mm(const std::filesystem::path& svg, double width_mm) {
 
 void say_dots(const std::filesystem::path& png, double dpi) {
     std::string bytes = bytes_of(png);
-    constexpr std::size_t behind_head = 33;  // signature, and the chunk IHDR
+    constexpr std::size_t behind_head = 33;  // bytes of the signature and the chunk IHDR
     constexpr double inch = 0.0254;          // m
     if (bytes.size() < behind_head || bytes.compare(12, 4, "IHDR") != 0) throw not_gnuplots(png);
     const std::string dots = big_endian(static_cast<std::uint32_t>(dpi / inch + 0.5));

@@ -1,7 +1,7 @@
-// Charts for print: the paper that gnuplot draws on.
+// Draws a chart for print with gnuplot: with the letters, lines and size that it has on paper.
 //
-// gnuplot draws the charts of studies and of `chart` too, so the program needs only one such tool. Its
-// commands stay beside each chart, so that users can change letters or words there.
+// gnuplot draws the charts of studies and of the verb `chart` too, so the program needs only one such tool.
+// The commands of each chart stay beside it, so that users can change letters or words there.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,8 @@ struct Paper {
     double height_mm() const;
 };
 
-// How many letters of 8 points fit on the lines of a chart.
+// How many letters of 8 points fit along the lower axis (across), along the upright axis, and into an entry
+// of the key; and how many entries of the key stand in a row.
 struct PaperLines {
     std::size_t across, upright, key, keys_a_line;
 };
@@ -29,7 +30,8 @@ PaperLines lines_on(const Paper& paper);
 std::string paper_style();
 
 // Draws a chart's files, STEM.pdf and so on, in `folder`. commands: gnuplot's commands before `plot`. plots:
-// the arguments of `plot`. They stay as STEM.gp. Returns the files. Throws RunError when there is no gnuplot.
+// the arguments of `plot`. All commands stay in STEM.gp. Returns the files. Throws RunError when there is no
+// gnuplot.
 std::vector<std::filesystem::path> draw_on_paper(const std::filesystem::path& folder, const std::string& stem,
                                                  const std::string& commands, const std::string& plots,
                                                  const Paper& paper);
@@ -38,7 +40,7 @@ std::vector<std::filesystem::path> draw_on_paper(const std::filesystem::path& fo
 // without serifs may be used. Throws RunError when the file is not one of gnuplot's.
 void say_size_in_mm(const std::filesystem::path& svg, double width_mm);
 
-// Makes a PNG file tell printers its pixels an inch (pHYs). Throws RunError as above.
+// Makes a PNG file tell printers its pixels an inch (pHYs). Throws RunError like say_size_in_mm().
 void say_dots(const std::filesystem::path& png, double dpi);
 
 }  // namespace grainreel

@@ -27,7 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Colours of Okabe and Ito (2008), as in the charts of studies; dashes are as on the page of several runs.
+// Colours of Okabe and Ito (2008), as in the charts of studies. The kinds of dashes are in the order of the
+// page of several runs (render/page/html/charts.js).
 constexpr std::array<const char*, 6> colours{"#0072b2", "#d55e00", "#009e73",
                                              "#cc79a7", "#e69f00", "#000000"};
 constexpr std::array<const char*, 6> dashes{"solid", "(8,3)", "(2,2)", "(8,2,2,2)", "(4,2)", "(1,3)"};
@@ -83,7 +84,8 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-// Names of the measures to draw for all runs: those that their pages show at first, or all that they have.
+// Names of the measures to draw: the wanted ones; for "all", all that have values; if none is wanted, those
+// that the runs' pages show at first.
 std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::vector<std::string>& wanted) {
     std::vector<std::string> names;
     const bool all = wanted == std::vector<std::string>{"all"};
@@ -124,7 +126,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
     return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
 }
 
-// The span of all values, from 0 where they cannot be negative.
+// The span of all values. It begins at 0 or below for a measure whose axis starts at zero.
 std::array<double, 2> span_of(const std::deque<MeasuredRun>& runs, const std::string& measure) {
     std::optional<std::array<double, 2>> span;
     for (const MeasuredRun& run : runs)
@@ -153,7 +155,7 @@ MeasureAxis axis_of(const std::deque<MeasuredRun>& runs, const std::string& meas
     return {measure, 1, span};
 }
 
-// Commands for round limits with a tick at each.
+// Commands that give the upright axis round limits with a tick at each.
 std::string upright_axis(const MeasureAxis& axis) {
     constexpr int most_ticks = 7;
     const auto [low, high] = round_limits(axis.span[0] / axis.size, axis.span[1] / axis.size, most_ticks);
@@ -282,7 +284,7 @@ std::string curve_table(std::size_t number, const std::vector<double>& x, const 
                         const std::string& name) {
     std::string text;
     const std::string last = name.empty() ? "" : "," + cell(name);
-    bool gap = true;  // the last line is empty; a second one would begin another block
+    bool gap = true;  // the last line is empty; a second empty line would begin another data set
     for (const std::size_t row : shown_rows(y)) {
         const bool there = std::isfinite(x[row]) && std::isfinite(y[row]);
         if (there) text += fmt::format("{},{},{}{}\n", number, x[row], y[row], last);

@@ -18,10 +18,10 @@ std::vector<std::filesystem::path> draw_run_charts(const std::vector<std::filesy
                                                    const std::vector<std::string>& measures,
                                                    const Paper& paper, const std::filesystem::path& folder);
 
-// A curve as rows of a chart's table: "number,x,y,name", or without the name where it is empty. A NaN leaves
-// an empty line, which breaks gnuplot's line. A curve of more than kMostCurvePoints points is thinned to what
-// a line of this length can show: it is divided into equal parts, and the first, the lowest, the highest and
-// the last point of each part stay.
+// A curve as rows of a chart's table: "number,x,y,name", or without the name where it is empty. A value that
+// is not finite leaves an empty line, which breaks gnuplot's curve. A curve of more than kMostCurvePoints
+// points is thinned to what a line of this length can show: it is divided into equal parts, and the first,
+// the lowest, the highest and the last point of each part stay.
 std::string curve_table(std::size_t number, const std::vector<double>& x, const std::vector<double>& y,
                         const std::string& name);
 

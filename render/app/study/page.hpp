@@ -9,7 +9,7 @@
 namespace grainreel {
 
 // The page's text. Paths are relative to the study's folder, where posters and films are looked for. charts:
-// stems of charts/*.svg.
+// the names of the files in charts/, without their endings.
 std::string study_page(const Study& study, const std::vector<Member>& members,
                        const std::vector<MemberResult>& results, const StudyFolder& folder,
                        const std::vector<std::string>& charts);

@@ -30,7 +30,7 @@ struct Rows {
     std::vector<double> times, values;
 };
 
-// The rows within the window. A row at the window's end counts although its time is rounded.
+// The rows within the window. A row at an end of the window counts although its time is rounded.
 Rows rows_within(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
     constexpr double rounding = 1e-9;  // relative rounding of a time
     Rows rows;

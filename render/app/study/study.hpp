@@ -43,6 +43,7 @@ struct Variation {
 
 // How a column of measures.csv becomes one number.
 struct Reduction {
+    // end: the last value. crossing: last_crossing(). deviation: deviation_of_values().
     enum class Kind { end, mean, slope, crossing, first_passage, max, min, deviation };
     Kind kind = Kind::end;
     // s; the rows within this window count, ends included.
@@ -97,7 +98,7 @@ struct Study {
 // counts even if it is NaN.
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values);
 
-// The mean of rows that are all finite.
+// The mean of values that are all finite; NaN for none.
 double mean_of_values(const std::vector<double>& values);
 // The standard deviation of the sample, with n - 1. NaN for fewer than two values.
 double deviation_of_values(const std::vector<double>& values);

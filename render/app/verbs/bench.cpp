@@ -20,6 +20,7 @@ namespace grainreel {
 
 namespace {
 
+// In the order of enum Cost (engine/step/threads/work_shares.hpp).
 constexpr const char* stage_names[kCosts] = {"neighbours", "contacts",  "walls",
                                              "gather",     "integrate", "other"};
 const char* precision_name(Precision precision) {
@@ -83,7 +84,7 @@ std::string bench_table(const BenchResult& result, bool quick) {
     return text;
 }
 
-constexpr int signal_base = 128;
+constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
 
 void read_size(const std::string& size, Film& film) {
     int end = 0;

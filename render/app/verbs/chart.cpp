@@ -16,7 +16,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
+constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
 
 class ChartVerb final : public Verb {
   public:

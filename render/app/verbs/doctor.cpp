@@ -140,7 +140,7 @@ std::vector<Finding> find_drawing() {
     return found;
 }
 
-// FFmpeg and the formats that it makes; without it they are not asked for one by one.
+// FFmpeg and the formats that it makes. Without FFmpeg the formats are left out.
 std::vector<Finding> find_films() {
     Finding ffmpeg{"FFmpeg", "", true, true, "without it there are no films, but PNG pictures"};
     try {
@@ -193,7 +193,8 @@ std::vector<Finding> find_programs() {
     return {gnuplot};
 }
 
-// Findings about fonts: for the letters that words on films always need, and for those of other scripts.
+// Findings about fonts: for the letters that words on films always need (Latin and Greek), and for those of
+// other scripts.
 std::vector<Finding> find_letters() {
     std::vector<std::string> here, absent, packages;
     bool usual = true;

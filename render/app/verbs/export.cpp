@@ -92,7 +92,7 @@ class Export final : public Verb {
 
   private:
     // The usual name of the result: "run.dump"; for vtk the folder "run-vtk"; for xyz "run.xyz". When a name
-    // is taken, a number is added: "run-2.xyz".
+    // is taken, a number is added, as in "run-2.xyz", unless --force replaces what is there.
     fs::path usual_name() const {
         std::string ending;
         for (const FrameFormat& format : frame_formats())

@@ -1,5 +1,5 @@
-// The verb `inspect` answers questions about a moment of a run. Here are its options and the printing of the
-// answer, which render/app/inspect/inspection.cpp finds.
+// The verb `inspect` answers questions about a moment of a run. This file has its options and prints the
+// answer; render/app/inspect/inspection.cpp finds the answer.
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
@@ -117,7 +117,7 @@ class Inspect final : public Verb {
     bool ends_in_good_order() const override { return false; }
 
   private:
-    // Refuses options that would be accepted but have no effect.
+    // Refuses combinations of options in which one would have no effect.
     void check_options() const {
         if (asks_.average && asks_.compare)
             throw UserError(

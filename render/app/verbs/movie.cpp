@@ -34,25 +34,26 @@ namespace grainreel {
 namespace {
 
 // A process of its own that shows the live page of the run which this process computes. So visitors slow the
-// run no more than another program would, and the page needs nothing but the run's files.
+// run no more than another program would. The page is made from the run's files alone.
 class WatchChild {
   public:
     // Throws RunError when no process can be made.
     WatchChild(const std::filesystem::path& run, const std::string& host, Listening listening,
                const ReporterOptions& report);
-    // To be destroyed when the run is over. Waits until the visitors have been told, which takes some seconds
-    // at most.
+    // Destroy it when the run is over. The destructor waits until the child has told its visitors so, which
+    // takes a few seconds at most.
     ~WatchChild();
     WatchChild(const WatchChild&) = delete;
     WatchChild& operator=(const WatchChild&) = delete;
 
   private:
     pid_t process_ = -1;
-    int alive_ = -1;  // our end of a pipe, which closes when we end
+    int alive_ = -1;  // our end of a pipe; when it closes, the child knows that we have ended
 };
 
-// Runs in the new process until the other program replaces it. It may make system calls only. The process
-// gets a group of its own, so that Ctrl-C reaches only the run.
+// Runs in the new process until `grainreel watch` replaces it. After fork() it may make system calls only.
+// nothing: /dev/null, for stdin and stdout. The process gets a group of its own, so that Ctrl-C reaches only
+// the run.
 [[noreturn]] void become(char* const* words, int nothing, int socket, int alive, pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);

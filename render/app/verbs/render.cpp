@@ -26,10 +26,10 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
+constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
 
-// Refuses values for the film's segments when frames of the trajectory are drawn, which have a pace of their
-// own.
+// Refuses keys of the film's segments together with --every, which draws the frames of the trajectory at
+// their own pace.
 void check_no_segments(const Assignments& sets) {
     for (const Assignment& set : sets)
         if (set.key().rfind("film.segment", 0) == 0)

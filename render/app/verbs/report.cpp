@@ -1,5 +1,5 @@
-// The verb `report` makes one page for a browser from finished runs. Here are also the functions by which all
-// verbs make the page of a run.
+// The verb `report` makes one page for a browser from finished runs. This file also has the functions by
+// which all verbs make the page of a run.
 #include "render/app/verbs/report.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Settings by which frames come with the contacts that the run kept.
+// Settings that make a run's frames come with the contacts that it kept.
 Assignments with_contacts() {
     return {{"film.force_chains=true", "report"}};
 }
@@ -160,7 +160,8 @@ class Report final : public Verb {
         return 0;
     }
 
-    // Refuses to overwrite a file that is no page of ours.
+    // Refuses a folder, a file in a folder that is not there, and a name that does not end in .html, so that
+    // a slip of the user does not overwrite another kind of file.
     static void check_out(const fs::path& out) {
         check_typed("--out", out.string());
         std::error_code ignored;

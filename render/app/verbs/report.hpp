@@ -1,5 +1,5 @@
-// Makes a run's page, for the verbs that leave one. report.cpp also has the verb `report`, which makes pages
-// of finished runs.
+// Makes a run's page (report.html), for the verbs that leave one. report.cpp also has the verb `report`,
+// which makes pages of finished runs.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ inline constexpr const char* kPageName = "report.html";
 // Makes the page of the runs in these folders, side by side where there are several. out: the page's file;
 // empty: report.html in the first run's folder. checked: this program has just written the runs, so their
 // frames need no check for damage. Returns none when `progress` stopped it. Throws UserError for a folder
-// that is no run, and RunError.
+// that is no run, and RunError when the page cannot be made.
 std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>& runs,
                                        const std::filesystem::path& out, bool checked,
                                        const PageProgress& progress);

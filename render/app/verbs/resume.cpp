@@ -123,7 +123,7 @@ class Resume final : public Verb {
             "go on");
     }
 
-    // Continues a run of `--engine`: its engine goes on from its own restart file.
+    // Continues a run of `movie --engine`: the other engine goes on from its own restart file.
     int go_on_elsewhere(const fs::path& folder, std::shared_ptr<FolderLock> lock, Reporter& reporter) {
         if (until_ || more_ || !accept_.empty())
             throw UserError(fmt::format(
@@ -158,8 +158,9 @@ class Resume final : public Verb {
             folder.string()));
     }
 
-    // Whether a run has come to its end, should not be longer, and lacks nothing but its page. run.json says
-    // so (lacks_only_page()); in runs of older versions it does not, and the files are looked at.
+    // Whether a run has come to its end, should not be longer, and lacks nothing but its page.
+    // lacks_only_page() finds that in run.json. In runs of older versions run.json does not say it, so there
+    // the files tell.
     bool is_only_page_missing(const fs::path& folder) const {
         if (until_ || more_ || !accept_.empty()) return false;
         const fs::path record = folder / "run.json";
@@ -227,8 +228,8 @@ class Resume final : public Verb {
         return with_film_warnings(scene, plan_of_run(scene, folder));
     }
 
-    // The scene with the end that is asked for and the values given with --accept, before which the values of
-    // `undone` are set.
+    // The run's scene with the end that is asked for. If `undone` is empty, the values given with --accept
+    // are set too; otherwise the values of `undone` are set in their place.
     FilmedScene scene_to_go_on(const fs::path& folder, const Assignments& undone) const {
         const fs::path file = scene_file(folder);
         Assignments sets;
@@ -247,7 +248,8 @@ class Resume final : public Verb {
         const Plan plan = plan_of_run(before, folder);
         const double reached = plan.clock.time(reached_step(folder, kept.back().step));
         const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
-        // A run that was killed while its film was being finished has come to its end but is not complete.
+        // A run that was killed while its film was being finished is not complete, though no step is left: it
+        // may go on with the end that it has reached.
         const bool complete = status_in_run_json(folder / "run.json") == to_string(RunStatus::complete);
         if (end < reached + (complete ? 0.5 : -0.5) * plan.clock.step)
             throw UserError(

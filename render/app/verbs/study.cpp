@@ -31,7 +31,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
+constexpr int signal_base = 128;      // 128 + N is the exit status after signal N
 constexpr double table_interval = 5;  // s between two versions of study.csv while members run
 constexpr std::size_t most_listed = 40;
 
@@ -84,7 +84,7 @@ class StudyVerb final : public Verb {
         check_paper(paper_);
         const Study study = read_study(file_);
         count_members(study, yes_);
-        // Members get the environment too, so its setting counts here.
+        // With GRAINREEL_PACKINGS=off members need no --no-cache, since they get the environment too.
         const char* const said = std::getenv("GRAINREEL_PACKINGS");
         request_.cache = shortest_packing_ || (said != nullptr && std::string_view(said) == "off");
         std::vector<std::vector<ReferencePoint>> references;
@@ -147,7 +147,7 @@ class StudyVerb final : public Verb {
         return fmt::format("{}", fmt::join(names, ", "));
     }
 
-    // Throws when the folder holds anything but a study.
+    // Throws when the folder holds something, but no study.
     void check_folder() const {
         std::error_code none;
         const bool fresh =
@@ -168,7 +168,7 @@ class StudyVerb final : public Verb {
         const std::vector<const Member*> left = pending();
         std::size_t settings = 0;
         for (const Member& member : members_) settings = std::max(settings, member.setting + 1);
-        // With variants the number of members is no product, since these may have seeds of their own.
+        // With variants the number of members is no product, since a variant may have seeds of its own.
         std::string reckoned = fmt::format("{} settings with their seeds", settings);
         if (!study.has_variants())
             reckoned = fmt::format("{} settings x {} seeds", settings, study.seed_count({}));

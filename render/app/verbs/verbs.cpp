@@ -1,6 +1,6 @@
 #include "render/app/verbs/verbs.hpp"
 
-// The table: NAME stands for the function NAME_verb() of the file NAME.cpp.
+// The table, in the order of --help: NAME stands for the function NAME_verb() of the file NAME.cpp.
 #define GRAINREEL_VERBS(verb)                                                                               \
     verb(movie) verb(resume) verb(render) verb(join) verb(compare) verb(report) verb(export) verb(handover) \
         verb(watch) verb(inspect) verb(study) verb(check) verb(new) verb(scenes) verb(doctor) verb(chart)   \

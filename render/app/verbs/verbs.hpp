@@ -31,7 +31,7 @@ class Verb {
     virtual void add_options(CLI::App& parser) = 0;
     // Does what the options ask for and returns the exit status: 0; 1 when it failed on its way (what was
     // made so far is kept); 129, 130 or 143 when it was asked to stop. Throws UserError before anything is
-    // written, and RunError.
+    // written, and RunError when the work fails.
     virtual int run(Reporter& reporter) = 0;
     // Whether run() looks at stop_signal(); otherwise the first signal ends the program.
     virtual bool ends_in_good_order() const { return true; }

@@ -31,7 +31,8 @@ class WatchVerb final : public Verb {
             ->type_name("DIR");
         add_watch_port(parser, place_);
         add_watch_host(parser, place_);
-        // A run started with --watch passes a listening socket, and a pipe that closes when the run ends.
+        // Only `movie --watch` gives these two: a socket that listens, and a pipe that closes when the run
+        // ends.
         parser.add_option("--socket", socket_)->group("");
         parser.add_option("--until", until_)->group("");
         add_reporting(parser, report);

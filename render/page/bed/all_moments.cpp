@@ -115,7 +115,8 @@ FilmColours::FilmColours(const FilmedScene& scene, const FrameArchive& run, cons
     if (by_ == GrainValue::start_height) quantities_.start_from(run.grains(run.nearest(start)));
 }
 
-// Adds the displacement since the moment a period earlier, when the page has that moment.
+// Adds the displacement since the moment run_.periods() periods of the drive earlier. Returns false when the
+// run kept no such moment.
 bool FilmColours::add_displacement(std::size_t index, Frame& frame) const {
     const Frame& now = run_.moments()[index];
     if (frequency_ <= 0 || clock_.step <= 0) return false;

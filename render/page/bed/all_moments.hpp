@@ -21,8 +21,8 @@ namespace grainreel {
 
 class AllMoments final : public FrameArchive {
   public:
-    // The run must outlive this object. with_contacts: the run's frames come with touches. Files beside the
-    // trajectory that are damaged or of another run are left out.
+    // The run must outlive this object. with_contacts: the run's frames come with their contacts (touches).
+    // Files beside the trajectory that are damaged or of another run are left out.
     AllMoments(const RunArchive& run, bool with_contacts);
 
     const std::filesystem::path& path() const override { return run_.path(); }
@@ -59,12 +59,12 @@ class AllMoments final : public FrameArchive {
 class FilmColours {
   public:
     // For a film whose grains are coloured by a quantity (film_has_scale). start: time in s of the film's
-    // first picture, from which start heights are counted. The run must outlive this object.
+    // first picture; a grain's start height is its height at that time. The run must outlive this object.
     FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start);
 
     // Colours of the grains at a moment of the run, in the frame's order: 0 when the quantity is not known,
-    // else 1 to 255 from the low end of the film's range to its high end. A film with colour bands gets the
-    // middle of the band. touches: those of the moment, if they are known.
+    // else 1 to 255 from the low end of the film's range to its high end. If the film's scale has bands, each
+    // value counts as the middle of its band. touches: those of the moment, if they are known.
     std::vector<std::uint8_t> of(std::size_t index, Frame& frame,
                                  const std::optional<std::vector<Touch>>& touches);
 

@@ -5,8 +5,8 @@
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the
 //   moment before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the
 //   film colours its grains by a quantity, N bytes of that (all_moments.hpp).
-// A contact number of 255 is not known. Where a grain is not present, speed, contacts and presence are 0 and
-// its place repeats the one before. render/page/html/bed_frames.js reads them.
+// A contact number of 255 is not known. Where a grain is not present, its speed and presence are 0, and its
+// place repeats the one before. render/page/html/bed_frames.js reads them.
 #pragma once
 
 #include <cstdint>
@@ -84,16 +84,19 @@ struct BedContacts {
 constexpr std::size_t kMostGrainsOnPage = 100000;
 
 // The page's frames: as many evenly spread moments of the run as fit into `most_bytes` packed bytes, with the
-// first, the last and the key moments among them; at least one moment. If there are more grains than
+// first and the last among them, and the key moments in addition. Some key moments are dropped if all would
+// take more than half of the bytes. The first moment always stays. If there are more grains than
 // kMostGrainsOnPage, the page has those that lie nearest to the plane x = 0 when they are first seen. Throws
 // DamagedFrame.
 BedFrames bed_frames(const FrameArchive& run, std::size_t most_bytes,
                      const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
-// The page's frames of these moments, by rising index into the run's.
+// The page's frames at these moments. chosen: rising indices of the run's moments.
 BedFrames bed_frames_of(const FrameArchive& run, const std::vector<std::size_t>& chosen,
                         const PageProgress& progress = kNoPageProgress, const BedContacts& contacts = {});
 
-constexpr double kByteSpan = 1e5;  // ratio of the highest to the lowest speed, or force, that a byte can tell
+// Ratio of the highest to the lowest speed, or force, that a byte can tell. The error of a byte follows from
+// it: 2.3 %, as bed_about() (page_parts.cpp) tells the reader.
+constexpr double kByteSpan = 1e5;
 
 // The byte that stands for a speed: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
 std::uint8_t speed_byte(double speed, double lowest, double highest);

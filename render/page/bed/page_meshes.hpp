@@ -1,5 +1,5 @@
-// Meshes of a scene as the page carries them: each shape once, at rest. The bodies of the frames
-// say where it is at a moment.
+// Meshes of a scene as the page carries them: each shape once, at rest. The bodies of a frame say where the
+// shapes are at that moment.
 //
 // The bytes, before they are packed, are for each mesh of V vertices, T triangles and E edges, little-endian:
 //   x, y and z of the vertices, each as V low bytes and V high bytes of a zigzag difference from the vertex
@@ -24,7 +24,7 @@
 namespace grainreel {
 
 struct PageMesh {
-    std::int32_t body = 0;  // engine/state/body.hpp
+    std::int32_t body = 0;  // its number in Frame::bodies (engine/state/body.hpp)
     std::string name;
     std::size_t vertices = 0, triangles = 0, glass = 0, sided = 0, edges = 0;
     std::size_t all_triangles = 0;     // number of triangles of the scene's mesh
@@ -41,16 +41,18 @@ struct PageMeshes {
 
 constexpr std::size_t kMostTrianglesOnPage = 60000;
 
-// The meshes in at most `most_bytes` packed bytes, all together. They are solid and glass as in the film.
+// All meshes, thinned until together they have at most `most_bytes` packed bytes. Their sides are solid or
+// glass as in the film.
 PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes,
                        std::size_t most_triangles = kMostTrianglesOnPage);
 
-// Enlarges the box so that it holds the meshes at these moments.
+// Enlarges the box so that it holds the meshes at these moments. Of many moments or vertices it looks at a
+// sample.
 void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& moments);
 
 // Fewer triangles of the same shape: the vertices in a cell of a cubic grid become one, their mean, and
-// triangles that lose a corner go (Rossignac and Borrel 1993, Multi-resolution 3D approximations for
-// rendering complex scenes).
+// triangles whose corners are no longer three different ones vanish (Rossignac and Borrel 1993,
+// Multi-resolution 3D approximations for rendering complex scenes).
 struct ThinnedMesh {
     TriangleMesh mesh;
     std::vector<std::int32_t>

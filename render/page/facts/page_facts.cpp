@@ -109,7 +109,7 @@ Json forces_json(const PairForces& forces) {
     return {{"moments", moments}, {"pairs", pairs}, {"lowest", forces.lowest}, {"highest", forces.highest}};
 }
 
-// The data of the film's colour bar; empty when the colours are those of the species.
+// The data of the film's colour bar; null when the colours are those of the species.
 Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
     if (!bed.has_film_colours) return {};
     const GrainColouring& colouring = scene.film.shows.colour;

@@ -18,7 +18,7 @@ struct PageFacts {
     std::string name;    // name of the run, when the page has several
     std::string folder;  // name of the run's folder
     const FilmedScene& scene;
-    Span span;
+    Span span;  // simulated times of the run; the page's time axis
     const PageFilm& film;
     const FilmTimes& film_times;
     const BedFrames& bed;
@@ -28,12 +28,13 @@ struct PageFacts {
     const PageFields& fields;
 };
 
-// The facts for main.js, which explains the members. NaN becomes null.
+// The facts for the page's scripts (render/page/html), which find the members by their names. The class that
+// takes a part of the facts explains its members, as FieldsPanel in fields.js does. NaN becomes null.
 std::string facts_json(const PageFacts& facts);
 
-// The facts for live.js. live_facts_json(): what is known of a run before it has measured anything;
-// bed_facts_json(): the newest moments of its bed; all_measures_json(): rows of its measures, with all
-// columns.
+// The facts for render/page/html/live.js. live_facts_json(): what is known of a run before it has measured
+// anything. bed_facts_json(): the newest moments of its bed. all_measures_json(): rows of its measures, with
+// all columns.
 std::string live_facts_json(const FilmedScene& scene);
 std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes);
 std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);

@@ -150,7 +150,7 @@ constexpr Source sources[] = {
      "  year = {1998}\n}\n"},
 };
 
-// Writes a sentence for each law of the plan's contacts, with the keys of its sources.
+// Writes a clause for each law of the plan's contacts, with the keys of its sources.
 class LawWords {
   public:
     explicit LawWords(const Plan& plan) {
@@ -224,7 +224,7 @@ std::string words_of(const std::vector<std::pair<std::string, std::string>>& lin
     return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// A range as text: "0.3" or "0.3 to 0.8".
+// The range of a value over all kinds of contact, as text: "0.3" or "0.3 to 0.8".
 template <class Value>
 std::string range_text(const Plan& plan, const Value& value) {
     std::vector<double> values;

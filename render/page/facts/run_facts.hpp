@@ -18,7 +18,7 @@ struct RunFacts {
     // run.json.
     std::string status;
     std::string error;                                       // error of a run that failed
-    std::vector<std::pair<std::string, std::string>> lines;  // name and text of its provenance
+    std::vector<std::pair<std::string, std::string>> lines;  // name and text of each line on its origin
     std::string version, commit;                             // version and commit of the program that ran it
     std::string finished;                                    // UTC, ISO 8601; if unknown, when it started
     std::string state_hash;

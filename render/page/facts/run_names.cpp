@@ -28,7 +28,7 @@ bool all_differ(const Names& names) {
     return set.size() == names.size() && set.count("") == 0;
 }
 
-// The key's path in the list of keys: "species[1].count" for "species.2.count".
+// The key as find_key() takes it: "species[2].count" for "species.2.count". find_key() ignores the number.
 std::string path_of(const std::string& key) {
     std::string path;
     for (std::size_t begin = 0; begin <= key.size();) {
@@ -83,7 +83,7 @@ std::vector<std::pair<std::string, Values>> differences(const std::vector<RunToN
     return differing;
 }
 
-// Replaces the amplitude by Γ, which experimenters prefer.
+// Replaces the amplitude by Γ, which experimenters prefer, if every run vibrates in one way under gravity.
 void say_as_level(const std::vector<RunToName>& runs,
                   std::vector<std::pair<std::string, Values>>& differing) {
     const auto amplitude = std::find_if(differing.begin(), differing.end(),

@@ -1,5 +1,5 @@
 // The bed beside its controls: what colours mean, who is shown, a slice, and the grain that was chosen.
-const asInFilm = 6; // number of the film's own colouring, used when it is none of the others (shaders.js)
+const asInFilm = 6; // number of the film's own colouring; findColourings() has the other numbers, shaders.js uses all
 
 class BedPanel {
     /**
@@ -84,7 +84,7 @@ class BedPanel {
         if (moment !== null) this.runTime.set(this.frames.times[moment], "forces");
     }
 
-    // The width of a band is proportional to the force. The widest one has a good half of a small grain's radius.
+    // The width of a band is proportional to its force, up to 0.6 times the smallest radius for the strongest 2 %.
     showForces() {
         const {forces, viewer, frames} = this;
         if (!forces) return;
@@ -115,7 +115,7 @@ class BedPanel {
         this.part("forces-say").textContent = words;
     }
 
-    /** To be called when the camera has moved: beds beside this one get the same direction and distance. */
+    /** Call it when the camera has moved: beds beside this one get the same direction and enlargement. */
     turned() {
         const {azimuth, elevation, distance, fitted} = this.viewer.camera;
         this.viewer.change();
@@ -139,7 +139,8 @@ class BedPanel {
         this.colourAs(this.facts.film ? asInFilm : 0);
     }
 
-    // Finds the colourings of the bed, with the ranges that the moments need.
+    // Finds the colourings of the bed, with the ranges that the moments need. `by` is the number of the colouring in
+    // colourFor() of shaders.js.
     findColourings() {
         const facts = this.facts;
         const heights = this.viewer.startHeights();
@@ -204,7 +205,8 @@ class BedPanel {
         return {shares: [low, high], ends: [speedOf(low), speedOf(high)]};
     }
 
-    // m; nine in ten grains rise no more than this, so that a few flying grains do not make all others grey.
+    // The rise in m between two moments that nine in ten grains do not exceed. With the largest rise as the end of the
+    // scale, a few flying grains would make all others grey.
     largestRise() {
         const frames = this.frames, rises = [];
         const stride = Math.max(1, Math.floor((frames.grains * frames.times.length) / 20000));

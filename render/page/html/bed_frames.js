@@ -5,7 +5,8 @@
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the moment
 //   before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the film colours its
 //   grains by a quantity, N bytes of that: 0 where it is not known, else 1 to 255 over the film's range.
-// When a grain is not present all its bytes are 0. A place is low + number (high - low) / 65535 along each axis.
+// Where a grain is not present, its differences, speed and presence are 0. render/page/bed/bed_frames.hpp describes the
+// same bytes, which bed_frames.cpp writes. A place is low + number (high - low) / 65535 along each axis.
 class BedFrames {
     constructor(facts, bytes) {
         Object.assign(this, facts); // grains, times, low, high, places, speed, ...

@@ -1,6 +1,6 @@
-// A camera that turns about a point, with the film's angles: azimuth 0 looks along -x, and the eye goes to the
-// right as it grows; elevation counts from the horizon. z is up, unless the film has another direction, as for a drum
-// that lies.
+// A camera that turns about a point, with the film's angles. At azimuth 0 it looks along -x; as the azimuth grows, the
+// eye moves to the right. The elevation counts from the horizon. z is up, unless the film has another direction, as for
+// a drum that lies.
 class Camera {
     /**
      * view: {azimuth, elevation, fov} in degrees. If z is not up it also has `up`, and `front`, from where azimuth 0
@@ -23,7 +23,7 @@ class Camera {
         this.fit();
     }
 
-    /** Moves away until the whole box is in the picture. */
+    /** Takes the distance at which the whole box just fits into the picture. */
     fit() {
         const {forward, right, up} = this.axes();
         const tanY = Math.tan((this.start.fov * Math.PI) / 360), tanX = tanY * this.aspect;

@@ -15,7 +15,7 @@ function bytesOf(id) {
     return Uint8Array.fromBase64 ? Uint8Array.fromBase64(text) : bytesOfBase64(text);
 }
 
-// For browsers from before 2025.
+// For browsers from before 2025, which lack Uint8Array.fromBase64.
 function bytesOfBase64(text) {
     const unpacked = atob(text), bytes = new Uint8Array(unpacked.length);
     for (let i = 0; i < unpacked.length; ++i) bytes[i] = unpacked.charCodeAt(i);

@@ -1,8 +1,8 @@
 // Shows fields of the run as a map in the plane of the film, and as a profile, at the record of the page's time.
 //
-// The bytes are, for Ny cells across and Nz in height (y fastest), Q quantities and R records: Ny Nz shares of the cells
-// inside the container, of 255; then for each record and quantity Ny Nz bytes, 0 to 254 from its lowest value to its
-// highest, 255 for none.
+// The bytes are, for Ny cells across and Nz in height (y fastest), Q quantities and R records: Ny Nz bytes, the share of
+// each cell that is inside the container, 255 for all of it; then for each record and quantity Ny Nz bytes: 0 to 254 from
+// the quantity's lowest value to its highest, 255 where there is none. page_measures.cpp writes them.
 class FieldsPanel {
     /** facts: {y, z: {low, cell, count}, records: [[begin, end]], quantities: [{name, label, unit, low, high}], ramps}. */
     constructor(facts, bytes, runTime, n = "") {
@@ -62,7 +62,7 @@ class FieldsPanel {
         return this.facts.quantities[this.quantity];
     }
 
-    // Velocities may have both signs; then white (or black) stands for zero.
+    // Velocities may have both signs; then the middle of the diverging ramp stands for zero.
     isSigned() {
         const {low, high} = this.about();
         return low < 0 && high > 0;
@@ -97,7 +97,10 @@ class FieldsPanel {
         this.part("field-high").textContent = `${numberText(high)} ${this.about().unit}`;
     }
 
-    /** Means over one direction, weighted by the cells' shares inside the container: [[place in m, value or null]]. */
+    /**
+     * The profile along "y" or "z": [[place in m, value or null]]. A value is the mean over the other direction, weighted
+     * by the cells' shares inside the container.
+     */
     profile(along) {
         const {y, z} = this.facts, axis = this.facts[along], points = [];
         for (let k = 0; k < axis.count; ++k) {

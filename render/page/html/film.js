@@ -47,8 +47,8 @@ class FilmPanel {
         video.after(element("p", {className: "no-print"}, button));
     }
 
-    // To be called when the film is started, by the bar or by its own buttons. Other films that show the same moments
-    // play along; the rest are sought.
+    // Called when the film has been started, by the bar or by its own buttons. Other films that show the same moments
+    // play along; the rest follow by seeking.
     begun(bar) {
         if (this.goesAlong) return;
         this.follows = false;

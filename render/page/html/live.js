@@ -1,4 +1,5 @@
-// The page of a run that is still computed: once a second it asks the program that shows it what is new.
+// Keeps the page of a run that is still computed up to date: once a second it asks the server of the page what is new
+// (render/page/live).
 
 const secondsBetweenLooks = 1;
 

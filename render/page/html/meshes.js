@@ -7,7 +7,8 @@
 // The first triangles are solid wherever they are seen from. Then come those that are glass, and last those that are solid on
 // the side of their normal and glass on the other one, so that the grains behind them are seen.
 
-// A triangle of a mesh in its body's frame. Its light comes from its plane, so that no normals are carried.
+// Draws a triangle of a mesh, given in its body's frame. The light is computed from the triangle's plane, so the page
+// carries no normals.
 const meshVertexShader = `#version 300 es
 precision highp float;
 layout(location = 0) in vec3 place;
@@ -92,8 +93,8 @@ function unpackMeshes(facts, bytes) {
 }
 
 /**
- * For each edge 9 numbers: its two ends in m, and the sum of the normals of its triangles that are glass on the other
- * side.
+ * For each edge 9 numbers: its two ends in m, and the sum of the unit normals of the triangles that meet at it. The sum
+ * is set to 0 when one of them is solid from both sides.
  */
 function edgesWithSides(mesh) {
     const {places, corners, ends} = mesh, vertices = places.length / 3;
@@ -167,7 +168,7 @@ class Meshes {
         this.drawLines(poses, view, colours);
     }
 
-    /** Draws the glass before the grains. To be called when everything solid has been drawn. */
+    /** Draws the glass in front of the grains. Call it when everything solid has been drawn. */
     drawGlass(poses, view, colours) {
         const gl = this.gl;
         gl.enable(gl.BLEND);
@@ -219,4 +220,4 @@ class Meshes {
     }
 }
 
-const opaque = {cover: [1, 1]}, glass = {cover: [0.1, 0.35]}; // of a face seen from ahead, and of one seen along
+const opaque = {cover: [1, 1]}, glass = {cover: [0.1, 0.35]}; // how much a face hides, seen from ahead and seen along

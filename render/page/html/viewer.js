@@ -1,6 +1,6 @@
 // Draws the bed in three dimensions with WebGL 2. One call draws all grains, one the faces of walls, one all segments
-// (edges, the way of a grain, force chains), and each mesh takes four. All moments lie on the graphics card. To show
-// another one, only the walls' corners and the segments are sent, and at a key moment a byte for each grain.
+// (edges, the way of a grain, force chains), and each mesh takes five at most. All moments lie on the graphics card.
+// To show another one, only the walls' corners and the segments are sent, and at a key moment a byte for each grain.
 const numbersASegment = 10; // from, to, width, colour
 const shrunk = 0.35; // factor of the radii while force chains are shown
 

@@ -3,9 +3,9 @@
 //
 // Bodies have poses, moment by moment: slabs and meshes go with them.
 //
-// A slab is {body, inner, outer, from, until}: a flat convex piece of wall, m, in the frame of its body. outer is
-// the other side of its thickness, corner by corner, or empty for a pane. It may be there
-// only from one time (s) until another.
+// A slab is {body, inner, outer, seams, from, until}: a flat convex piece of wall, m, in the frame of its body
+// (render/page/bed/slabs.hpp). outer is the other side of its thickness, corner by corner, or empty for a pane. A slab
+// may be there only from one time (s) until another.
 const leastOfDisc = 12; // corners
 const firstPlaneBody = 2; // as in engine/state/body.hpp
 
@@ -46,7 +46,7 @@ function turnedBy(turn, vector) {
     return vector.map((value, k) => value + w * twice[k] + aside[k]);
 }
 
-/** These move a point from its place at rest to where the body is now, and back; m. */
+/** movedBy() moves a point from its place at rest to where the body is now, atRest() moves it back; m. */
 function movedBy({place, turn}, point) {
     return turnedBy(turn, point).map((value, axis) => value + place[axis]);
 }
@@ -55,7 +55,7 @@ function atRest({place, turn}, point) {
     return turnedBy(turn && [turn[0], -turn[1], -turn[2], -turn[3]], point.map((value, axis) => value - place[axis]));
 }
 
-/** The same motion as a matrix, column by column. */
+/** The motion of movedBy() as a matrix, column by column. */
 function matrixOf({place, turn}) {
     const columns = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => [...turnedBy(turn, axis), 0]);
     return new Float32Array([...columns.flat(), ...place, 1]);

@@ -211,6 +211,7 @@ double LiveRun::remaining(double time, double end) const {
     return passed > settled_rate && gained > 0 ? passed.count() / gained * (end - time) : -1;
 }
 
+// live.js reads the members of the state by these names.
 void LiveRun::make_state() {
     std::error_code ignored;
     const double end = scene_ ? scene_->run.duration : 0;
@@ -273,8 +274,8 @@ std::string waiting_page(const std::string& title) {
 
 namespace {
 
-// The packets from the last key frame on. All packets before are read too, but not decoded, which takes
-// almost no time.
+// The packets from the last key frame on. All earlier packets are read too, which takes almost no time, since
+// they are not decoded.
 std::vector<PacketPtr> last_packets(AVFormatContext& film, int stream) {
     std::vector<PacketPtr> packets;
     while (true) {

@@ -23,13 +23,14 @@ namespace grainreel {
 struct LiveSnapshot {
     using Bytes = std::shared_ptr<const std::string>;
     Bytes page;     // HTML
-    Bytes state;    // JSON: how far the run is, and the newest versions of the other parts
+    Bytes state;    // JSON: how far the run is, and the numbers of the newest versions of the parts
     Bytes picture;  // JPEG: the film's newest picture; empty without one
     Bytes bed;  // uint32 length of JSON, little-endian; JSON; packed places. empty before there are places
     Bytes measures;  // JSON; empty before there are measures
     Bytes meshes;    // packed as in page_meshes.hpp; they belong to every bed; empty without meshes
 };
 
+// Plans a scene; none when this version of the program would not run the scene.
 using Planner = std::function<std::optional<PlannedScene>(const FilmedScene&)>;
 
 class LiveRun {
@@ -80,7 +81,7 @@ class LiveRun {
     int pictures_ = 0;
     std::chrono::duration<double> picture_took_{0};
     std::chrono::steady_clock::time_point picture_at_;
-    std::deque<Wall> seen_;  // times seen lately; rising
+    std::deque<Wall> seen_;  // simulated times seen lately, rising, and when they were seen
     mutable std::mutex mutex_;
     LiveSnapshot now_;
 };

@@ -58,7 +58,8 @@ WatchAnswer text_answer(unsigned status, std::string text);
 
 class WatchServer {
   public:
-    // answer: called on the server's thread; it must not wait for anything. Throws RunError.
+    // answer: called on the server's thread; it must not wait for anything. Throws RunError when the server
+    // cannot be started.
     WatchServer(Listening listening, std::function<WatchAnswer(const WatchRequest&)> answer);
     ~WatchServer();  // closes the connections that are still open
     WatchServer(const WatchServer&) = delete;

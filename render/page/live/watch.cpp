@@ -26,10 +26,11 @@ constexpr auto look_interval = std::chrono::milliseconds(100);
 constexpr Seconds refresh_interval{0.5};
 constexpr double refresh_share = 0.1;  // largest share of the time that reading the run may take
 constexpr Seconds visitor_stays{5};    // time after the last request of a visitor until he counts as gone
-// When the run is over: if there was no request for so long, all visitors know it ...
+// After the end of the run the server stops when no request has come for the time `farewell`, since then all
+// visitors know of the end. It stops after the time `longest_farewell` in any case.
 constexpr Seconds farewell{3};
-constexpr Seconds longest_farewell{15};  // ... and the server stops after this time in any case
-constexpr int priority = 10;             // nice value, of 19: programs that compute go first
+constexpr Seconds longest_farewell{15};
+constexpr int priority = 10;  // nice value, up to 19: programs that compute go first
 
 constexpr const char* html = "text/html; charset=utf-8";
 
@@ -87,7 +88,8 @@ class Watch {
         if (run_.is_gone() && !was_gone) gone_at_ = refreshed_;
     }
 
-    // Whether the run has ended: its process closes its end of the pipe when the run's files are closed.
+    // Whether to stop: the run has ended, and the visitors have been told. The run's process closes its end
+    // of the pipe when the run's files are closed.
     bool is_to_end() {
         if (until_ < 0) return false;
         if (!ending_) {

@@ -19,15 +19,16 @@ struct WatchPlace {
     std::optional<int> port;         // none: the usual port, or any free one
 };
 
-// Opens the socket. Throws UserError when the place cannot be had.
+// Opens a socket at this place. Throws UserError when that is not possible.
 Listening listen_at(const WatchPlace& place);
 
 struct WatchTask {
     std::filesystem::path run;
     std::string host;
     Listening listening;
-    int until = -1;  // file descriptor of a pipe whose other end is closed when the run ends; watching then
-                     // ends soon after
+    // File descriptor of a pipe whose other end is closed when the run ends; watching then ends soon. -1:
+    // none.
+    int until = -1;
 };
 
 // Tells `listener` the address, and shows the run until a signal comes or, with `until`, until the run is
@@ -47,8 +48,8 @@ class Visitors {
     bool keyed() const { return keyed_; }
     // "http://host:port/", with the key that is good now.
     std::string address() const;
-    // Takes a key and returns the text by which the visitor is known from then on. A key works once; then
-    // there is a new one.
+    // Takes a key and returns the text by which the visitor is known from then on, or none for a wrong key. A
+    // key works once; then there is a new one.
     std::optional<std::string> admit(std::string_view key);
     // Whether a Cookie header has a text that admit() returned.
     bool admitted(std::string_view cookies) const;

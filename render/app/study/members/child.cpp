@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t most_of_a_line = 1 << 16;  // characters of a line that are kept
 
-// Runs in the new process until the other program replaces it. It may make system calls only.
+// Runs in the new process until the child's program replaces it. After fork() it may make system calls only.
+// nothing: /dev/null. errors: the end of the pipe that becomes stderr.
 [[noreturn]] void become(char* const* words, int nothing, int errors, pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -1,4 +1,4 @@
-// Runs this program once more, as a child process, and reads what that says on stderr.
+// Runs this program once more, as a child process, and reads what the child writes to stderr.
 #pragma once
 
 #include <sys/types.h>

@@ -26,8 +26,8 @@ struct StudyFolder {
     // change members that are still to be run.
     std::filesystem::path scene(const Study& study) const;
 
-    // Where the copy of a file of a mesh or path lies for the members. Two files with the same name can lie
-    // beside each other.
+    // Where the copy of a file of a mesh or path lies for the members. Files with the same name and other
+    // contents lie in folders of their own.
     std::filesystem::path copy_of(const MemberFile& file) const {
         return path / "meshes" / file.hash / std::filesystem::path(file.from).filename();
     }
@@ -65,9 +65,10 @@ struct StudyRunRequest {
 // Whether the member with that number is still to be run.
 bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request);
 
-// Runs what is pending of `members`, the first seed of all settings first, and fills in `results`, which hold
-// what is on disk already. `gained` is called after each member. Returns when all are done, or once the
-// listener has a stop signal and the running members have ended in good order.
+// Runs the members that are pending, the first seed of all settings first. results: for each member, what is
+// on disk; it is brought up to date when the member ends. `gained` is called after each member that was not
+// stopped. Returns when all are done, or once the listener has a stop signal and the running members have
+// ended in good order.
 void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
                  const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
                  const std::function<void()>& gained);

@@ -18,7 +18,7 @@ namespace {
 // Colours of Okabe and Ito (2008), which colour-blind people can tell apart.
 constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#000000"};
-constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};
+constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};  // gnuplot's numbers of point types
 
 // Settings that depend on a drawing's size.
 struct Look {

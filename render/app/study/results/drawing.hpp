@@ -13,11 +13,11 @@ namespace grainreel {
 // The stem of the chart's files, NAME.csv, NAME.gp, NAME.svg and NAME.png.
 std::string chart_stem(const StudyChart& chart);
 
-// The table of a chart, "series,x,mean,low,high,values,members", with a row for each point. low and high are
-// the ends of the 95 % interval.
+// The table of a chart, "series,x,mean,low,high,values,members,name", with a row for each point. gnuplot's
+// commands count on this order of columns. low and high are the ends of the 95 % interval.
 std::string chart_table(const std::vector<ChartSeries>& series);
 
-// The commands for gnuplot. They run in the table's folder, with the reference beside it as
+// The commands for gnuplot. They run in the table's folder, where points from elsewhere lie in
 // NAME.reference.csv.
 std::string chart_commands(const Study& study, const StudyChart& chart,
                            const std::vector<ChartSeries>& series, bool has_reference);
@@ -26,8 +26,8 @@ struct DrawnCharts {
     bool drawn = true;  // false: gnuplot is missing or has failed
     std::vector<std::string> stems;
 };
-// Writes tables and commands into `folder`, which it makes, and runs gnuplot. A chart without a single point
-// is left out. references: for each chart its points from elsewhere; empty for none.
+// Writes tables and commands into `folder`, which it makes, and runs gnuplot. For a chart without a single
+// point it writes the table alone. references: for each chart its points from elsewhere; empty for none.
 DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
                         const std::vector<MemberResult>& results,
                         const std::vector<std::vector<ReferencePoint>>& references,

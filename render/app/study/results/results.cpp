@@ -94,6 +94,7 @@ std::string heading(const Variation& variation) {
     return variation.unit.empty() ? variation.key : fmt::format("{} [{}]", variation.key, variation.unit);
 }
 
+// The heads of the columns, in the order in which study_table() fills a row.
 std::vector<std::string> header(const Study& study) {
     std::vector<std::string> cells;
     for (const Variation& variation : study.variations) cells.push_back(heading(variation));

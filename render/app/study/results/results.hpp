@@ -37,7 +37,8 @@ std::string csv_cell(const std::string& text);
 std::string csv_number(double value);
 
 // The text of study.csv: a row for each member, in their order. The columns are the keys with their units,
-// the seed, the state, the measures, the number of warnings, the error and the folder.
+// the seed (if the study gives seeds), the state, the measures, the number of warnings, the error and the
+// folder.
 std::string study_table(const Study& study, const std::vector<Member>& members,
                         const std::vector<MemberResult>& results);
 
