@@ -41,7 +41,7 @@ class LegacyText {
     template <class T>
     std::vector<T> numbers(VtkType type, std::uint64_t count, bool finite);
     void skip(VtkType type, std::uint64_t count);
-    // Skips words. A text file has one on each line; a binary one has each behind its length.
+    // Skips words. A text file has one on each line; a binary file has the length before each word.
     void skip_words(std::uint64_t count);
     // Skips the lines after METADATA up to the next empty one or the next keyword.
     void skip_metadata();

@@ -98,9 +98,9 @@ class XmlArrays {
 };
 
 // Counts the grains of a file by its head only, so that a long list of large files is opened without reading
-// them. It adds to the counts of a moment and returns true if the head says all: in PolyData with appended
-// numbers whose points are all vertices, or which has only polygons. The rest of the file is not checked
-// then. time_known: the list says the time, so that the time in the file does not matter.
+// them. It adds to the counts of a moment and returns true if the head tells them all: in PolyData with
+// appended numbers whose points are all grains, or which has only polygons. The rest of the file is not
+// checked then. time_known: the list says the time, so that the time in the file is not needed.
 bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& parts);
 
 }  // namespace grainreel

@@ -38,7 +38,8 @@ struct XmlTree {
 // the XML is damaged. may_end_early: a file that ends within an element is used as far as it goes.
 XmlTree xml_tree(const std::filesystem::path& file, std::string_view bytes, bool may_end_early = false);
 
-// The attribute `type` of VTKFile near the beginning of a file, "PolyData"; empty where it is no VTK file.
+// The attribute `type` of VTKFile near the beginning of a file, "PolyData"; "unknown" where VTKFile has none,
+// empty where the file is no VTK file.
 std::string vtk_file_type(std::string_view head);
 
 }  // namespace grainreel
