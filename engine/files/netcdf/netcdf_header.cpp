@@ -186,7 +186,7 @@ class Parser {
                 damaged("a variable lies beyond the end of the file");
             }
         }
-        if (with_records == 1) header.record = unpadded;  // the one exception in the specification
+        if (with_records == 1) header.record = unpadded;  // the specification has no padding here
         return header;
     }
 
