@@ -56,7 +56,7 @@ std::vector<std::string> words_of(std::string_view text) {
     return all;
 }
 
-// The names of species. Empty unless all of them differ and each is a text that can be typed.
+// The names of species. There are none unless all differ and each is valid UTF-8 and not empty.
 std::vector<std::string> species_of(const XmlArrays& arrays, const XmlElement& array) {
     const std::string_view format = array.attribute("format");
     if (!format.empty() && format != "ascii") return {};
