@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t head = 84, row = 50,
-                      first_corner = 12;  // bytes; the first corner comes after the normal
+                      first_corner = 12;  // bytes; a row has the normal and three corners, 12 bytes each
 
 static_assert(std::endian::native == std::endian::little);
 
