@@ -49,15 +49,15 @@ struct CarriedPair {
     double unloading = 0;            // N/m, K2 of edinburgh
     double hardening = 0;            // 1/m, S of luding
     double tangential = 0;           // N/m; hertz: 8 G* in Pa
-    double damping = 0;              // 1/s, times m_eff; hertz: alpha of Tsuji's dashpot (carry.hpp)
-    double tangential_damping = 0;   // 1/s, as above
+    double damping = 0;              // 1/s, c / m_eff; hertz: alpha of Tsuji's dashpot (carry.hpp)
+    double tangential_damping = 0;   // 1/s; hertz: divided by the normal damping
     double restitution = 1;          // for two of mean size, as the scene wants it
     double lowest = 1, highest = 1;  // range for other sizes, because all have the same damping
-    double effective_mass = 0;       // kg, for two of mean size; surfaces and glued grains have no mass
-    double effective_radius = 0;     // m, as above
-    double friction = 0;             // always finite; kEndlessFriction stands for infinity
-    double rolling = 0;              // the torque is at most this times effective radius times N
-    bool attraction = false;         // whether the dashpot may pull
+    double effective_mass = 0;    // kg, for two of mean size; surfaces and glued grains are infinitely heavy
+    double effective_radius = 0;  // m, as above
+    double friction = 0;          // always finite; kEndlessFriction stands for infinity
+    double rolling = 0;           // the torque is at most this times effective radius times N
+    bool attraction = false;      // whether the dashpot may pull
 };
 inline constexpr double kEndlessFriction = 1e4;
 
@@ -87,7 +87,7 @@ enum class RunFrame { lab, container };
 struct CarriedScene {
     PeerEngine engine = PeerEngine::lammps;
     int ranks = 1;  // processes of the engine (MPI)
-    Scene scene;    // with the laws of the other engine and the plan's choices; also for our run to compare
+    Scene scene;    // with the other engine's laws and the plan's choices; our run for comparison takes it
     Plan plan;      // of that scene
 
     std::vector<CarriedType> types;
@@ -119,7 +119,8 @@ struct CarriedScene {
     bool packs = false;
     std::int64_t packing_steps = 0;
     double packing_drag = 0;  // 1/s
-    // The engine's steps are ours plus this number, which gives packing steps of its own.
+    // The engine's steps are ours plus this number, because it counts the packing steps before our step
+    // `first`.
     std::int64_t shift() const { return packs ? packing_steps - first : 0; }
 
     std::vector<CarryNote> changes, refusals;

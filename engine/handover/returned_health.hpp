@@ -1,5 +1,5 @@
-// The health of a run that another engine makes. Each frame of its dump is looked at as a state of our own
-// runs is (engine/measure/health.hpp), with the same limits and words. Contacts are found from places.
+// Checks the health of a run that another engine makes. Each frame of its dump is checked as a state of our
+// own runs is (engine/measure/health.hpp), with the same limits and words. Contacts are found from places.
 #pragma once
 
 #include <memory>
