@@ -1,7 +1,7 @@
 // `grainreel chart accuracy`: the error of a run against its cost, when one setting at a time is changed. It
 // has four tables with one result in each row: contacts.csv (single contacts), convergence.csv (tangential
 // laws), gas.csv (elastic and nearly elastic gases) and bed.csv (the small bed, every setting with every
-// seed).
+// seed). A fifth, differences.csv, is computed from bed.csv.
 #pragma once
 
 #include "engine/lab/chart/chart.hpp"
