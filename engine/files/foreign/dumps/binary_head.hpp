@@ -1,6 +1,6 @@
-// Binary dumps: the head of a frame in all forms that LAMMPS has written (with names of columns since 2021,
-// with flags of the box since 2010, and older), and where the frames of a file lie. The numbers themselves
-// are read in lammps_binary.cpp.
+// Reads the heads of binary dumps, in all forms that LAMMPS has written (with names of columns since 2021,
+// with flags of the box since 2010, and older), and finds where the frames of a file lie. The numbers
+// themselves are read in lammps_binary.cpp.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,7 @@ class BinaryReader {
 
 // The form in which a program wrote all frames of a file.
 struct BinaryForm {
-    // What a file without magic word has at the box. flags: a word for the tilt and six flags of the
+    // What stands at the box in a file without magic word. flags: a word for the tilt and six flags of the
     // boundaries, then the bounds; bare: only the bounds; bare_tilted: the bounds and three tilts. Files with
     // magic word have the flags too.
     enum class Box { flags, bare, bare_tilted };

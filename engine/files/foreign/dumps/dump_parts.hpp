@@ -1,5 +1,6 @@
-// What text and binary dumps have in common: the box, and the checks of ids and places. In text the box is
-// three lines below "ITEM: BOX BOUNDS" in one of three forms; binary dumps have the same numbers.
+// Parts that the readers of text and of binary dumps share: the box, and the checks of ids and places. In
+// text the box is three lines below "ITEM: BOX BOUNDS" in one of three forms; binary dumps have the same
+// numbers.
 #pragma once
 
 #include <array>

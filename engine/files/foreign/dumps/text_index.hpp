@@ -1,5 +1,5 @@
-// Text dumps: the head of a frame, and where the frames of a file lie. One pass over the file finds them; it
-// reads heads and counts rows. The rows themselves are read in text_rows.hpp.
+// Reads the heads of text dumps, and finds where the frames of a file lie. This takes one pass over the file,
+// which reads heads and counts rows. The rows themselves are read in text_rows.hpp.
 #pragma once
 
 #include <cstdint>
@@ -38,12 +38,12 @@ enum class HeadEnd {
     cut       // the content ended within the head
 };
 
-// Reads a head. Throws UserError with the line where there is something else. If the result is `cut`, `head`
-// has what could be read.
+// Reads a head. Throws UserError with the line where something else stands there. If the result is `cut`,
+// `head` has what could be read.
 HeadEnd read_head(LineReader& lines, const std::filesystem::path& file, DumpHead& head);
 
 struct DumpFrame {
-    // Bytes of the unpacked content: from its first item to after its last row.
+    // Where the frame begins and ends, in bytes of the unpacked content.
     std::uint64_t place = 0, end = 0;
     std::int64_t line = 0;  // number of the line of its first item
     std::int64_t step = 0;
@@ -72,7 +72,7 @@ struct TextIndex {
     std::int64_t end_line = 1;
     bool unended = false;  // the last row of the last frame has no line feed
     std::optional<CutFrame> cut{};
-    bool stream_cut = false;  // the packed stream ends before its end
+    bool stream_cut = false;  // the packed file is cut off
 
     // Finds the frames after those that are known. Throws UserError with the line where the content is no
     // dump, or its columns or units change.

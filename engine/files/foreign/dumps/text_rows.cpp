@@ -123,7 +123,7 @@ namespace fs = std::filesystem;
 
 enum class Kind {
     number,  // a number of a compute or fix, perhaps not finite
-    finite,  // a grain must have it
+    finite,  // a number that must be finite, such as a place
     word     // name of an element or a type
 };
 
