@@ -70,8 +70,8 @@ class RestartLine {
 
     // The first word of the line, such as "TSP" or "InfiniteWall".
     const std::string& first_word() const { return first_word_; }
-    // The numbers after a key, in upper or lower case, if there are exactly `count`; else null. If a key
-    // comes twice, the last one with so many numbers is taken.
+    // The numbers after a key, whose case does not matter; null unless there are exactly `count` of them. If
+    // a key comes twice, the last one with so many numbers is taken.
     const std::vector<double>* find(std::string_view key, std::size_t count) const {
         const std::string wanted = lower_case(key);
         for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)
