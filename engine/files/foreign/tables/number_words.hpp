@@ -1,5 +1,4 @@
-// Words and numbers as programs write them into text files, and columns of a table that are filled with them
-// word by word.
+// Reads words and numbers as programs write them into text files, and fills columns of a table with them.
 #pragma once
 
 #include <cstddef>

@@ -174,9 +174,9 @@ bool must_be_numbers(const std::string& name) {
     return false;
 }
 
-// Finds out for each column whether it holds words. A column of places, velocities or radii does so only if
-// at least half of its cells are words; a single word there is a mistake in its row. Returns none where a row
-// has another number of cells than the others.
+// Finds out for each column whether it holds words. A column of places, velocities or radii counts as one of
+// words only if at least half of its cells are words; otherwise a word there is a mistake in its row. Returns
+// none where a row has another number of cells than the others.
 std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
                                           const std::vector<std::string>& names, bool closed,
                                           bool last_may_be_cut) {
