@@ -1,6 +1,5 @@
-// A data set of VTK as its files hold it (points, cells on them, numbers at both), and how it becomes a
-// frame. The readers of VTK's formats only make VtkContents; which points and cells are grains, walls and
-// contacts is decided here.
+// Turns a data set of VTK (points, cells on them, numbers at both) into a frame. The readers of VTK's formats
+// only make VtkContents; which points and cells are grains, walls and contacts is decided here.
 //
 // Source: Kitware, The VTK User's Guide, 11th edition (2010), chapter "VTK File Formats".
 #pragma once

@@ -31,7 +31,7 @@ struct XmlTree {
     // The bytes of the file after the "_" of AppendedData; both are equal where there are none.
     std::size_t appended_begin = 0, appended_end = 0;
     bool appended_base64 = false;
-    bool cut_off = false;  // ends before its last element is closed
+    bool cut_off = false;  // the file ends before its last element is closed
 };
 
 // Raw appended data are not XML, so only the part before them is parsed. Throws UserError with the line where
