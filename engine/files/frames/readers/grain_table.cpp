@@ -37,7 +37,7 @@ Frame by_id(const Frame& table) {
     return frame;
 }
 
-// The species of a table without a scene.
+// The species of a table without a scene: named by their numbers, with the mean diameter of their grains.
 std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
     std::vector<WorldSpecies> types(static_cast<std::size_t>(last) + 1);
     for (std::size_t type = 0; type < types.size(); ++type)
