@@ -1,6 +1,6 @@
-// A classic NetCDF file whose records are written one after the other. It stays readable when the program is
-// killed or the disk is full, and it is checked before the library reads it. All NetCDF files of runs go
-// through this class.
+// Writes and reads classic NetCDF files, whose records are written one after the other. A file stays readable
+// when the program is killed or the disk is full, and it is checked before the library reads it. All NetCDF
+// files of runs go through this class.
 #pragma once
 
 #include <cstddef>
