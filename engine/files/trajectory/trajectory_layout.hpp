@@ -1,5 +1,5 @@
-// The variables of trajectory.nc, named once for writer and reader, and the variables with the shapes of
-// meshes. A variable that is renamed or moved in these lists changes checksums and makes old files
+// Names the variables of trajectory.nc once for writer and reader, and writes and reads those with the shapes
+// of meshes. A variable that is renamed or moved in these lists changes checksums and makes old files
 // unreadable.
 #pragma once
 
