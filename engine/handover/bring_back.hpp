@@ -68,7 +68,7 @@ class ReturnedRun {
 
     // Writes the next whole frame of the dump. Returns false where there is none so far. Throws UserError for
     // a dump that does not fit the deck, and RunError for grains that were lost and a state that is not sound
-    // (ReturnedHealth); no frame from there on may be taken.
+    // (ReturnedHealth). After that no further frame may be taken.
     bool take_next();
     // Writes final.csv of the last frame, and what run.json says about the files.
     void close(RunJson& record);

@@ -1,5 +1,5 @@
-// CarriedScene: a scene as the deck (input script) of another engine (LAMMPS or LIGGGHTS) needs it, with
-// numbers in SI units and exact formulas, and with all that had to be changed or refused. carry() makes it;
+// CarriedScene holds a scene in the form that the deck (input script) of another engine (LAMMPS or LIGGGHTS)
+// needs: numbers in SI units, exact formulas, and all that had to be changed or refused. carry() makes it;
 // the code of the decks only writes it down and computes nothing.
 #pragma once
 
@@ -33,7 +33,7 @@ struct CarriedType {
     bool spread() const { return largest > smallest; }
 };
 
-// A contact law of the other engine.
+// A contact law of the other engine. N: normal force; d: overlap; v: speed at which the two part.
 enum class CarriedLaw {
     spring_dashpot,  // N = k d - c v, and a linear tangential spring with Coulomb's limit
     hertz,           // N = 4/3 E* sqrt(R) d^1.5, and Mindlin's spring

@@ -71,7 +71,7 @@ std::vector<std::string> gravity_lines(const CarriedScene& carried) {
 
 namespace {
 
-// How many steps from the first one on the series gives rightly when the engine computes it.
+// Counts the steps, from the first one on, that the engine would compute rightly from this series.
 std::int64_t right_ones(const DumpPace& pace, const std::int64_t* steps) {
     for (std::int64_t k = 0; k < pace.count; ++k)
         if (pace.at(k) != steps[k] || pace.next(steps[k]) != steps[k + 1]) return k;

@@ -1,5 +1,5 @@
-// The decks (input scripts) of both engines: what they have in common, at which steps they dump, and the
-// parts that are different. decks.cpp has what is common; lammps_deck.cpp, liggghts_deck.cpp and
+// Writes the decks (input scripts) of both engines: what they have in common, at which steps they dump, and
+// the parts that are different. decks.cpp has what is common; lammps_deck.cpp, liggghts_deck.cpp and
 // liggghts_law.cpp have the rest.
 #pragma once
 

@@ -50,13 +50,13 @@ class DumpTail {
 // The step of the newest restart file in the folder of a deck; none where there is no restart file.
 std::optional<std::int64_t> newest_restart(const std::filesystem::path& folder, PeerEngine engine);
 
-// LIGGGHTS that is asked to end by a signal writes a restart file under another name. Where its output says
-// that the file is whole, it gets the name of the others, so that the run goes on from there; else it is
-// removed.
+// When a signal asks LIGGGHTS to end, it writes a restart file under another name. If the output says that
+// this file is whole, the function gives it the name of the others, so that the run goes on from there.
+// Otherwise it removes the file.
 void take_forced_restarts(const std::filesystem::path& folder, const std::filesystem::path& output);
 
-// Cuts off the frames after a step of the engine, because they will be written again, and a frame that is not
-// whole. Throws UserError for a dump that does not fit the deck, RunError where it cannot be cut.
+// Cuts off a frame that is not whole, and the frames after a step of the engine, which will be written again.
+// Throws UserError for a dump that does not fit the deck, RunError where it cannot be cut.
 void trim_dump(const std::filesystem::path& dump, std::int64_t step);
 
 // Counts the grains of each frame against the scene. If a grain leaves the box, LIGGGHTS drops it without a

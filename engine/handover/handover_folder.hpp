@@ -35,8 +35,8 @@ bool is_handover(const std::filesystem::path& folder);
 // Reads handover.toml. Throws UserError with the line of what is wrong.
 HandoverFacts read_handover(const std::filesystem::path& folder);
 
-// The text of run.sh [--continue]. It starts the ranks, refuses the version whose walls ignore groups, allows
-// Open MPI to run as root if root runs it, and writes the engine's output into a file.
+// The text of run.sh [--continue]. It starts the ranks, refuses the version of LAMMPS whose walls ignore
+// groups, allows Open MPI to run as root if root runs it, and writes the engine's output into a file.
 std::string run_script(const CarriedScene& carried);
 // The script for `sbatch`, which does the same with the tasks of the job.
 std::string slurm_script(const CarriedScene& carried);

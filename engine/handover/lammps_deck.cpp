@@ -77,8 +77,8 @@ class Regions {
                                    face.radius, -kEndless, kEndless));
         if (face.ends && face.gap > 0) return add_slot(f, name);
         if (face.ends && face.normal.z() > 0 && face.normal.y() != 0) return add_slant(f, name);
-        // Walls that end may go on downwards, because grains that fall through the slot do not reach them
-        // there.
+        // A wall that ends at the floor becomes an endless plane. Below the floor it does no harm, because
+        // grains that fall through the slot do not reach it.
         add(f, name, fmt::format("plane {} {} side in", three(face.point), three(face.normal)));
     }
     // A floor with a slot along x is a thin block on each side. A wide gap leaves no block.

@@ -16,9 +16,10 @@ class ReturnedHealth {
     ReturnedHealth(const Scene& scene, const Plan& plan);
     ~ReturnedHealth();
 
-    // Looks at the next frame, whose grains are where they are in the lab. Returns the largest overlap over
-    // the smaller radius. Throws RunError, with step and grain, where a grain went through a wall, overlaps
-    // too far or is too fast for the step, and where the grains gained more energy than walls can give.
+    // Looks at the next frame, whose grains are where they are in the lab. Returns the largest overlap,
+    // divided by the smaller radius. Throws RunError, with step and grain, where a grain went through a wall,
+    // overlaps too far or is too fast for the step, and where the grains gained more energy than walls can
+    // give.
     double look(const Frame& frame);
 
   private:

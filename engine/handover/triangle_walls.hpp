@@ -1,5 +1,5 @@
-// Walls as triangles for LIGGGHTS: planes, cylinders and plates of the container, and the scene's meshes.
-// Polygons that they are made of are in wall_polygons.cpp.
+// Makes walls of triangles for LIGGGHTS: planes, cylinders and plates of the container, and the scene's
+// meshes. wall_polygons.cpp has the shapes that they are made of.
 //
 // Each face is a mesh of its own. So no two faces share an edge, and a grain in a corner touches both, as in
 // our engine. A plane extends to the sides of the run's box, with a few wide triangles. Grains touch
