@@ -36,7 +36,6 @@ struct Impact {
 Impact make_impact(const ImpactScene& impact, const Plan& plan, double step, double angle, double phase);
 
 // One contact that is moved along a path by hand, through the same law as in the step loop.
-
 class DrivenContact {
   public:
     explicit DrivenContact(const PairPlan& pair);

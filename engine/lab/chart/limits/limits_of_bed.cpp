@@ -85,8 +85,8 @@ direction = [0, 1, 0]
 trajectory = false
 )";
 
-// How far a grain moves in a period, divided by its diameter: the mean from the end of the tenth period to
-// the end of the last.
+// How far a grain creeps in a period: its displacement from the end of the tenth period to the end of the
+// last, divided by its diameter and the number of periods; the mean over all grains.
 double creep_of(LeverArms arms, int seed, int periods) {
     constexpr int settled = 10;
     const Scene scene = read_scene_text(
@@ -185,9 +185,9 @@ std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period,
     return whole;
 }
 
-// A ball at rest on a plate that is shaken below 1 g: its largest speed relative to the plate, divided by
-// a omega, in every twentieth of the first three periods. If the drive starts without a ramp, the plate hits
-// the ball at a omega, and the ball leaves at e times that.
+// A ball at rest on a plate that is shaken below 1 g: its largest speed relative to the plate, divided by a
+// omega, in each twentieth of a period, for three periods. If the drive starts without a ramp, the plate hits
+// the ball with the speed a omega, and the ball leaves with e times that.
 Finding kick(double ramp) {
     constexpr double e = 0.9, level = 0.9;
     constexpr int steps = 40000, points = 60;

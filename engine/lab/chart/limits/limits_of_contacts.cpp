@@ -82,8 +82,8 @@ Finding momenta(bool) {
 }
 
 // Error of the slip after an oblique impact, divided by the speed. The reference is the same impact with a
-// hundredth of the step. Schemes that mix time levels go wrong here from a size ratio of 3 on (Vyas et al.,
-// Comput. Phys. Commun. 310, 109524).
+// hundredth of the step. Schemes that mix positions and velocities of different times go wrong here from a
+// size ratio of 3 on (Vyas et al., Comput. Phys. Commun. 310, 109524).
 Finding oblique_sizes(bool quick) {
     Finding finding;
     finding.theory = 1;
@@ -112,8 +112,8 @@ Finding oblique_sizes(bool quick) {
     return finding;
 }
 
-// Plain Verlet's error, the largest of 200 phases of the first touch. `derived` has the numbers that were
-// derived by hand (docs/reference/accuracy.md); the one for 12 steps must be among them.
+// Plain Verlet's error, the largest of 200 phases of the first touch (40 in a quick chart). `derived` has the
+// numbers that were derived by hand (docs/reference/accuracy.md); the one for 12 steps must be among them.
 Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, bool quick) {
     const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun, TangentialLaw::none};
     Finding finding;

@@ -1,6 +1,5 @@
-// `grainreel chart stability`: where each method fails, measured beside theory. It has two tables:
-// limits.csv with one row for each experiment, and curves.csv with the measurements on the way to the
-// limit.
+// `grainreel chart stability`: where each method fails, measured beside theory. The chart has two tables:
+// limits.csv with one row for each experiment, and curves.csv with the measurements on the way to the limit.
 #pragma once
 
 #include <cmath>
