@@ -35,7 +35,7 @@ struct ContactForce {
 /// are lost when the overlap ends.
 struct ContactMemory {
     std::span<double> numbers;  ///< As many as ContactLaw::numbers() says.
-    /// As many as ContactLaw::vectors() says. Before each call the program turns them with the contact and
+    /// As many as ContactLaw::vectors() says. In each step the program first turns them with the contact and
     /// removes their part along the normal. They change sign when the two bodies change places. So a
     /// tangential spring can be kept as one of them.
     std::span<Vector> vectors;
@@ -52,9 +52,9 @@ class ContactLaw {
   public:
     virtual ~ContactLaw();
 
-    /// How many numbers it keeps about a contact; at most 16.
+    /// How many numbers the law keeps about a contact; at most 16.
     virtual int numbers() const { return 0; }
-    /// How many vectors it keeps about a contact; at most 4.
+    /// How many vectors the law keeps about a contact; at most 4.
     virtual int vectors() const { return 0; }
 
     /// The force at the end of a step. The function is called from several threads at once. If runs are to be
