@@ -48,7 +48,7 @@ std::unique_ptr<ReturningFolder> ReturningFolder::take(const fs::path& folder, c
         throw RunError(fmt::format("{}: cannot be made: {}", path.string(), failed.message()));
     std::optional<FolderLock> lock = FolderLock::take(path, "");
     if (!lock || !lock->is_there()) return nullptr;
-    // What a process left that was killed.
+    // Removes what a killed process has left.
     for (const fs::directory_entry& one : fs::directory_iterator(path, failed))
         if (one.path().filename() != ".lock") fs::remove_all(one.path(), failed);
     return std::unique_ptr<ReturningFolder>(new ReturningFolder(std::move(*lock)));
@@ -67,7 +67,7 @@ void ReturningFolder::move_out() const {
 
 namespace {
 
-// Waits while another process brings the run back. None if the watcher said so.
+// Waits while another process brings the run back. Returns none if the watcher returns false.
 std::unique_ptr<ReturningFolder> returning(const fs::path& folder,
                                            const std::function<bool(double)>& watcher) {
     while (true) {
@@ -77,7 +77,7 @@ std::unique_ptr<ReturningFolder> returning(const fs::path& folder,
     }
 }
 
-// Reads the whole dump. False if the watcher said so.
+// Reads the whole dump. Returns false if the watcher does.
 bool read_back(ReturnedRun& run, const HandoverFacts& facts, const std::function<bool(double)>& watcher,
                BroughtBack& back) {
     try {
@@ -132,7 +132,7 @@ TrajectoryInfo info_of(const Scene& scene, const Plan& plan, const std::string& 
     return info;
 }
 
-// The columns, and that of the observer of overlaps, which sees contacts of our own step loop only.
+// Adds the column that ReturnedHealth fills. In our own runs an observer in the step loop fills it.
 Measures::Names with_overlap(std::vector<std::string> names) {
     names.emplace_back("largest_overlap");
     return std::make_shared<const std::vector<std::string>>(std::move(names));
@@ -159,7 +159,8 @@ struct ReturnedRun::Impl {
         if (scene.container.outlet && !scene.container.tray) outflow.emplace(folder / "outflow.csv");
     }
 
-    // Our ids count from 0. In the engine glued grains follow those of the start, and they are not dumped.
+    // Our ids count from 0, the engine's from 1. There the glued grains, which are not dumped, stand between
+    // those of the start and those that are fed.
     std::int32_t id_of(std::int64_t there) const {
         const std::int64_t id = there <= facts.grains ? there - 1 : there - 1 - facts.glued;
         if (id < 0 || id > std::numeric_limits<std::int32_t>::max())

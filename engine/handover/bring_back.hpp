@@ -27,11 +27,12 @@ struct BroughtBack {
     std::vector<std::string> news;  // what the user should know of a run that is not whole, a line each
 };
 
-// Writes trajectory.nc, measures.csv and final.csv beside the dump, unless they exist and are newer. If
-// another process does so, waits for it. watcher: called with the share that is done; if it returns false,
-// nothing is changed. A run that lost grains or got unsound (ReturnedRun) is brought back up to there, with a
-// line in `news`. Throws UserError where there is no dump or it is of another run, and RunError where no
-// frame of it is sound or files cannot be written.
+// Writes trajectory.nc, measures.csv, final.csv and, for a scene with an outlet, outflow.csv beside the dump,
+// unless a trajectory.nc is there that is as new as the dump. If another process does so, waits for it.
+// watcher: called with the share that is done; if it returns false, nothing is changed. A run that lost
+// grains or got unsound (ReturnedRun) is brought back up to its last good frame, with a line in `news`.
+// Throws UserError where there is no dump or it is of another run, and RunError where no frame of it is sound
+// or files cannot be written.
 BroughtBack bring_back(const std::filesystem::path& folder, const std::string& version,
                        const std::function<bool(double)>& watcher);
 
@@ -59,15 +60,15 @@ class ReturningFolder {
 // another engine, while it grows or at once.
 class ReturnedRun {
   public:
-    // folder: of the run, with its scene.toml. scene, plan: those that were handed over; they must outlive
-    // this object. version: of our program. Throws RunError where files cannot be written.
+    // folder: where the files are made. scene, plan: those that were handed over; they must outlive this
+    // object. version: that of our program. Throws RunError where files cannot be written.
     ReturnedRun(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
                 const HandoverFacts& facts, const std::string& version);
     ~ReturnedRun();
 
-    // Writes the next whole frame of the dump; false where there is none so far. Throws UserError for a dump
-    // that does not fit the deck, and RunError for grains that were lost and a state that is not sound
-    // (ReturnedHealth); no frame from there on may be taken.
+    // Writes the next whole frame of the dump. Returns false where there is none so far. Throws UserError for
+    // a dump that does not fit the deck, and RunError for grains that were lost and a state that is not sound
+    // (ReturnedHealth). After that no further frame may be taken.
     bool take_next();
     // Writes final.csv of the last frame, and what run.json says about the files.
     void close(RunJson& record);

@@ -1,5 +1,5 @@
-// CarriedScene: a scene as the deck (input script) of another engine (LAMMPS or LIGGGHTS) needs it, with
-// numbers in SI units and exact formulas, and with all that had to be changed or refused. carry() makes it;
+// CarriedScene holds a scene in the form that the deck (input script) of another engine (LAMMPS or LIGGGHTS)
+// needs: numbers in SI units, exact formulas, and all that had to be changed or refused. carry() makes it;
 // the code of the decks only writes it down and computes nothing.
 #pragma once
 
@@ -33,7 +33,7 @@ struct CarriedType {
     bool spread() const { return largest > smallest; }
 };
 
-// A contact law of the other engine.
+// A contact law of the other engine. N: normal force; d: overlap; v: speed at which the two part.
 enum class CarriedLaw {
     spring_dashpot,  // N = k d - c v, and a linear tangential spring with Coulomb's limit
     hertz,           // N = 4/3 E* sqrt(R) d^1.5, and Mindlin's spring
@@ -49,15 +49,15 @@ struct CarriedPair {
     double unloading = 0;            // N/m, K2 of edinburgh
     double hardening = 0;            // 1/m, S of luding
     double tangential = 0;           // N/m; hertz: 8 G* in Pa
-    double damping = 0;              // 1/s, times m_eff; hertz: alpha of Tsuji's dashpot (carry.hpp)
-    double tangential_damping = 0;   // 1/s, as above
+    double damping = 0;              // 1/s, c / m_eff; hertz: alpha of Tsuji's dashpot (carry.hpp)
+    double tangential_damping = 0;   // 1/s; hertz: divided by the normal damping
     double restitution = 1;          // for two of mean size, as the scene wants it
     double lowest = 1, highest = 1;  // range for other sizes, because all have the same damping
-    double effective_mass = 0;       // kg, for two of mean size; surfaces and glued grains have no mass
-    double effective_radius = 0;     // m, as above
-    double friction = 0;             // always finite; kEndlessFriction stands for infinity
-    double rolling = 0;              // the torque is at most this times effective radius times N
-    bool attraction = false;         // whether the dashpot may pull
+    double effective_mass = 0;    // kg, for two of mean size; surfaces and glued grains are infinitely heavy
+    double effective_radius = 0;  // m, as above
+    double friction = 0;          // always finite; kEndlessFriction stands for infinity
+    double rolling = 0;           // the torque is at most this times effective radius times N
+    bool attraction = false;      // whether the dashpot may pull
 };
 inline constexpr double kEndlessFriction = 1e4;
 
@@ -87,7 +87,7 @@ enum class RunFrame { lab, container };
 struct CarriedScene {
     PeerEngine engine = PeerEngine::lammps;
     int ranks = 1;  // processes of the engine (MPI)
-    Scene scene;    // with the laws of the other engine and the plan's choices; also for our run to compare
+    Scene scene;    // with the other engine's laws and the plan's choices; our run for comparison takes it
     Plan plan;      // of that scene
 
     std::vector<CarriedType> types;
@@ -119,7 +119,8 @@ struct CarriedScene {
     bool packs = false;
     std::int64_t packing_steps = 0;
     double packing_drag = 0;  // 1/s
-    // The engine's steps are ours plus this number, which gives packing steps of its own.
+    // The engine's steps are ours plus this number, because it counts the packing steps before our step
+    // `first`.
     std::int64_t shift() const { return packs ? packing_steps - first : 0; }
 
     std::vector<CarryNote> changes, refusals;

@@ -221,8 +221,8 @@ bool is_driven(const Scene& scene) {
     return scene.drive.present && scene.drive.largest_amplitude() > 0;
 }
 
-// The thing that does not move with the container, so that the run cannot be in its frame. Empty where there
-// is none.
+// Why the run cannot be in the container's frame: what it is that does not move with the container. Empty
+// where there is no such thing.
 std::string stays_behind(const Scene& scene) {
     if (scene.drive.moves == Drive::Moves::floor) return "the floor alone moves";
     if (scene.container.turn) return "the container turns";

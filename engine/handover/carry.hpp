@@ -20,7 +20,7 @@ struct CarryRequest {
     bool edinburgh = false;   // for LIGGGHTS on one rank: Walton-Braun stays as it is
     // With more grains than this the deck packs them itself.
     std::int64_t packs_above = 1'000'000;
-    // Steps of the pictures, as we count; if there are none, those of the trajectory.
+    // Steps at which the engine writes a dump, as we count; if empty, those of the trajectory.
     std::vector<std::int64_t> dumps{};
 };
 
@@ -28,9 +28,8 @@ struct CarryRequest {
 // UserError only where the scene with its new law has no plan.
 CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& request);
 
-// The text of a refusal: "file:line:column: what is wrong".
-// Returns if nothing is refused. Otherwise tells all refusals but the last one, and throws UserError with
-// that.
+// Returns if nothing is refused. Otherwise tells all refusals but the last one, and throws UserError with the
+// last one. A refusal reads "file:line:column: what is wrong".
 void throw_refusals(const CarriedScene& carried, const std::function<void(const std::string&)>& tell);
 
 // The parts of carry(). Only its two sources call them.
@@ -40,7 +39,7 @@ void add_change(CarriedScene& carried, const std::string& where, const std::stri
 void add_refusal(CarriedScene& carried, const std::string& where, const std::string& what);
 
 // Replaces the laws of carried.scene by those that the engine has, and lists what that changes, or refuses it
-// if it was not asked for. plan: of the scene before.
+// if it was not asked for. plan: that of the scene with its own laws.
 void carry_laws(const CarryRequest& request, const Plan& plan, CarriedScene& carried);
 // Takes the numbers of all contacts from carried.plan.
 void carry_contacts(const CarryRequest& request, CarriedScene& carried);
@@ -52,7 +51,8 @@ void carry_run(const CarryRequest& request, CarriedScene& carried);
 // The restitution e that LAMMPS must be told for our Hertz dashpot. Its `damping tsuji` computes
 //   alpha = 1.2728 - 4.2783 e + 11.087 e^2 - 22.348 e^3 + 27.467 e^4 - 18.022 e^5 + 4.8218 e^6
 // (manual, pair_style granular) and N_d = alpha sqrt(m_eff k a) v, which is our dashpot with d = alpha. This
-// is the e that gives alpha; none where it would lie outside [-0.5, 1].
+// function finds the e in [-0.5, 1] that gives alpha. It returns 1 where e would be larger, and none where e
+// would be smaller than -0.5.
 std::optional<double> tsuji_restitution(double alpha);
 double tsuji_damping(double restitution);  // the polynomial
 

@@ -1,5 +1,5 @@
-// Which contact laws the other engine gets, and the numbers of each kind of contact. Formulas of the engines
-// are in their manuals; our own numbers come from the plan.
+// Chooses the contact laws that the other engine gets, and computes the numbers of each kind of contact.
+// Formulas of the engines are in their manuals; our own numbers come from the plan.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -26,7 +26,7 @@ CarriedLaw law_of(const CarryRequest& request, const PairPlan& plan) {
     }
 }
 
-// all: the sizes that may meet.
+// all: the pairs of sizes that may meet; the middle one has mean sizes.
 CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touching>& all) {
     const Touching& mean = all[all.size() / 2];
     CarriedPair pair;
@@ -73,7 +73,8 @@ void add_types(CarriedScene& carried) {
         add(carried.scene.species[carried.scene.container.wall_grains->species], "glued", true);
 }
 
-// The engine has one damping for all sizes of two species. This finds the range of restitution that results.
+// The engine has one damping for all sizes of two species. This reports the widest range of restitution that
+// results.
 void say_spread(CarriedScene& carried) {
     double lowest = 1, highest = 0, wanted = 0;
     std::string who;
@@ -284,7 +285,7 @@ double tsuji_damping(double e) {
     return 1.2728 + e * (-4.2783 + e * (11.087 + e * (-22.348 + e * (27.467 + e * (-18.022 + e * 4.8218)))));
 }
 
-// The polynomial falls everywhere, so halving the interval finds the root.
+// The polynomial falls over the whole interval, so halving it finds the root.
 std::optional<double> tsuji_restitution(double alpha) {
     double low = -0.5, high = 1;
     if (alpha > tsuji_damping(low)) return std::nullopt;

@@ -46,7 +46,7 @@ std::vector<std::string> variable_lines(const CarriedScene& carried) {
     const std::size_t count = carried.drive.variables.size();
     for (std::size_t i = 0; i < count; ++i) {
         const PeerVariable& one = carried.drive.variables[i];
-        // Walls stand still while the grains are packed.
+        // The last three are the motion itself (DriveFormula). They are 0 while the grains are packed.
         const bool result = i + 3 >= count;
         add(one.name,
             shift > 0 && result ? fmt::format("(step>={})*({})", shift, one.expression) : one.expression);
@@ -71,7 +71,7 @@ std::vector<std::string> gravity_lines(const CarriedScene& carried) {
 
 namespace {
 
-// Number of these steps, counted from the first one, that the series gives when the engine computes it.
+// Counts the steps, from the first one on, that the engine would compute rightly from this series.
 std::int64_t right_ones(const DumpPace& pace, const std::int64_t* steps) {
     for (std::int64_t k = 0; k < pace.count; ++k)
         if (pace.at(k) != steps[k] || pace.next(steps[k]) != steps[k + 1]) return k;

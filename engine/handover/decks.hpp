@@ -1,5 +1,5 @@
-// The decks (input scripts) of both engines: what they have in common, at which steps they dump, and the
-// parts that are different. decks.cpp has what is common; lammps_deck.cpp, liggghts_deck.cpp and
+// Writes the decks (input scripts) of both engines: what they have in common, at which steps they dump, and
+// the parts that are different. decks.cpp has what is common; lammps_deck.cpp, liggghts_deck.cpp and
 // liggghts_law.cpp have the rest.
 #pragma once
 
@@ -19,16 +19,17 @@ std::string deck_name(PeerEngine engine);  // "in.lammps"
 std::string dump_name(PeerEngine engine);  // "lammps.dump"
 // "lammps.restart", to which a point and the engine's step are added.
 std::string restart_name(PeerEngine engine);
-// The file that LIGGGHTS writes when a signal asks it to end has its step between these, and is whole once
-// its output says so.
+// When a signal asks LIGGGHTS to end, it writes a restart file: its name is forced_begin, the step and
+// forced_end. The file is whole once the output has forced_words.
 inline constexpr const char *forced_begin = "restart_forced_liggghts_", *forced_end = ".data";
 inline constexpr const char* forced_words = "Forced restart written";
-// "restart 1000 lammps.restart.*", so that about ten are written.
+// "restart 1000 lammps.restart.*": about ten restart files, at least 1000 steps apart.
 std::string restart_line(const CarriedScene& carried);
 
-// "processors 1 * *"; empty where the engine chooses.
+// "processors * * 1"; a star where the engine chooses.
 std::string processors_line(const CarriedScene& carried);
-// Variables: v_t, those of the drive, and those of turning faces (v_angle0, v_rate0, ...).
+// Variables: v_t, those of the drive, and those of turning faces (v_angle0, v_rate0, ...). None if nothing is
+// driven or turns.
 std::vector<std::string> variable_lines(const CarriedScene& carried);
 // The command fix gravity and, in the container's frame, fix ride.
 std::vector<std::string> gravity_lines(const CarriedScene& carried);
@@ -50,8 +51,8 @@ struct DumpPace {
     std::string next_text(std::int64_t shift) const;
 };
 
-// Finds as few series as possible that go through all of these rising steps. Each begins where the one before
-// ends. None for less than two steps.
+// Finds a few series that go through all of these rising steps. Each is as long as possible and begins where
+// the one before ends. None for less than two steps.
 std::vector<DumpPace> dump_paces(const std::vector<std::int64_t>& steps);
 
 // The deck of LAMMPS, for the version of 29 Sep 2021. It reads grains.data and writes lammps.dump and
@@ -72,12 +73,13 @@ struct LiggghtsLaw {
     std::vector<std::string> properties;  // a line for each property
 };
 
-// All pairs have the same law. Pairs that never touch get the softest number that makes sense.
+// All pairs have the same law. Pairs that never touch get numbers of another contact, because the matrices
+// must be full.
 LiggghtsLaw liggghts_law(const CarriedScene& carried);
 
 // In `luding`, unloading is at most so many times as stiff as loading.
 inline constexpr double kLudingRatio = 50;
-// The plasticity depth that gives K2 = K1 + S F_max: (r - 1)^2 / (2 r S R_eff).
+// The plasticity depth that gives K2 = K1 + S F_max: (r - 1)^2 / (2 r S R_eff), where r is kLudingRatio.
 double luding_depth(const CarriedPair& pair);
 
 }  // namespace grainreel

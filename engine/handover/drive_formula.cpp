@@ -19,7 +19,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Adds variables, and parts of the last three. A part only counts in its own stretch of time.
+// Collects the variables of a formula. Each stretch of the drive adds a part to the last three variables,
+// which counts only in its own time.
 class FormulaWriter {
   public:
     explicit FormulaWriter(const Drive& drive) : drive_(drive) { formula_.direction = drive.direction; }

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{16} << 20;  // bytes read at once
 constexpr std::int64_t kShortestRow = 24;              // characters: twelve numbers of one digit
+// The columns of the dump that both decks ask for; next() takes the numbers in this order.
 constexpr const char* kColumns = "ITEM: ATOMS id type radius x y z vx vy vz omegax omegay omegaz";
 constexpr std::size_t kNumbers = 12;
 
@@ -116,7 +117,7 @@ std::optional<DumpRows> DumpTail::next() {
             if (k == 3 && (!whole_number(*head, rows) || rows < 0)) wrong(number, "is no number of atoms");
             if (k == 8 && *head != kColumns) wrong(number, "has other columns");
         }
-        // Until all rows can be there, the text is not looked at again.
+        // The rows are looked at only once the text is long enough to have them all.
         if (whole && static_cast<std::int64_t>(text_.size() - at) / kShortestRow >= rows) {
             const auto count = static_cast<std::size_t>(rows);
             for (std::vector<Vec3>* list : {&frame.position, &frame.velocity, &frame.spin})

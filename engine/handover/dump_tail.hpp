@@ -1,5 +1,5 @@
-// The dump that another engine writes: its frames are read as soon as they are whole, its grains are counted
-// against the scene, and it is cut for a run that continues.
+// Reads the dump that another engine writes, each frame as soon as it is whole. Also counts its grains
+// against the scene, and cuts it for a run that continues.
 #pragma once
 
 #include <cstdint>
@@ -42,21 +42,21 @@ class DumpTail {
     [[noreturn]] void wrong(std::int64_t line, const std::string& what) const;
 
     std::filesystem::path file_;
-    std::string text_;          // text that was read and not yet used
-    std::uintmax_t place_ = 0;  // place of its end in the file
-    std::int64_t line_ = 1;     // number of its first line
+    std::string text_;          // text that was read, without the frames that next() gave
+    std::uintmax_t place_ = 0;  // place of the text's end in the file
+    std::int64_t line_ = 1;     // number of the text's first line
 };
 
 // The step of the newest restart file in the folder of a deck; none where there is no restart file.
 std::optional<std::int64_t> newest_restart(const std::filesystem::path& folder, PeerEngine engine);
 
-// LIGGGHTS that is asked to end by a signal writes a restart file under another name. Where its output says
-// that the file is whole, it gets the name of the others, so that the run goes on from there; else it is
-// removed.
+// When a signal asks LIGGGHTS to end, it writes a restart file under another name. If the output says that
+// this file is whole, the function gives it the name of the others, so that the run goes on from there.
+// Otherwise it removes the file.
 void take_forced_restarts(const std::filesystem::path& folder, const std::filesystem::path& output);
 
-// Cuts off the frames after a step of the engine, because they will be written again, and a frame that is not
-// whole. Throws UserError for a dump that does not fit the deck, RunError where it cannot be cut.
+// Cuts off a frame that is not whole, and the frames after a step of the engine, which will be written again.
+// Throws UserError for a dump that does not fit the deck, RunError where it cannot be cut.
 void trim_dump(const std::filesystem::path& dump, std::int64_t step);
 
 // Counts the grains of each frame against the scene. If a grain leaves the box, LIGGGHTS drops it without a
@@ -71,8 +71,8 @@ class GrainCount {
         std::int64_t came = 0;
     };
     // Which grains came and went between two frames that follow each other. before: null for the first frame.
-    // Throws RunError with step and id where a grain is missing that could not leave, where one is there that
-    // was never fed, and where one is at an impossible place.
+    // Throws RunError where the first frame has too few grains, where a grain is missing that could not
+    // leave, and where grains came in a scene without feeds.
     Change compare(const Frame* before, const Frame& now) const;
 
   private:

@@ -92,7 +92,7 @@ EngineProgram find_engine(PeerEngine engine) {
             fmt::format("--engine {}: there is no program `{}` in PATH; Debian has it in the package {} "
                         "(sudo apt-get install {})",
                         key_of(engine), what.program, what.package, what.package));
-    // Even with -h, LIGGGHTS opens its log in the working folder, so it is started in another one.
+    // Even with -h, LIGGGHTS opens its log in the working folder, unless it gets -log none.
     found.version = version_in(engine, said_by(found.path, "-log none -h"));
     if (found.version.empty())
         throw UserError(fmt::format("--engine {}: {} does not say which version it is; try `{} -h`",
@@ -124,7 +124,7 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
             all.notes.emplace_back("this is root, whom Open MPI refuses: mpirun gets --allow-run-as-root");
         }
     }
-    // LIGGGHTS loses an error message that is still in its buffer.
+    // LIGGGHTS loses an error message that is still in its buffer, so stdbuf makes it write line by line.
     const fs::path stdbuf = program_named("stdbuf");
     if (!stdbuf.empty()) all.words.insert(all.words.end(), {stdbuf.string(), "-oL"});
     all.words.insert(all.words.end(), {program.path.string(), "-echo", "both", "-in", deck});

@@ -43,7 +43,6 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
 std::string engine_error(const std::filesystem::path& output, const std::filesystem::path& deck);
 
 // An engine that runs the deck in a folder.
-
 class EngineJob {
   public:
     // restart: a file in the deck's folder from which the engine continues; empty: it starts from the

@@ -29,7 +29,8 @@ class GuardedProcess {
     // The exit status, or 128 plus the signal that ended it; none while it runs. Throws RunError where the
     // guard was killed.
     std::optional<int> status();
-    // Asks it to end: by SIGTERM, and after two seconds by SIGKILL to all of its processes. Returns at once.
+    // Makes the guard end the program: by SIGTERM, and after two seconds by SIGKILL to all of its processes.
+    // Returns at once.
     void stop();
 
   private:

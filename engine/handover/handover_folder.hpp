@@ -1,5 +1,5 @@
-// The folder that is handed over, with data, deck, walls, run.sh, a script for Slurm, handover.toml and
-// scene.toml, and how fast the other engines run it.
+// Writes the folder that is handed over: data, deck, walls, run.sh, a script for Slurm, handover.toml and
+// scene.toml. Also reads handover.toml, and says how fast the other engines run.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ bool is_handover(const std::filesystem::path& folder);
 // Reads handover.toml. Throws UserError with the line of what is wrong.
 HandoverFacts read_handover(const std::filesystem::path& folder);
 
-// The text of run.sh [--continue]. It starts the ranks, refuses the version whose walls ignore groups, allows
-// Open MPI to run as root if root runs it, and writes the engine's output into a file.
+// The text of run.sh [--continue]. It starts the ranks, refuses the version of LAMMPS whose walls ignore
+// groups, allows Open MPI to run as root if root runs it, and writes the engine's output into a file.
 std::string run_script(const CarriedScene& carried);
 // The script for `sbatch`, which does the same with the tasks of the job.
 std::string slurm_script(const CarriedScene& carried);
@@ -56,7 +56,8 @@ PeerRate rate_of(PeerEngine engine);
 
 // Number of ranks that are of use for so many grains: one for each 5,000 grains, at least one.
 std::int64_t useful_ranks(std::int64_t grains);
-// Time in s for so many steps on several ranks, which have four fifths of the speed of single ones.
+// Time in s for so many steps. Where there are several ranks, each has four fifths of the speed of a single
+// one.
 double peer_seconds(PeerEngine engine, RunFrame frame, std::int64_t grains, std::int64_t steps, int ranks);
 double peer_bytes(PeerEngine engine, std::int64_t grains);
 

@@ -39,7 +39,7 @@ std::string lammps_law(const CarriedPair& pair) {
 
 // A face of the scene as a region of LAMMPS.
 struct LammpsRegion {
-    std::string name;                    // "floor", "left_slant"; a floor with a slot has two: "floor_0"
+    std::string name;                    // "w0_floor"; a floor with a slot has two: "w0_floor_left_open"
     std::string text;                    // the whole command
     std::vector<std::string> variables;  // commands that must come before it
 };
@@ -77,8 +77,8 @@ class Regions {
                                    face.radius, -kEndless, kEndless));
         if (face.ends && face.gap > 0) return add_slot(f, name);
         if (face.ends && face.normal.z() > 0 && face.normal.y() != 0) return add_slant(f, name);
-        // Walls that end are continued downwards, because grains that fall through the slot do not reach
-        // them.
+        // A wall that ends at the floor becomes an endless plane. Below the floor it does no harm, because
+        // grains that fall through the slot do not reach it.
         add(f, name, fmt::format("plane {} {} side in", three(face.point), three(face.normal)));
     }
     // A floor with a slot along x is a thin block on each side. A wide gap leaves no block.
@@ -290,7 +290,8 @@ class LammpsDeck {
         if (first > 0) add("fix drag free viscous {}{}", first, scales);
     }
 
-    // A run that continues leaves out the commands `run` up to steps that it has passed.
+    // A run that continues leaves out the commands `run` up to steps that it has passed. `pre no` is for
+    // Hertz: LAMMPS of 29 Sep 2021 changes a wall's damping at each further run that is set up.
     void run_up_to(std::int64_t step, bool again) {
         const std::string target = there(step);
         add("if \"$(step) < {}\" then \"run {} upto{}\"", target, target, again && hertz_ ? " pre no" : "");

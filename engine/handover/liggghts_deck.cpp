@@ -1,4 +1,4 @@
-// Writes the input script of LIGGGHTS for a scene that is carried.
+// Writes the deck of LIGGGHTS: laws, walls of triangles, exit and feeds, forces, and times.
 #include "engine/handover/decks.hpp"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class Deck {
         add_all({"units si", "atom_style granular", "atom_modify map array"});
         add("boundary {} f f", carried_.periodic ? "p" : "f");
         add_all({"newton off", "communicate single vel yes", processors_line(carried_)});
-        // Walls are read at their present places; contacts with them begin anew.
+        // In a run that continues, walls are read at their present places, and contacts with them begin anew.
         add("if \"${{goes_on}} == 0\" then \"read_data {}\" else \"read_restart ${{restart}}\"", data_name);
         add("neighbor {} bin", carried_.skin);
         add("neigh_modify delay 0 one 5000 page 200000");
@@ -108,7 +108,8 @@ class Deck {
         knows_time_ = true;
     }
 
-    // The fixes of these walls, which are removed when other walls replace them.
+    // Adds the fixes of all walls and of the contacts with them. When the outlet opens, those of the walls
+    // before are removed first.
     void set_up_walls(bool opened) {
         for (auto fix = wall_fixes_.rbegin(); fix != wall_fixes_.rend(); ++fix) add("unfix {}", *fix);
         wall_fixes_.clear();
@@ -184,7 +185,7 @@ class Deck {
             const auto [low, high] = clear_of_walls(feed, sizes.back() / 2);
             add("region feed{} block {} {} {} {} {} {} units box", f, low.x(), high.x(), low.y(), high.y(),
                 low.z(), high.z());
-            // Single grains would need an insertion every few hundred steps. This keeps the mean rate.
+            // One grain is inserted each time that one is due at the mean rate.
             const auto every = std::max<std::int64_t>(1, std::llround(1 / (feed.rate * carried_.step)));
             const auto start = there(std::max<std::int64_t>(1, std::llround(feed.from / carried_.step)));
             add("fix feed{} all insert/rate/region seed {} distributiontemplate feed{}_mix nparticles {} "
@@ -211,7 +212,8 @@ class Deck {
                 }
                 continue;
             }
-            // Along the axis to which the face is most at right angles, wherever along the others.
+            // The box is cut along the axis nearest to the face's normal, so far that it is clear of the face
+            // at all places along the other two.
             int axis = 0;
             face.normal.cwiseAbs().maxCoeff(&axis);
             double bound = radius + face.normal.dot(face.point);

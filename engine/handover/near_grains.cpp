@@ -69,8 +69,8 @@ void for_overlapping(const std::vector<Place>& places, double period,
         const double squared = (one.position - other.position).squaredNorm();
         if (squared < reach * reach) see(one.index, other.index, reach - std::sqrt(squared));
     };
-    // The cells behind this one: those of the next row and of three rows in the next layer. As cells are in
-    // order, the first entry of each rises with the entry.
+    // The cells behind this one: those of the next row and of three rows in the next layer. begin[r] is the
+    // first entry of such a row. It only moves forward, because entries are sorted by cell.
     constexpr std::array<std::uint64_t, 4> rows{kRow, kLayer - kRow, kLayer, kLayer + kRow};
     std::array<std::size_t, 4> begin{};
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -18,8 +18,8 @@ namespace grainreel {
 
 namespace {
 
-// What is known of a contact. ContactView has ten times as many numbers, and a large bed has millions of
-// these.
+// What is known of a contact. A large bed has millions of them, and a ContactView takes several times as much
+// memory.
 struct Seen {
     std::int32_t first, second;      // as in ContactView
     bool glued;                      // second is a grain that is glued to this face
@@ -36,7 +36,7 @@ ContactView view_of(const Seen& seen) {
     return view;
 }
 
-// What a frame has in energy and momentum, for the comparison with the next one.
+// Energy and momentum of a frame, for the comparison with the next one.
 struct Account {
     std::int64_t step = 0;
     double time = 0;      // s
@@ -53,8 +53,8 @@ double own_speed(const Surroundings& around, const Plan& plan) {
     return fastest;
 }
 
-constexpr double kSlack = 2;             // times what walls can give, which holds for one rigid body
-constexpr double kShareOfMotion = 0.05;  // of the kinetic energy, as in our own runs
+constexpr double kSlack = 2;  // factor on what walls can give: the bound is one for a single rigid body
+constexpr double kShareOfMotion = 0.05;  // share of the energy, as in our own runs
 
 }  // namespace
 
@@ -152,9 +152,9 @@ Account ReturnedHealth::Impl::account_of(const Grains& grains, const Frame& fram
     return now;
 }
 
-// The energy (J) that grains got from gravity since the frame before. Grains that have come are left out of
-// it, and what they brought in motion is counted as got. mass: kg, of all grains; lift: J, that would raise
-// them by their radius.
+// The energy (J) that grains got from gravity since the frame before. For a grain that has come since then,
+// its kinetic energy is counted instead. mass: kg, of all grains; lift: J, what it takes to raise each grain
+// by its radius.
 double ReturnedHealth::Impl::fallen(const Grains& grains, double& mass, double& lift) const {
     double energy = 0;
     std::size_t k = 0;
@@ -178,7 +178,8 @@ double ReturnedHealth::Impl::fallen(const Grains& grains, double& mass, double& 
 // the largest v and a of any wall. A wall that stops and starts by itself gives at most v p more.
 void ReturnedHealth::Impl::check_energy(const Grains& grains, const Account& now, std::int64_t step) const {
     if (before.size() == 0 || grains.size() == 0) return;
-    // Through a periodic side grains go on falling where gravity points there.
+    // Where gravity points through a periodic side, grains fall without end, and their places do not tell how
+    // far.
     if (around.period > 0 && around.gravity.x() != 0) return;
     double mass = 0, lift = 0;
     const double got = fallen(grains, mass, lift);

@@ -1,5 +1,5 @@
-// The health of a run that another engine makes. Each frame of its dump is looked at as a state of our own
-// runs is (engine/measure/health.hpp), with the same limits and words. Contacts are found from places.
+// Checks the health of a run that another engine makes. Each frame of its dump is checked as a state of our
+// own runs is (engine/measure/health.hpp), with the same limits and words. Contacts are found from places.
 #pragma once
 
 #include <memory>
@@ -16,9 +16,10 @@ class ReturnedHealth {
     ReturnedHealth(const Scene& scene, const Plan& plan);
     ~ReturnedHealth();
 
-    // Looks at the next frame, whose grains are where they are in the lab. Returns the largest overlap over
-    // the smaller radius. Throws RunError, with step and grain, where a grain went through a wall, overlaps
-    // too far or is too fast for the step, and where the grains gained more energy than walls can give.
+    // Looks at the next frame, whose grains are where they are in the lab. Returns the largest overlap,
+    // divided by the smaller radius. Throws RunError, with step and grain, where a grain went through a wall,
+    // overlaps too far or is too fast for the step, and where the grains gained more energy than walls can
+    // give.
     double look(const Frame& frame);
 
   private:

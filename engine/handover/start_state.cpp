@@ -20,8 +20,8 @@ namespace grainreel {
 
 namespace {
 
-// Distances that are tried, from the loosest on, divided by the largest diameter. Grains are moved at random
-// within the room that is left.
+// Spacings of the lattice that are tried, the loosest first, divided by the largest diameter. Grains are
+// moved at random within the room that is left.
 constexpr double kSpacings[] = {1.25, 1.15, 1.08, 1.02};
 
 struct RoomOfLattice {

@@ -1,5 +1,5 @@
-// The grains with which another engine begins: packed by us, or on a lattice where the deck packs them. Also
-// writes the data file that holds them.
+// Makes the grains with which another engine begins: packed by us, or on a lattice where the deck packs them.
+// Also writes the data file that holds them.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ struct StartState {
         Vec3 spin{0, 0, 0};      // rad/s
     };
     std::vector<Grain> grains;
-    bool stopped = false;  // the watcher stopped it, and nothing else is valid
+    bool stopped = false;  // the watcher stopped the packing, and nothing else is valid
     bool settled = true;   // false if the time limit ended our packing
 };
 

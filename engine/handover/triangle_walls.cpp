@@ -60,7 +60,7 @@ Room room_of(const CarriedScene& carried, const TriangleWall& wall) {
     return room;
 }
 
-// A distance (m) from the axis. Points that are nearer stay in the box however the wall turns.
+// The distance (m) from the axis of turning within which points stay in the box however the wall turns.
 double turning_radius(const Room& room, const TriangleWall& wall) {
     double radius = INFINITY;
     for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
-// Walls as triangles for LIGGGHTS: planes, cylinders and plates of the container, and the scene's meshes.
-// Polygons that they are made of are in wall_polygons.cpp.
+// Makes walls of triangles for LIGGGHTS: planes, cylinders and plates of the container, and the scene's
+// meshes. wall_polygons.cpp has the shapes that they are made of.
 //
 // Each face is a mesh of its own. So no two faces share an edge, and a grain in a corner touches both, as in
 // our engine. A plane extends to the sides of the run's box, with a few wide triangles. Grains touch
@@ -55,14 +55,15 @@ Polygon cut_to_box(Polygon polygon, const Vec3& low, const Vec3& high);
 
 // Adds a convex polygon. It is cut into triangles from that corner which gives the least slender ones.
 void add_polygon(const Polygon& polygon, TriangleMesh& mesh);
-// A vertical tube of `facets` about an axis, whose mean radius is that of the round one. A facet is at most
-// about eight times as high as wide.
+// Adds a vertical tube of so many flat facets. `radius` is the mean distance of its surface from the axis. A
+// facet is at most about eight times as high as wide.
 void add_tube(const Vec3& axis, double radius, double low, double high, int facets, TriangleMesh& mesh);
 // A level plate from a round hole out to a rectangle.
 void add_plate_with_hole(const Vec3& middle, double hole, const Vec3& low, const Vec3& high, int facets,
                          TriangleMesh& mesh);
 
-// An angle (degrees) larger than those between the triangles of a smooth surface (up to 30).
+// The largest angle (degrees) up to 30 between two triangles with a common edge, and a little more. LIGGGHTS
+// takes such surfaces as smooth.
 double smooth_bend(const TriangleMesh& mesh);
 
 }  // namespace grainreel

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 constexpr double kSmooth = 30;   // degrees; where triangles meet at a larger angle there is an edge
-constexpr double kFlat = 1e-5;   // degrees, within a plane
+constexpr double kFlat = 1e-5;   // degrees; smooth_bend() of a flat surface
 constexpr double kFattest = 8;   // height of a tube's facets divided by their width
-constexpr double kTiny = 1e-12;  // m2, twice a triangle's area
+constexpr double kTiny = 1e-12;  // m2; a triangle is left out if twice its area is less
 
 double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
     const Vec3 u = a - corner, v = b - corner;

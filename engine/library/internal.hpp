@@ -73,16 +73,17 @@ struct FrameFile::Impl {
 };
 
 // A caller's contact law in the form that the step loop can run: a LawKernel that calls the law for one
-// contact after the other. It must outlive all loops that run it.
+// contact after the other. An OwnLaw must outlive all loops that run it.
 class OwnLaw {
   public:
-    // Throws Error where the law wants to keep more numbers for a contact than it may.
+    // Throws Error where the law is null, or wants to keep more numbers for a contact than it may.
     explicit OwnLaw(std::shared_ptr<const ContactLaw> law);
     OwnLaw(const OwnLaw&) = delete;
     OwnLaw& operator=(const OwnLaw&) = delete;
 
     const LawKernel& kernel() const { return kernel_; }
-    // Throws what the law has thrown on any thread since the last call of this function.
+    // Throws the first exception that the law has thrown, on any thread, since the last call of this
+    // function.
     void rethrow();
 
   private:

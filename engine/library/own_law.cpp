@@ -12,8 +12,9 @@ namespace {
 
 constexpr int most_numbers = 16, most_vectors = 4;
 
-// The numbers of a kind of contact in LawParameters. The law's address stands there in two halves, because a
-// double holds each of them exactly. A kernel knows its law only by this address.
+// The numbers of a kind of contact in LawParameters; parameters_of() lists them in this order. The law's
+// address stands there in two halves, because a double holds each of them exactly. A kernel finds its law
+// only by this address.
 enum Parameter { address_high, address_low, stiffness, restitution, friction, parameters };
 
 // Where the first number of a contact is in the history; the program's own laws use the same layout.
@@ -34,8 +35,8 @@ Vec3 carried(const Vec3& vector, const Vec3& turn, const Vec3& normal) {
     return turned - normal * normal.dot(turned);
 }
 
-// The memory of one contact, taken from a block of the history and put back. `before` is its velocity in the
-// last step, which belongs to the engine and not to the law.
+// The memory of one contact, taken from a block of the history and put back. `before` is the relative
+// velocity in the last step. It is kept for the extrapolation, and the law does not see it.
 struct Memory {
     std::array<double, most_numbers> numbers{};
     std::array<Vector, most_vectors> vectors{};
@@ -45,7 +46,7 @@ struct Memory {
         return {std::span(numbers.data(), static_cast<std::size_t>(n)),
                 std::span(vectors.data(), static_cast<std::size_t>(v))};
     }
-    // Calls a function with all numbers in the order of the history.
+    // Calls a function with all numbers in the order of the history. kernel_.turns is in the same order.
     template <class Visit>
     void each(int n, int v, const Visit& visit) {
         for (int k = 0; k < n; ++k) visit(numbers[static_cast<std::size_t>(k)]);
@@ -159,7 +160,8 @@ void OwnLaw::step_kinds(const LawInput& in, double* history, ForceChunk& out, bo
         Memory memory;
         memory.load(kept, own.numbers_, own.vectors_);
         const Vec3 velocity = vector_at(in.touch->velocity, c), normal = inside(touch.normal);
-        // The velocity is extrapolated from the last step; for a new contact nothing is known.
+        // The velocity is extrapolated by its change since the last step. A new contact has no last step, so
+        // its velocity is taken as it is.
         const bool known = !memory.before.isZero(0);
         set_velocity(touch, known ? Vec3(velocity + (velocity - memory.before) * in.ahead) : velocity);
         touch.slip = outside(Vec3((velocity - normal * normal.dot(velocity)) * in.step));

@@ -94,7 +94,7 @@ ContactNumbers Scene::contact(const std::string& first, const std::string& secon
 
 namespace {
 
-// An exception that look() throws is kept here, because the driver would turn it into a RunError.
+// An exception that options.look() throws is kept here, because run_scene() would turn it into a RunError.
 struct Look {
     const RunOptions& options;
     std::exception_ptr thrown{};

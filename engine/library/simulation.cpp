@@ -81,7 +81,7 @@ struct Simulation::Impl {
     }
 
     v1::Scene scene;
-    std::deque<OwnLaw> laws;  // declared before the loop, which must end first
+    std::deque<OwnLaw> laws;  // declared before `running`, so that they outlive it
     grainreel::Scene inner;
     Plan plan;
     std::unique_ptr<grainreel::Simulation> running;

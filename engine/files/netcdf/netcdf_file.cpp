@@ -249,8 +249,8 @@ void NetcdfFile::get_by(Function read, int variable, const Index& start, const I
                         Value* values) const {
     int rank = 0;
     int status = nc_inq_varndims(id_, variable, &rank);
-    // The library reads as many numbers as the variable has dimensions in the file, so they are checked
-    // first.
+    // The library reads as many entries of `start` and `count` as the variable has dimensions in the file, so
+    // their number is checked first.
     if (status == NC_NOERR && static_cast<std::size_t>(rank) != count.size()) status = NC_EINVALCOORDS;
     if (status == NC_NOERR) status = read(id_, variable, start.data(), count.data(), values);
     if (status != NC_NOERR)

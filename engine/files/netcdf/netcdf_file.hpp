@@ -1,6 +1,6 @@
-// A classic NetCDF file whose records are written one after the other. It stays readable when the program is
-// killed or the disk is full, and it is checked before the library reads it. All NetCDF files of runs go
-// through this class.
+// Writes and reads classic NetCDF files, whose records are written one after the other. A file stays readable
+// when the program is killed or the disk is full, and it is checked before the library reads it. All NetCDF
+// files of runs go through this class.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ class NetcdfFile {
     // Opens a file that create() made and continues it after its first `records`; later ones are cut off.
     // Throws UserError when there are fewer or where open() does, and RunError when it cannot be written.
     static NetcdfFile append(const std::filesystem::path& path, std::size_t records);
-    // How much of the file these records are. Throws UserError as above.
+    // How many bytes the file has up to the end of its first `records`. Throws UserError as append() does.
     static KeptRecords kept_of(const std::filesystem::path& path, std::size_t records);
     // Writes the count of records into the header of a file that was cut off. Does nothing where it cannot.
     static void count_records(const std::filesystem::path& path, std::size_t records);
@@ -66,7 +66,7 @@ class NetcdfFile {
     std::vector<std::string> dimensions_of(int variable) const;  // names; the last runs fastest
     std::size_t length(const std::string& dimension) const;      // throws UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
-    // Whether a file that is read has an unlimited dimension.
+    // Whether a file that is read has variables with records.
     bool has_records() const { return header_.record > 0; }
     // Number of whole records in a file that is read, whatever its header counts. There are fewer when the
     // file was cut off and more when the count is damaged. The library counts a record shortly before it

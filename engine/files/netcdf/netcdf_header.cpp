@@ -1,5 +1,5 @@
-// Reads the header of a NetCDF file by itself and compares it with the file's size, before the library
-// opens it.
+// Reads the header of a NetCDF file without the library and compares it with the file's size, before the
+// library opens the file.
 #include "engine/files/netcdf/netcdf_file.hpp"
 
 #include <netcdf.h>
@@ -186,7 +186,7 @@ class Parser {
                 damaged("a variable lies beyond the end of the file");
             }
         }
-        if (with_records == 1) header.record = unpadded;  // the one exception in the specification
+        if (with_records == 1) header.record = unpadded;  // the specification has no padding here
         return header;
     }
 

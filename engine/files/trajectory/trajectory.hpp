@@ -1,18 +1,19 @@
-// trajectory.nc, written and read. It is classic NetCDF after the AMBER trajectory convention 1.0, extended
-// as LAMMPS and OVITO extend it (id, type, radius, cell_origin, more variables for each grain). All variables
+// Writes and reads trajectory.nc. It is classic NetCDF after the AMBER trajectory convention 1.0, extended as
+// LAMMPS and OVITO extend it (id, type, radius, cell_origin, more variables for each grain). All variables
 // are named in trajectory_layout.hpp and listed in docs/reference/scenes.md. Old files must stay readable.
 //
-// The file departs from the convention in three points and says so. Units are SI (each variable has `units`)
-// and not angstrom and picosecond. Time and coordinates are doubles and not floats, since an overlap at rest
-// is smaller than the last digit of a float. cell_lengths is 0 where nothing is periodic. Whole numbers of 64
-// bits are doubles, because classic NetCDF has no such integer.
+// The file departs from the convention in three points, which its attribute `deviations` names. Units are SI
+// (each variable has `units`) and not angstrom and picosecond. Time and coordinates are doubles and not
+// floats, since an overlap at rest is smaller than the last digit of a float. Places for grains may be empty.
+// cell_lengths is 0 where nothing is periodic. Whole numbers of 64 bits are doubles, because classic NetCDF
+// has no such integer.
 //
-// The grains of a frame fill the first places, and the other places have id -1. In a file with traffic a
-// grain that leaves keeps its place, id and type, and `present` becomes 0. Programs that know neither id -1
-// nor `present` draw every place. An empty place therefore holds a grain that nobody sees: at rest in
-// the container's lowest corner, with kAbsentRadius. (In files of earlier versions it holds fill values, or
-// the last position of the grain that left.) Each frame has a checksum of its moment and poses and one of its
-// grains.
+// The grains of a frame fill the first places, and the other places have id -1. In a file with traffic
+// (grains come or go) a grain that leaves keeps its place, id and type, and `present` becomes 0. Programs
+// that know neither id -1 nor `present` draw every place. An empty place therefore holds a grain that nobody
+// sees: at rest in the container's lowest corner, with kAbsentRadius. (In files of earlier versions it holds
+// fill values, or the last position of the grain that left.) Each frame has a checksum of its moment and
+// poses and one of its grains.
 //
 // The shape of a mesh is in the file once, as it is at rest; each frame has the pose of its body. Rotation
 // and spin of container and floor are in the file only where these turn.
@@ -70,14 +71,14 @@ class TrajectoryWriter {
     TrajectoryWriter(const std::filesystem::path& path, const TrajectoryInfo& info, std::size_t frames);
     ~TrajectoryWriter();
 
-    // Whether a file can be continued: it must have as many places and the same variables. Throws UserError
-    // where it cannot be read or has other grains.
+    // Whether a file can be continued: it must have as many places for grains. Throws UserError where it
+    // cannot be read, or has other species, bodies, meshes or variables.
     static bool goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path);
-    // How much of the file its first `frames` are. Throws UserError where one of these frames is damaged, if
-    // the writer will need it (in a file with traffic).
+    // How much of the file stays if its first `frames` are kept. Throws UserError where one of these frames
+    // is damaged, if the writer will need it (in a file with traffic).
     static KeptRecords kept_of(const std::filesystem::path& path, std::size_t frames);
-    // Writes the first `frames` of a file into a new one with this info, as if they had been written there at
-    // first. The old file decides whether there are contact numbers.
+    // Writes the first `frames` of a file into a new one with this info. The old file decides whether there
+    // are contact numbers.
     static void write_again(const std::filesystem::path& path, std::size_t frames,
                             const std::filesystem::path& to, TrajectoryInfo info);
 
@@ -108,7 +109,8 @@ class TrajectoryReader {
     std::size_t uncounted() const;
     const TrajectoryInfo& info() const;
 
-    // A frame, 0 <= index < frames(). Both throw DamagedFrame, and UserError when the file cannot be read.
+    // A frame, 0 <= index < frames(). read() and read_moment() throw DamagedFrame, and UserError when the
+    // file cannot be read.
     Frame read(std::size_t index) const;
     // The frame without its grains, which are most of the work: time, phase and poses only.
     Frame read_moment(std::size_t index) const;

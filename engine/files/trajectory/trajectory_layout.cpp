@@ -54,7 +54,7 @@ Flat flat(const std::vector<TrajectoryMesh>& meshes) {
                                 path.string(), what));
 }
 
-// The length of a dimension. Throws UserError where it is too large, which is damage.
+// The length of a dimension. Throws UserError where it is too large for the file's size, which is damage.
 std::size_t length_of(const NetcdfFile& file, const std::filesystem::path& path, const char* dimension) {
     const std::size_t length = file.length(dimension);
     std::error_code error;

@@ -1,5 +1,5 @@
-// The variables of trajectory.nc, named once for writer and reader, and the variables with the shapes of
-// meshes. A variable that is renamed or moved in these lists changes checksums and makes old files
+// Names the variables of trajectory.nc once for writer and reader, and writes and reads those with the shapes
+// of meshes. A variable that is renamed or moved in these lists changes checksums and makes old files
 // unreadable.
 #pragma once
 
@@ -27,7 +27,8 @@ struct TrajectoryVariable {
     const char* comment = "";
 };
 
-// Variables with one value for each frame, in the order of `frame_checksum`.
+// Variables with one value for each frame, in the order in which they are written, read and added to
+// `frame_checksum`.
 inline constexpr std::array frame_variables{
     TrajectoryVariable{"time", NC_DOUBLE, nullptr, "second", "time since the drive started"},
     TrajectoryVariable{"cycles", NC_DOUBLE, nullptr, "1", "periods of the drive since it started",
@@ -51,7 +52,8 @@ inline constexpr std::array frame_variables{
                        "0 where nothing is periodic"},
     TrajectoryVariable{"cell_angles", NC_DOUBLE, "cell_angular", "degree", "angles of the periodic cell"}};
 
-// Variables with one value for each grain and frame, in the order of `grain_checksum`.
+// Variables with one value for each grain and frame, in the order in which they are written, read and added
+// to `grain_checksum`. orientation, contact_number and present follow there.
 inline constexpr std::array grain_variables{
     TrajectoryVariable{
         "id", NC_INT, nullptr, "1", "number of the grain",
@@ -66,7 +68,8 @@ inline constexpr std::array grain_variables{
     TrajectoryVariable{"velocities", NC_FLOAT, "spatial", "m s-1", "velocity of the grain", "in the room"},
     TrajectoryVariable{"spin", NC_FLOAT, "spatial", "rad s-1", "angular velocity of the grain"}};
 
-// Turns of container and floor, only in files of containers that turn. They come last in `frame_checksum`.
+// Turns of container and floor, only in files of containers that turn. They follow frame_variables in
+// `frame_checksum`.
 inline constexpr std::array turn_variables{
     TrajectoryVariable{"wall_rotation", NC_DOUBLE, "quaternion", "1", "how far the walls have turned",
                        "x, y, z, w of a unit quaternion; about the scene's origin, before `wall_offset`"},
@@ -76,7 +79,7 @@ inline constexpr std::array turn_variables{
                        "likewise, before `floor_offset`"},
     TrajectoryVariable{"floor_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of the floor"}};
 
-// Poses of all bodies except container and floor. They follow those above in `frame_checksum`.
+// Poses of all bodies except container and floor. They come last in `frame_checksum`.
 inline constexpr std::array body_variables{
     TrajectoryVariable{"body_place", NC_DOUBLE, "spatial", "m",
                        "displacement of a plane of the scene from its place at rest"},
@@ -98,7 +101,7 @@ inline constexpr std::array body_variables_with_meshes{
     TrajectoryVariable{"body_spin", NC_DOUBLE, "spatial", "rad s-1", "angular velocity of a plane or mesh"}};
 static_assert(body_variables_with_meshes.size() == body_variables.size());
 
-// The shapes of the meshes, once in each file, in the order of `mesh_checksum`.
+// The shapes of the meshes, once in each file. `mesh_checksum` adds them in this order.
 inline constexpr TrajectoryVariable mesh_body_variable{
     "mesh_body",
     NC_INT,
@@ -178,8 +181,8 @@ inline Checksum begin_checksum(std::size_t frame, std::size_t places, const std:
 void define_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes, int spatial, int checksum);
 void write_meshes(NetcdfFile& file, const std::vector<TrajectoryMesh>& meshes);
 
-// The meshes of a file; none where it has none. path: of the file. bodies: number of bodies, including
-// container and floor. Throws UserError when they are damaged.
+// The meshes of the file at `path`; none where it has none. bodies: number of bodies, including container and
+// floor. Throws UserError when the meshes are damaged.
 std::vector<TrajectoryMesh> read_meshes(const NetcdfFile& file, const std::filesystem::path& path,
                                         std::size_t bodies);
 

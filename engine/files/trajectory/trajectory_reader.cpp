@@ -22,7 +22,8 @@ namespace {
 constexpr std::size_t most_bodies = 1000;
 constexpr double most_steps = 9007199254740992;  // 2^53; doubles cannot hold all larger whole numbers
 
-// A file of another program with the same convention is accepted if nothing is missing.
+// Throws UserError where a variable is missing. A file of another program with the same convention is
+// accepted if it has them all.
 void check_complete(const NetcdfFile& file, const std::string& name) {
     std::vector<std::string> missing;
     const auto check = [&](const TrajectoryVariable& variable) {
@@ -44,9 +45,9 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
                     fmt::join(missing, ", ")));
 }
 
-// The number of whole frames; the library would read zeros beyond the end of the file. A killed run may leave
-// one frame that is not whole: within the first block of the file the library writes a frame and the count of
-// frames together, and the count first.
+// Throws UserError where more than one of the counted frames is not whole; the library would read zeros
+// beyond the end of the file. A killed run may leave one such frame: if a frame lies in the first block of
+// the file, the library writes it together with the count of frames, and the count first.
 void check_whole(std::size_t counted, std::size_t whole, const std::string& name) {
     if (whole + 1 < counted)
         throw UserError(fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name,
@@ -161,7 +162,8 @@ TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t i
     for (Vec3* pose : {&frame.container().place, &frame.container().velocity, &frame.floor().place,
                        &frame.floor().velocity})
         *pose = vector();
-    for (; variable != frame_variables.end(); ++variable) read<double>(*variable, index, 0, 3, sum);  // cell
+    // The variables of the cell are read for the checksum only.
+    for (; variable != frame_variables.end(); ++variable) read<double>(*variable, index, 0, 3, sum);
     if (info.container_turns) read_turn(index, frame, sum);
     read_bodies(index, frame, sum);
     check_sum(frame_checksum, index, sum);
@@ -240,7 +242,7 @@ void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, Frame
     frame.spin = vectors(read<float>(*variable++, index, places, 3, sum), here);
     if (info.orientation) {
         const std::vector<float> flat = read<float>(orientation_variable, index, places, 4, sum);
-        for (const std::size_t i : here)  // w x y z
+        for (const std::size_t i : here)  // Quaternion takes w first, the file has it last
             frame.orientation.emplace_back(flat[4 * i + 3], flat[4 * i], flat[4 * i + 1], flat[4 * i + 2]);
     }
     if (info.contact_numbers)

@@ -266,7 +266,8 @@ void TrajectoryWriter::Impl::write_grains(const Frame& f) {
     write_sum(grain_checksum, sum);
 }
 
-// A new grain stands after all earlier ones, because ids only rise.
+// Takes a frame into `kept` and `present`. A new grain gets the place after all earlier ones, because ids
+// only rise.
 void TrajectoryWriter::Impl::keep(const Frame& frame) {
     present.assign(kept.size(), 0);
     std::size_t at = 0;

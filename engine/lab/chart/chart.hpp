@@ -48,14 +48,13 @@ class ChartWork {
     double pieces_, done_ = 0;
 };
 
-// A CSV file of results, written one by one. A chart that was stopped goes on with this file.
-
 // A number as a cell: six digits.
 std::string number(double value);
 
+// A CSV file of results, written one by one. A chart that was stopped goes on with this file.
 class ResultTable {
   public:
-    // Opens `path`, or makes it with this header. The first `keys` columns tell the rows apart. Throws
+    // Opens `path`, or makes it with this header. The first `keys` columns are the key of a row. Throws
     // UserError when the file is of another chart, RunError when it cannot be written.
     ResultTable(const std::filesystem::path& path, const std::string& header, std::size_t keys);
 
@@ -72,6 +71,7 @@ class ResultTable {
     std::vector<std::vector<std::string>> rows_;
     std::set<std::string> known_;
     std::size_t keys_;
+    // Stands last, because its initialiser fills the members above.
     TextFile file_;
 };
 

@@ -144,8 +144,8 @@ std::vector<GasEnergy> gas_energy(const Plan& plan, std::uint64_t seed, const st
 
 namespace {
 
-// Number of force evaluations in a contact, as in the table of single contacts. Only the setting `planned`
-// takes the number that the plan chooses.
+// Number of force evaluations in a contact, as in the table of single contacts. The settings `planned`,
+// spring-dashpot and Hertz take the step that the plan chooses.
 constexpr double forces = 12;
 const GasSetting plain{"velocity Verlet", "walton-braun", {}, GasSetting::Corrected::no, forces};
 const GasSetting corrected{"with corrections", "walton-braun", {}, GasSetting::Corrected::yes, forces};

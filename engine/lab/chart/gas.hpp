@@ -1,5 +1,5 @@
-// Equal smooth grains in a cube of walls, without gravity: they start on a lattice with random velocities
-// and become a gas.
+// A gas of equal smooth grains in a cube of walls, without gravity. The grains start on a lattice with random
+// velocities.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +55,7 @@ struct GasEnergy {
     double gained = 0, lost = 0;
 };
 // The energy at these rising times, which are counted in contact times pi sqrt(m_eff / K) of the linear
-// spring. Empty when goes_on(), asked a few times a second, returned false.
+// spring. Empty when goes_on(), asked every 2000 steps, returned false.
 std::vector<GasEnergy> gas_energy(const Plan& plan, std::uint64_t seed, const std::vector<double>& times,
                                   const std::function<bool()>& goes_on);
 

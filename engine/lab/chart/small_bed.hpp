@@ -16,6 +16,7 @@ struct BedSetting {
     std::vector<std::string> sets;
 };
 
+// accuracy.cpp fills it from the columns of bed.csv in this order.
 struct BedResult {
     // Height, temperature and contacts are means over the second half of the run.
     double height = 0;       // m, mean height of the grains above the moving floor

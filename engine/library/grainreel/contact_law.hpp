@@ -12,10 +12,10 @@ namespace grainreel::v1 {
 struct Touch {
     double overlap = 0;        ///< m, > 0.
     Vector normal{};           ///< Unit, from the first body to the second; a wall is always the second.
-    double closing_speed = 0;  ///< m/s, > 0 while the bodies approach; estimated for the time of the force.
+    double closing_speed = 0;  ///< m/s, > 0 while the bodies approach; extrapolated to the time of the force.
     Vector slip_velocity{};    ///< m/s, of the first surface relative to the second, without its normal part.
     Vector slip{};             ///< m, by which the first surface slipped over the second in this step.
-    double step = 0;           ///< s, since the last call for this contact.
+    double step = 0;           ///< s, one time step; 0 if only the present force is asked for.
 
     double effective_mass = 0;    ///< kg: m1 m2 / (m1 + m2); at a wall the grain's mass.
     double effective_radius = 0;  ///< m: r1 r2 / (r1 + r2); at a wall the grain's radius.
@@ -27,15 +27,17 @@ struct Touch {
 /// What a law answers.
 struct ContactForce {
     double normal = 0;    ///< N, pushes the bodies apart; below 0 it pulls them together.
-    Vector tangential{};  ///< N, on the second body; the opposite acts on the first. Across the normal.
+    Vector tangential{};  ///< N, on the second body; the opposite acts on the first. It is perpendicular to
+                          ///< the normal.
 };
 
 /// What a law keeps about a contact from step to step. All numbers are zero when the contact begins, and they
 /// are lost when the overlap ends.
 struct ContactMemory {
     std::span<double> numbers;  ///< As many as ContactLaw::numbers() says.
-    /// As many as ContactLaw::vectors() says. They turn with the contact, and change sign when the two bodies
-    /// change places. So a tangential spring can be kept as one of them.
+    /// As many as ContactLaw::vectors() says. In each step the program first turns them with the contact and
+    /// removes their part along the normal. They change sign when the two bodies change places. So a
+    /// tangential spring can be kept as one of them.
     std::span<Vector> vectors;
 };
 
@@ -50,15 +52,15 @@ class ContactLaw {
   public:
     virtual ~ContactLaw();
 
-    /// How many numbers it keeps about a contact; at most 16.
+    /// How many numbers the law keeps about a contact; at most 16.
     virtual int numbers() const { return 0; }
-    /// How many vectors it keeps about a contact; at most 4.
+    /// How many vectors the law keeps about a contact; at most 4.
     virtual int vectors() const { return 0; }
 
     /// The force at the end of a step. The function is called from several threads at once. If runs are to be
     /// alike, its result must depend on nothing but its arguments. To read the present forces without a step,
     /// the program calls it with slip and step zero and a copy of the memory. An exception that it throws
-    /// comes out of Simulation::advance(), some steps later.
+    /// comes out of Simulation's pack(), advance() or contacts(), perhaps only after further steps.
     virtual ContactForce force(const Touch& touch, ContactMemory memory) const = 0;
 
     /// J, the energy that the contact would give back if it were unloaded now. Without an override it is NaN,

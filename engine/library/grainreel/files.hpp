@@ -31,7 +31,7 @@ struct ReadOptions {
 class FrameFile {
   public:
     /// Your own readers are asked first whether they read the file, then those of the program; each looks at
-    /// its content. Throws Error where none reads it, or where it is damaged.
+    /// the file's content. Throws Error where none reads the file, or where it is damaged.
     explicit FrameFile(const std::filesystem::path& file, const ReadOptions& options = {});
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;             ///< Moves.
@@ -43,8 +43,8 @@ class FrameFile {
     /// A frame. Throws Error where there is no frame of that number, and where it is damaged.
     Frame frame(std::size_t index) const;
     World world() const;          ///< Species and walls of triangles, as far as the file knows them.
-    bool has_velocities() const;  ///< Whether it knows velocities; else they are zero.
-    std::vector<std::string> news() const;  ///< What you should know about it (damage, guesses), a line each.
+    bool has_velocities() const;  ///< Whether the file has velocities; else they are zero.
+    std::vector<std::string> news() const;  ///< What to know about the file (damage, guesses), a line each.
 
     /// Writes all frames in another format, one that FrameWriter knows. The file must not exist yet.
     void write(const std::filesystem::path& file, const std::string& format) const;
@@ -100,7 +100,8 @@ std::vector<std::string> written_formats();
 /// Writes frames one by one.
 class FrameWriter {
   public:
-    /// Throws Error where the format is none of written_formats(), or the file cannot be made or exists.
+    /// Throws Error where the format is none of written_formats(), or the file cannot be made or exists
+    /// already.
     FrameWriter(const std::filesystem::path& file, const std::string& format, const World& world);
     ~FrameWriter();                                  ///< Without close() the file may be unfinished.
     FrameWriter(FrameWriter&&) noexcept;             ///< Moves.

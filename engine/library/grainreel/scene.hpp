@@ -28,8 +28,7 @@ struct ContactNumbers {
 class Scene {
   public:
     /// Reads a scene file. If there is no such file, reads the scene of that name that is shipped with the
-    /// program
-    /// ("wedge_segregation"). `settings` take precedence over the file: "run.duration=2 s",
+    /// program ("wedge_segregation"). `settings` take precedence over the file: "run.duration=2 s",
     /// "species.big.count=30". Throws Error at the first mistake, with file, line and column.
     static Scene from_file(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
     /// The same from text. `file` is its name in messages, and paths in the scene are relative to its folder.
@@ -47,9 +46,8 @@ class Scene {
     std::vector<std::string> walls() const;     ///< Names; wall w is -1 - w in Contact::second.
     std::vector<std::string> warnings() const;  ///< What can be run but may be a mistake; one line for each.
 
-    /// The contact between two species, or with an empty name for `second` between a species and the walls
-    /// that are not meshes.
-    /// Throws Error where there is no such species.
+    /// The contact between two species. If `second` is empty, the contact between `first` and the walls that
+    /// are not meshes. Throws Error where there is no such species.
     ContactNumbers contact(const std::string& first, const std::string& second = "") const;
 
     /// The scene as TOML, with all values that the program chose.

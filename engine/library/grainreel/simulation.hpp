@@ -25,14 +25,14 @@ struct LawChoice {
 
 /// How a simulation is set up.
 struct SimulationOptions {
-    int threads = 0;                ///< 0: as the scene says, or as many as are useful. Results are the same.
+    int threads = 0;  ///< 0: as the scene says, or as many as are useful. Results do not change.
     std::vector<LawChoice> laws{};  ///< If two are for one pair, the later one counts.
 };
 
 /// A grain that is added while the run goes on.
 struct NewGrain {
     std::int32_t species = 0;  ///< Place in Scene::species().
-    double radius = 0;         ///< m.
+    double radius = 0;         ///< m, in the range of its species.
     double density = 0;        ///< kg/m3; 0: that of its species.
     Vector position{};         ///< m.
     Vector velocity{};         ///< m/s.
@@ -76,7 +76,8 @@ class Simulation {
     Simulation& operator=(Simulation&&) noexcept;  ///< Moves.
 
     /// Places the grains and lets them settle, if the scene says so; advance() does this too. `watcher` gets
-    /// the share of the present stage that is done. If it returns false, packing stops and returns false.
+    /// the share of the present stage that is done. If `watcher` returns false, pack() stops and returns
+    /// false.
     bool pack(const std::function<bool(double)>& watcher = nullptr);
 
     /// Runs to the step nearest to a time (s since the drive began), and returns the time reached. It does
@@ -94,8 +95,7 @@ class Simulation {
 
     Frame frame() const;                    ///< Every grain and body now.
     std::vector<Contact> contacts() const;  ///< All that touch now, by rising `first`, then `second`.
-    std::vector<Measure> measures()
-        const;  ///< All columns of measures.csv. Those of instruments too, if asked for.
+    std::vector<Measure> measures() const;  ///< All columns of measures.csv and of the scene's instruments.
     /// The value of one column. Throws Error where the scene has no such column.
     double measure(const std::string& column) const;
     std::vector<Field> fields() const;  ///< Means on grids now; empty where the scene asks for none.

@@ -1,5 +1,5 @@
 // Gives the bytes of a mesh file, which is on disk or built into the program, and throws the errors about
-// mesh files.
+// mesh files. Readers of other programs' files throw theirs by the same functions.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@
 
 namespace grainreel {
 
-// Largest size of a mesh file, in bytes, because indices of vertices and triangles are 32 bits wide.
+// The largest size of a mesh file, in bytes. It is limited because indices of vertices and triangles are 32
+// bits wide.
 inline constexpr std::uint64_t largest_mesh_file = (std::uint64_t{1} << 31) - 1;
 
 // Reads all bytes of a shipped mesh or of an ordinary file. Throws UserError if the file does not exist,

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* known = "give an STL, OBJ or PLY file";
 
-// The size that a binary STL with the file's count of triangles must have; 0 for files that are too short for
-// one.
+// The count of triangles in a file that is taken as a binary STL, and the size that the file must have then;
+// both are 0 if the file is too short.
 struct BinaryStl {
     std::uint64_t triangles = 0, bytes = 0;
 };
@@ -28,7 +28,8 @@ BinaryStl as_binary_stl(std::string_view bytes) {
     return {count, 84 + 50 * std::uint64_t{count}};
 }
 
-// Text has no zero bytes; a binary STL always has some, in its attributes.
+// Whether the beginning of a file is text, which has no zero bytes. A binary STL mostly has some, in the
+// attributes of its facets.
 bool is_text(std::string_view bytes) {
     return bytes.substr(0, 4096).find('\0') == std::string_view::npos;
 }

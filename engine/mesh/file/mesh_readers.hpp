@@ -1,6 +1,6 @@
-// The readers of mesh files, and the choice of a reader by a file's content. Each reader takes the bytes and
-// gives vertices and triangles in the file's unit. Polygons are cut into triangles from their first corner.
-// Normals, colours, texture and materials are ignored, because the order of the corners gives the side. All
+// Reads mesh files, and chooses the reader by a file's content. Each reader takes the bytes and gives
+// vertices and triangles in the file's unit. Polygons are cut into triangles from their first corner. Normals
+// are ignored, because the order of the corners gives the side; so are colours, texture and materials. All
 // readers throw UserError with file and line (text) or byte (binary).
 //
 // STL: 3D Systems, StereoLithography Interface Specification (1989). OBJ: Wavefront, Advanced Visualizer

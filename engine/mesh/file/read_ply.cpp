@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The floats must stand last: the readers take every type below float32 as a whole number.
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 struct PlyProperty {
@@ -92,8 +93,8 @@ std::optional<PlyType> type_of(std::string_view word) {
     return std::nullopt;
 }
 
-// Reads the header. Throws UserError with the line, also if the rest of the file is too short for the counts
-// in the header.
+// Reads the header. Throws UserError with the line where the header is wrong, and without it if the rest of
+// the file is too short for the counts in the header.
 class PlyHeaderReader {
   public:
     PlyHeaderReader(const fs::path& file, std::string_view bytes) : file_(file), words_(bytes) {}
@@ -203,7 +204,7 @@ class AsciiBody {
         return *value;
     }
     void skip(PlyType) { words_.next(); }  // a nan among normals and colours does no harm
-    // Largest number of a list's values that the rest of the file could hold.
+    // The most values of a list that the rest of the file could hold.
     double most(PlyType) const { return static_cast<double>(words_.left().size()); }
     [[noreturn]] void fail(const std::string& what) const {
         refuse_line(file_, before_ + words_.line(), what);
@@ -312,6 +313,7 @@ class Ply {
         mesh_.vertices.push_back(place);
     }
 
+    // Reads property number `face` as the corners of a face, and skips all others; npos skips all.
     void skip_lists_but(const PlyElement& element, std::size_t face) {
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             if (i == face)

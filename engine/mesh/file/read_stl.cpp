@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t head = 84, row = 50,
-                      first_corner = 12;  // bytes; the first corner comes after the normal
+                      first_corner = 12;  // bytes; a row has the normal and three corners, 12 bytes each
 
 static_assert(std::endian::native == std::endian::little);
 
@@ -34,7 +34,7 @@ class VertexPool {
     }
 
     std::int32_t number_of(Vec3 place) {
-        place += Vec3(0, 0, 0);  // -0 is 0
+        place += Vec3(0, 0, 0);  // makes 0 of -0, which would have another hash
         std::size_t slot = hash(place) & (table_.size() - 1);
         while (table_[slot] >= 0) {
             if (vertices_[static_cast<std::size_t>(table_[slot])] == place) return table_[slot];

@@ -1,4 +1,4 @@
-// The words of a text file, with the line in which each stands, and numbers read from them.
+// Reads the words of a text file, with the line in which each stands, and the numbers in words.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,7 @@ class WordReader {
     std::int64_t line_ = 1;
 };
 
+// Whether a word is `lower_case`, ignoring the case of its ASCII letters.
 bool same_word(std::string_view word, std::string_view lower_case);
 
 // The finite number that the whole word stands for. "+1.5" and 1e-400 are numbers; nan, inf, "-1.#IND" and

@@ -20,6 +20,7 @@ constexpr std::int32_t most_columns = 100000;
 constexpr std::int32_t longest_text = 1 << 20;  // bytes
 constexpr std::int32_t most_chunks = 1 << 24;   // each process writes one
 
+// Reads the fields of a head in the order in which LAMMPS writes them.
 class HeadReader {
   public:
     HeadReader(BinaryReader& in, const BinaryForm& form, BinaryHead& head)
@@ -204,7 +205,7 @@ class MemoryBytes : public ByteSource {
     std::size_t place_ = 0;
 };
 
-// Whether the bytes begin with a frame of that form, including its first chunk.
+// Whether the bytes begin with a head of that form, and the size of the first chunk fits this head.
 bool makes_sense(std::string_view bytes, const BinaryForm& form) {
     MemoryBytes memory(bytes);
     BinaryReader in(memory, form.swapped);
@@ -297,7 +298,7 @@ namespace fs = std::filesystem;
     refuse_byte(file, static_cast<std::size_t>(byte), what);
 }
 
-// Skips the chunks of a frame. Returns false where the content ends before.
+// Skips the chunks of a frame. Returns false where the content ends within them.
 bool pass_chunks(BinaryReader& in, const fs::path& file, const BinaryHead& head) {
     std::int64_t rows = 0;
     for (std::int32_t chunk = 0; chunk < head.chunks; ++chunk) {

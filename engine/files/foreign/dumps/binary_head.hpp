@@ -1,6 +1,6 @@
-// Binary dumps: the head of a frame in all forms that LAMMPS has written (with names of columns since 2021,
-// with flags of the box since 2010, and older), and where the frames of a file lie. The numbers themselves
-// are read in lammps_binary.cpp.
+// Reads the heads of binary dumps, in all forms that LAMMPS has written (with names of columns since 2021,
+// with flags of the box since 2010, and older), and finds where the frames of a file lie. The numbers
+// themselves are read in lammps_binary.cpp.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ class BinaryReader {
     bool read_text(std::string& to, std::size_t size);
     // Reads up to `count` numbers; returns how many there were.
     std::size_t read(double* to, std::size_t count);
-    // Skips bytes. Returns false where the content ends before.
+    // Skips so many bytes. Returns false where the content has fewer.
     bool pass(std::uint64_t bytes);
 
     std::uint64_t place() const { return place_; }
@@ -45,12 +45,15 @@ class BinaryReader {
 
 // The form in which a program wrote all frames of a file.
 struct BinaryForm {
+    // What stands at the box in a file without magic word. flags: a word for the tilt and six flags of the
+    // boundaries, then the bounds; bare: only the bounds; bare_tilted: the bounds and three tilts. Files with
+    // magic word have the flags too.
     enum class Box { flags, bare, bare_tilted };
 
     bool magic = false;    // begins with a magic word, since 2021
     bool swapped = false;  // the byte order is not that of this machine
     bool narrow = false;   // step and number of grains have 32 bits
-    Box box = Box::flags;  // in files without magic: whether a word and flags stand before the box
+    Box box = Box::flags;  // what stands at the box
 };
 
 // What the head of a frame says.
@@ -65,9 +68,11 @@ struct BinaryHead {
     std::uint64_t data = 0;            // place of the first chunk
 };
 
+// How far a head could be read. nothing: the content ends before it; cut: the content ends within it.
 enum class BinaryEnd { whole, nothing, cut, damaged };
 
-// Reads a head. If it is damaged, `complaint` says what is wrong, and the reader stands after the damage.
+// Reads a head. If it is damaged, `complaint` says what is wrong, and the reader stands behind the damaged
+// number.
 BinaryEnd read_binary_head(BinaryReader& in, const BinaryForm& form, BinaryHead& head,
                            std::string& complaint);
 
@@ -87,11 +92,11 @@ struct BinaryIndex {
     std::vector<std::string> names;  // names of the columns as in the file; none in old files
     std::string units;
     std::uint64_t end = 0;  // after the last whole frame
-    bool cut = false;       // a frame that is not whole begins there
+    bool cut = false;       // a frame that is not whole begins at `end`
     std::int64_t cut_step = 0, cut_rows = 0;
 
     // Finds the frames after those that are known. Throws UserError with the byte where the content is no
-    // dump.
+    // dump or its columns change.
     void go_on(BinaryReader& in, const BinaryForm& form, const std::filesystem::path& file);
 };
 

@@ -102,6 +102,7 @@ std::optional<BadId> doubled_among_near(const Values& ids, double least, double 
     return std::nullopt;
 }
 
+// Finds such an id by sorting, where ids are spread too widely for a table of bits.
 std::optional<BadId> doubled_among_far(const Values& ids) {
     std::vector<std::pair<double, std::size_t>> sorted(ids.size());
     for (std::size_t row = 0; row < ids.size(); ++row) sorted[row] = {ids[row], row};

@@ -1,5 +1,6 @@
-// What text and binary dumps have in common: the box, and the checks of grains. In text the box is three
-// lines below "ITEM: BOX BOUNDS" in one of three forms; binary dumps have the same numbers.
+// Parts that the readers of text and of binary dumps share: the box, and the checks of ids and places. In
+// text the box is three lines below "ITEM: BOX BOUNDS" in one of three forms; binary dumps have the same
+// numbers.
 #pragma once
 
 #include <array>
@@ -25,12 +26,12 @@ WorldCell cell_of(const BoxBounds& bounds);
 // Reads the box line by line.
 class BoxReader {
   public:
-    // flags: the text after "BOX BOUNDS", "xy xz yz pp pp ff" or nothing in old dumps.
+    // flags: the text after "BOX BOUNDS", such as "xy xz yz pp pp ff"; it is empty in old dumps.
     explicit BoxReader(std::string_view flags);
     // Takes one of the three lines. Returns what is wrong with it, or nothing.
     std::string take(std::string_view line);
-    // Called after the third line. empty: there are no grains, so that a shrink-wrapped box may be inside
-    // out.
+    // Makes the box after the third line. Returns what is wrong with it, or nothing. empty: the frame has no
+    // grains; then a shrink-wrapped box may end before it begins, and there is no box().
     std::string finish(bool empty);
     const std::optional<WorldCell>& box() const { return box_; }
 
@@ -44,7 +45,8 @@ class BoxReader {
     std::optional<WorldCell> box_;
 };
 
-// Whether a column must have finite numbers: ids, places, radii. Computes and fixes may be nan.
+// Whether a column must have finite numbers: ids, places, radii, diameters. Columns of LAMMPS's computes and
+// fixes may be nan.
 bool must_be_finite(const std::string& column);
 
 // A row whose id is not a whole number or is also in an earlier row.
@@ -53,7 +55,7 @@ struct BadId {
     double id = 0;
     std::string words() const;
 };
-// The first bad id in a table of grains; none where all are good or there are no ids.
+// A bad id in a table of grains; none where all are good or there are no ids.
 std::optional<BadId> bad_id(const RawTable& grains);
 
 }  // namespace grainreel

@@ -60,6 +60,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// An index file has an Identity, then this line, then the values that index_bytes() writes. Whoever changes
+// their order changes the number, so that an older file is not misread.
 constexpr std::string_view magic = "grainreel index 1\n";
 constexpr std::size_t hashed = 65536;  // bytes at each end of the file
 
@@ -168,7 +170,7 @@ std::optional<KeptIndex> index_in(const fs::path& path, const FileBytes& file, c
     each_of(read, then);
     if (in.failed() || !serves(then, file, now)) return std::nullopt;
     std::optional<TextIndex> index = index_of_bytes(std::string_view(*all).substr(all->size() - in.left()));
-    // A packed file may hold more bytes than its size, but at most this many times more.
+    // The content of a packed file is longer than the file, but at most so many times.
     constexpr std::uint64_t most_packed = 2000;
     if (index && index->end / most_packed > now.size) return std::nullopt;
     if (!index) return std::nullopt;

@@ -1,6 +1,6 @@
-// Files that another program may still be writing, and the index of a large dump that is kept between two
-// calls. The index is ".NAME.grainreel-index" beside the file, or in the user's cache folder
-// (grainreel/indices) where it cannot be written there.
+// Watches files that another program may still be writing, and keeps the index of a large dump on disk for
+// the next call. The index is ".NAME.grainreel-index" beside the dump. If it cannot be written there, it goes
+// to the user's cache folder (grainreel/indices).
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,10 @@ class Growth {
     std::uint64_t end_hash_ = 0;  // hash of the last bytes before state_.size
 };
 
-// Hash of at most so many bytes before a place.
+// The hash of the last `bytes` bytes before a place, or of all if there are fewer.
 std::uint64_t hash_before(const FileBytes& file, std::uint64_t place, std::size_t bytes);
 
-// From so many bytes of unpacked content on, finding the frames of a file takes so long that its index is
-// kept.
+// The index is kept if at least so many bytes of unpacked content were searched for frames.
 inline constexpr std::uint64_t long_pass = std::uint64_t{64} << 20;
 
 // Paths that the index of a file may have, in the order in which they are tried.
@@ -46,17 +45,17 @@ struct KeptIndex {
     bool of_now = false;  // the file is unchanged; else it became longer
 };
 
-// The kept index of a file; none where there is none, or where it is damaged or fits another state of the
-// file. It fits as long as inode, size, time of change and the hashes of the first and last bytes are the
-// same. It also serves a file that only became longer: then frames are looked for from the old end on. state:
-// of the file now.
+// The kept index of a file; none where there is none, where it is damaged, or where it does not fit the file.
+// It fits as long as inode, size, time of change and the hashes of the first and last bytes are the same. It
+// also fits a file that only became longer; the caller then looks for frames from the old end on. state: the
+// state of the file now.
 std::optional<KeptIndex> kept_index(const std::filesystem::path& file, const FileState& state);
 
 // Writes the index. If it cannot be written, there is no message, and the next call looks for the frames
-// again. state: of the file before its frames were looked for.
+// again. state: the state of the file before its frames were looked for.
 void keep_index(const std::filesystem::path& file, const FileState& state, const TextIndex& index);
 
-// The index as bytes, and back; none where they are damaged. These are for tests.
+// The index as bytes, and back; none where they are damaged. They are in this header for tests.
 std::string index_bytes(const TextIndex& index);
 std::optional<TextIndex> index_of_bytes(std::string_view bytes);
 

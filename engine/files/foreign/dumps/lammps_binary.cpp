@@ -37,8 +37,8 @@ class LammpsBinary : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const BinaryFrame& frame = index_.frames.at(index);
-        // In a packed file, reading goes on after the last frame that was read. The file is closed after its
-        // last frame.
+        // A packed file stays open, so that the next frame is read without unpacking all bytes before it
+        // again. It is closed after its last frame.
         const std::lock_guard lock(reading_);
         std::unique_ptr<ByteSource> source = std::move(kept_);
         if (!source) source = open_bytes(file_);
@@ -140,7 +140,7 @@ RawFrame LammpsBinary::read_frame(ByteSource& source, const BinaryFrame& frame) 
 }
 
 RawTable LammpsBinary::read_rows(BinaryReader& in, const BinaryHead& head) const {
-    // The rows were counted when frames were looked for, so their number is not only a claim of the head.
+    // head.rows can be trusted: the rows were counted when the frames were looked for.
     RawTable table;
     table.rows = static_cast<std::size_t>(head.rows);
     const auto width = static_cast<std::size_t>(head.columns);

@@ -38,9 +38,11 @@ std::size_t words_in(std::string_view text) {
     return count;
 }
 
-// Grains may be a little outside a periodic box between two steps at which lists are made.
+// A grain may be outside a periodic box by this share of its size, because LAMMPS moves grains back into the
+// box only when it makes its neighbour lists.
 constexpr double outside = 0.02;
 
+// Whether the places (the third to the fifth column) are fractions of the box and not lengths.
 bool scaled(const RawTable& table, const std::optional<WorldCell>& box) {
     bool in_box = true, wide = false;
     double room = 1;
@@ -54,14 +56,14 @@ bool scaled(const RawTable& table, const std::optional<WorldCell>& box) {
         room *= size;
         if (*least < low - outside * size || *most > low + (1 + outside) * size) in_box = false;
     }
-    // A bed of millimetres in a box of centimetres also lies between 0 and 1. If both readings are possible,
-    // the one in which the grains fill more of the box is taken.
+    // All places are between 0 and 1, which lengths can be too: a bed of millimetres in a box of centimetres.
+    // They are lengths only if they lie in the box, span at most half of 0 to 1 along each axis, and fill
+    // more of the box as lengths than as fractions.
     return wide || !in_box || room > 1;
 }
 
-// Finds the columns by the first frame that has rows. Places are scaled ones, "xs", where they lie between 0
-// and 1 (or nearly so) and would not fit the box as they are. Rows with a width other than five and eight get
-// columns "c1", "c2", ...
+// Finds the columns by `frame`, the first frame that has rows. Rows with five or eight words have the columns
+// above; scaled() tells whether their places are "x" or "xs". Other rows get columns "c1", "c2", ...
 OldColumns old_columns(LineReader& lines, const std::filesystem::path& file, const DumpFrame& frame) {
     OldColumns columns;
     lines.seek(frame.place, frame.line);
@@ -100,9 +102,9 @@ class LammpsText : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const DumpFrame& frame = index_.frames.at(index);
-        // In a packed file, reading goes on after the frame that was read last, because a place can only be
-        // reached through all bytes before it. After the last frame the file is closed, so that a series of
-        // many files does not keep all of them open.
+        // A place in a packed file can only be reached through all bytes before it. The file therefore stays
+        // open for the next frame. It is closed after its last frame, so that a series of many files does not
+        // keep all of them open.
         const std::lock_guard lock(reading_);
         std::unique_ptr<LineReader> lines = std::move(kept_);
         if (!lines) lines = std::make_unique<LineReader>(file_);
@@ -144,7 +146,7 @@ void LammpsText::refuse_yaml() const {
 }
 
 void LammpsText::find_frames() {
-    // Below this size a packed file is read without an index.
+    // For a packed file below this size no kept index is looked for.
     constexpr std::uint64_t packed_long_pass = std::uint64_t{1} << 20;  // bytes
     const bool large = growth_.state().size >= (packing_ == Packing::none ? long_pass : packed_long_pass);
     if (std::optional<KeptIndex> kept; large && (kept = kept_index(file_, growth_.state()))) {
@@ -247,8 +249,8 @@ bool LammpsText::grow() {
     return index_.frames.size() > had;
 }
 
-// Whether the bytes begin as a dump, perhaps without its first line. A dump in YAML is taken too, and refused
-// with a message when it is opened.
+// Whether one of the first lines begins with "ITEM: ". A dump in YAML is taken too, and refused with a
+// message when it is opened.
 bool takes_text_dump(const FileHead& head) {
     std::string_view text = head.bytes;
     drop_byte_order_mark(text);

@@ -79,7 +79,8 @@ class HeadReader {
     // Takes the line after an item. Returns false where the content ends before it.
     bool value() { return lines_.next(line_); }
 
-    // For a line that is no value: the frame is cut where the content ends within the line.
+    // Called for a line that is no value. If the content ends within this line, the frame is cut; otherwise
+    // the line is wrong.
     Found wrong(const std::string& what) const {
         if (!line_.ended) return Found::cut;
         refuse(what);

@@ -82,7 +82,7 @@ class RowCounter {
 
 void TextIndex::go_on(LineReader& lines, const fs::path& file) {
     cut.reset();
-    // If the last row had no line feed, it may have become longer.
+    // If the last row had no line feed, it may have become longer, so its frame is read again.
     if (unended && !frames.empty()) {
         end = frames.back().place;
         end_line = frames.back().line;
@@ -100,7 +100,7 @@ bool TextIndex::take_frame(LineReader& lines, const fs::path& file) {
     const HeadEnd found = read_head(lines, file, head);
     if (found == HeadEnd::nothing) return false;
     if (found == HeadEnd::cut) {
-        // A time or units alone after the last rows begin a next frame only if other frames have them.
+        // A time or units alone after the last rows begin a next frame only if the frames before have a time.
         if (!frames.empty() && !head.step && (head.time || !head.units.empty()) && !timed)
             refuse_line(
                 file, head.line,
@@ -174,8 +174,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_words = 20000;  // number of words that are looked at
 constexpr std::size_t many = 12;           // so many words do not have the same form by chance
 
+// How a number is written: digits after the point, characters from the "e" on, and significant digits.
 struct Form {
-    std::size_t decimals = 0, exponent = 0, digits = 0;  // digits: number of significant ones
+    std::size_t decimals = 0, exponent = 0, digits = 0;
     bool same(const Form& other) const { return decimals == other.decimals && exponent == other.exponent; }
 };
 

@@ -1,5 +1,5 @@
-// Text dumps: the head of a frame, and where the frames of a file lie. One pass over the file finds them; it
-// reads heads and counts rows. The rows themselves are read in text_rows.hpp.
+// Reads the heads of text dumps, and finds where the frames of a file lie. This takes one pass over the file,
+// which reads heads and counts rows. The rows themselves are read in text_rows.hpp.
 #pragma once
 
 #include <cstdint>
@@ -38,12 +38,12 @@ enum class HeadEnd {
     cut       // the content ended within the head
 };
 
-// Reads a head. Throws UserError with the line where there is something else. If the result is `cut`, `head`
-// has what could be read.
+// Reads a head. Throws UserError with the line where something else stands there. If the result is `cut`,
+// `head` has what could be read.
 HeadEnd read_head(LineReader& lines, const std::filesystem::path& file, DumpHead& head);
 
 struct DumpFrame {
-    // Bytes of the unpacked content: from its first item to after its last row.
+    // Where the frame begins and ends, in bytes of the unpacked content.
     std::uint64_t place = 0, end = 0;
     std::int64_t line = 0;  // number of the line of its first item
     std::int64_t step = 0;
@@ -56,7 +56,7 @@ struct CutFrame {
     std::int64_t line = 0;  // where it begins
     std::optional<std::int64_t> step{};
     bool in_head = false;
-    std::int64_t rows = 0, of = 0;  // number of rows that are there, and that the head says
+    std::int64_t rows = 0, of = 0;  // rows that are there, and rows that the head claims
     bool in_row = false;            // the last row is not whole
     bool in_number = false;         // the last row has all fields, but its last number may be cut
 };
@@ -72,10 +72,10 @@ struct TextIndex {
     std::int64_t end_line = 1;
     bool unended = false;  // the last row of the last frame has no line feed
     std::optional<CutFrame> cut{};
-    bool stream_cut = false;  // the packed stream ends before its end
+    bool stream_cut = false;  // the packed file is cut off
 
     // Finds the frames after those that are known. Throws UserError with the line where the content is no
-    // dump.
+    // dump, or its columns or units change.
     void go_on(LineReader& lines, const std::filesystem::path& file);
 
   private:
@@ -92,16 +92,17 @@ enum class LastWord { whole, cut, open };
 // row of a dump with a line feed. If it is missing, the row is still being written, or the run died, or an
 // editor left it out. The word is
 //  - cut where it is not a number yet ("1.5e", "-", "0.");
-//  - whole where another row has the same word;
+//  - whole where another row has the same word, and none has a longer one that begins with it;
 //  - cut where the column has only a few different words, such as radii, and this is not one of them;
-//  - whole or cut by its form where all others have the same form, as "%.8f" and "%.16e" write it;
-//  - whole where it has as many digits as any other, because "%g" writes at most six;
+//  - whole or cut by its form where there are twelve others or more, all of one form, as "%.8f" and "%.16e"
+//    write;
+//  - whole where it has five digits or more, at least as many as any other, because "%g" writes at most six;
 //  - otherwise open: "0.38212" may be a number of five digits, or one of six that is cut.
 LastWord judge_last_word(std::string_view word, const std::vector<std::string>& others);
 
-// Whether the last row of the content is whole. head: of its frame; before: the frames before it. Where the
-// word stays open, the row counts as whole in the only frame of a file, which may have been made by hand, and
-// as cut after other frames.
+// Whether the last row of the content is whole. head: the head of its frame; before: the frames before that
+// one. Where the last word stays open, the row counts as whole in the only frame of a file, which may have
+// been made by hand, and as cut after other frames.
 bool last_row_is_whole(LineReader& lines, const std::filesystem::path& file, const DumpHead& head,
                        const std::vector<DumpFrame>& before);
 

@@ -123,7 +123,7 @@ namespace fs = std::filesystem;
 
 enum class Kind {
     number,  // a number of a compute or fix, perhaps not finite
-    finite,  // a grain must have it
+    finite,  // a number that must be finite, such as a place
     word     // name of an element or a type
 };
 
@@ -136,8 +136,8 @@ class RowReader {
   public:
     RowReader(LineReader& lines, const fs::path& file, const RowsToRead& wanted)
         : lines_(lines), file_(file), wanted_(wanted) {
-        // A number takes at least two bytes of the file. If the head claims more rows than there is room for,
-        // a row has too few fields and is found below.
+        // A number takes at least two bytes of the file. The table gets no more rows than fit into the bytes;
+        // if the head claims more, read() refuses the frame.
         const std::uint64_t width = 2 * std::max<std::uint64_t>(wanted.names.size(), 1);
         const std::uint64_t room = wanted.bytes / width + 1;
         table_.rows =
@@ -166,7 +166,7 @@ class RowReader {
     }
 
   private:
-    // Reads the rows of the text, but not more than wanted. Returns the number of the next row.
+    // Reads the rows of the text, but not more than the table has. Returns the number of the next row.
     std::size_t read_block(std::string_view text, std::size_t row) {
         const char* p = text.data();
         const char* const end = p + text.size();

@@ -1,5 +1,5 @@
-// Reads a text line by line through a buffer of fixed size, packed or not, and turns the rows of a dump's
-// frame into numbers. Most of the time of reading is spent here, and the source is compiled with -O3.
+// Reads a text file, packed or not, line by line, and turns the rows of a dump's frame into numbers. Reading
+// a dump spends most of its time here; engine/CMakeLists.txt compiles text_rows.cpp with -O3.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 namespace grainreel {
 
 struct TextLine {
-    std::string_view text;    // without its end; valid until the next call
+    std::string_view text;    // without its line end; valid until the reader's next call
     std::uint64_t place = 0;  // its first byte in the unpacked content
     std::int64_t number = 0;  // from 1
     bool ended = false;       // whether it ends with a line feed
@@ -31,11 +31,12 @@ class LineReader {
     bool next(TextLine& line);
     // The same, but lines with only blanks are skipped.
     bool next_with_words(TextLine& line);
-    // Makes next() return this line, its last one, once more.
+    // Makes next() return its last line once more. This line must be passed here.
     void back(const TextLine& line);
 
     // One or more whole lines as one piece of text. The last line has a line feed, which is added if the
-    // content ends without one. 64 more bytes after the text may be read. Empty at the end of the content.
+    // content ends without one. A caller may read up to 64 bytes beyond the text. Empty at the end of the
+    // content.
     std::string_view lines();
     // Whether the last piece that lines() returned ends with the content and without a line feed.
     bool unended() const { return unended_; }
@@ -45,9 +46,10 @@ class LineReader {
     // Place at which the next line begins.
     std::uint64_t place() const { return buffer_place_ + used_; }
     std::int64_t number() const { return number_; }
+    // Goes to the line that begins at `place` and has this number.
     void seek(std::uint64_t place, std::int64_t number);
 
-    // Whether a packed stream ended too early. It is known when the end was reached.
+    // Whether a packed stream ended too early. This is known only after its end was reached.
     bool cut_off() const { return source_->cut_off(); }
 
   private:

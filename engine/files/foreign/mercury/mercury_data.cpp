@@ -1,5 +1,5 @@
-// Two files of MercuryDPM: .data has the grains, .fstat has the contacts. Both are text, frame after frame.
-// What both have in common stands first. The .restart is read in mercury_restart.cpp.
+// Reads two files of MercuryDPM: .data has the grains, .fstat has the contacts. Both are text, frame after
+// frame. The file .restart is read in mercury_restart.cpp.
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
@@ -48,7 +48,8 @@ class MercuryFile : public TextFrames {
 };
 
 // Grains. A line of count, time and box stands before the rows of each frame. In three dimensions this line
-// has 8 numbers and a row has 14; in two dimensions they have 6 and 8 (formats 14 and 8 of xballs files).
+// has 8 numbers and a row has 14; in two dimensions they have 6 and 8 (formats 14 and 8 of xballs files). The
+// names are in the order of a row's numbers.
 
 constexpr std::array<const char*, 14> names_3d{"x",     "y",    "z",     "vx", "vy", "vz", "radius",
                                                "alpha", "beta", "gamma", "wx", "wy", "wz", "info"};
@@ -73,7 +74,7 @@ std::optional<DataHeader> data_header_of(std::string_view line) {
     return DataHeader{*grains, *time, *corners, corners->size() / 2};
 }
 
-// The box; none where its highest corner is below its lowest one.
+// The box; none where its highest corner is below its lowest one along an axis.
 std::optional<WorldCell> box_of(const DataHeader& header) {
     for (std::size_t axis = 0; axis < header.dimensions; ++axis)
         if (header.corners[header.dimensions + axis] < header.corners[axis]) return std::nullopt;
@@ -163,10 +164,11 @@ bool takes_mercury_data(const FileHead& head) {
     return row && row->size() == (header->dimensions == 2 ? names_2d.size() : names_3d.size());
 }
 
-// Contacts. Three lines with "#" stand before those of each frame. Version 1 of the format has each pair
-// twice, once from either side; here it is given once. A partner with a negative number is a wall.
+// Contacts. Three lines with "#" stand before the rows of each frame. Version 1 of the format has each pair
+// twice, once from either side; the reader keeps the first of the two rows. A partner with a negative number
+// is a wall.
 
-constexpr std::size_t columns_of_file = 16;  // the first is the time
+constexpr std::size_t columns_of_file = 16;  // the time, then contact_names in this order
 constexpr std::array<const char*, 15> contact_names{
     "id1", "id2", "x",  "y",  "z",  "overlap", "tangential_overlap", "Fn", "Ft",
     "nx",  "ny",  "nz", "tx", "ty", "tz"};
@@ -203,6 +205,7 @@ class MercuryContacts : public MercuryFile {
     RawFrame read_frame(TextLines& lines, const RawMoment& moment) const override;
 
   private:
+    // row: a contact was read; last: the frame has no more; cut: the file ends within a row.
     enum class Row { row, last, cut };
     Row next_row(TextLines& lines) const;
     Numbers numbers(const TextLines& lines) const;

@@ -1,6 +1,7 @@
-// Reads MercuryDPM's .restart, one moment as text, with its walls. "MercuryDPM 1.0" and "restart_version 1.0"
-// have keys and values; restart_version 3 has rows of plain numbers ("TSP BP x y z vx vy vz r angles w 1/m
-// 1/I species").
+// Reads MercuryDPM's .restart: the state at one moment, with its walls, as text. In files that begin with
+// "MercuryDPM 1.0" or "restart_version 1.0" a grain has keys and values; with restart_version 3 it is a row
+// of plain numbers ("TSP BP x y z vx vy vz r angles w 1/m 1/I species"). A grain without the key "position"
+// is taken as such a row.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -46,7 +47,8 @@ const std::vector<Field>& fields_of_keys() {
     };
     return fields;
 }
-// The columns of a grain without keys, in their order. The empty one is the inverse moment of inertia.
+// The columns of a grain without keys, in the order of the row. The empty name skips the inverse moment of
+// inertia.
 constexpr std::array<const char*, 16> plain_columns{"x",      "y",       "z",    "vx",     "vy", "vz",
                                                     "radius", "alpha",   "beta", "gamma",  "wx", "wy",
                                                     "wz",     "invMass", "",     "species"};
@@ -66,10 +68,10 @@ class RestartLine {
         }
     }
 
-    // The words before the first number, "TSP BP".
+    // The first word of the line, such as "TSP" or "InfiniteWall".
     const std::string& first_word() const { return first_word_; }
-    // The `count` numbers after a key, whose case does not count; null where there are not that many. If a
-    // key comes twice, the last one with so many numbers counts.
+    // The numbers after a key, whose case does not matter; null unless there are exactly `count` of them. If
+    // a key comes twice, the last one with so many numbers is taken.
     const std::vector<double>* find(std::string_view key, std::size_t count) const {
         const std::string wanted = lower_case(key);
         for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)
@@ -85,7 +87,7 @@ class RestartLine {
         if (!found) return std::nullopt;
         return Vec3((*found)[0], (*found)[1], (*found)[2]);
     }
-    // The numbers after the first words.
+    // The numbers between the first words and the next word.
     const std::vector<double>& first_numbers() const {
         static const std::vector<double> none;
         for (const auto& [key, numbers] : entries_)
@@ -112,7 +114,8 @@ Polygon cut(const Polygon& polygon, const Vec3& way, double most) {
     return kept;
 }
 
-// A polygon on a face of the box may lie outside it by rounding.
+// The part of a polygon in the box. `slack` keeps a polygon on a face of the box, which may lie outside by
+// rounding.
 Polygon cut_to(Polygon polygon, const Vec3& low, const Vec3& high) {
     const double slack = 1e-9 * (high - low).norm();
     for (int axis = 0; axis < 3; ++axis) {
@@ -125,8 +128,8 @@ Polygon cut_to(Polygon polygon, const Vec3& low, const Vec3& high) {
 
 // The part of an infinite plane through `place` that lies in the box, whose edges are along the axes.
 // `outwards` is the normal that points away from the grains; the front of the surface faces the other way. If
-// the plane is outside the box, this is the box's cross-section, moved onto the plane. It is empty where the
-// normal has no length.
+// the plane is outside the box, this is the cross-section at the nearest end of the box, moved onto the
+// plane. It is empty where the normal has no length.
 TriangleMesh plane_in_box(const Vec3& place, const Vec3& outwards, const WorldCell& box) {
     TriangleMesh mesh;
     const Vec3 low = box.origin, high = box.origin + box.edges[0] + box.edges[1] + box.edges[2];
@@ -152,7 +155,7 @@ TriangleMesh plane_in_box(const Vec3& place, const Vec3& outwards, const WorldCe
     }
     if (polygon.size() < 3) return mesh;
     mesh.vertices = polygon;
-    for (std::size_t i = 2; i < polygon.size(); ++i)  // their corners go round against the normal
+    for (std::size_t i = 2; i < polygon.size(); ++i)  // seen from the grains, corners go round anticlockwise
         mesh.triangles.push_back({0, static_cast<std::int32_t>(i - 1), static_cast<std::int32_t>(i)});
     return mesh;
 }

@@ -32,7 +32,7 @@ struct FrameRows {
     std::vector<Run> runs;
 };
 
-// The smallest and the largest number of each of four columns.
+// The smallest and the largest number of each column of a table with four columns.
 struct Ranges {
     double least[4]{INFINITY, INFINITY, INFINITY, INFINITY},
         most[4]{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
@@ -56,7 +56,7 @@ std::optional<TableLayout> layout_at(const FileHead& head) {
     return layout_of(head.bytes, head.bytes.size() < kHeadBytes);
 }
 
-// The unit after the name of a column of time, in s.
+// How many seconds a unit of time has; 1 for a unit that is not known.
 double seconds_in(const std::string& unit) {
     static const std::map<std::string, double> units{{"ms", 1e-3},      {"us", 1e-6}, {"\u00b5s", 1e-6},
                                                      {"\u03bcs", 1e-6}, {"ns", 1e-9}, {"min", 60},
@@ -110,7 +110,7 @@ NumberTable::NumberTable(const std::filesystem::path& file) : lines_(file) {
     name_nameless();
 }
 
-// Whether the file is a measures.csv of ours, which has a row for each moment and not for each grain.
+// Refuses a measures.csv of a run of grainreel, which has a row for each moment and not for each grain.
 void NumberTable::refuse_measures() const {
     const auto has = [&](const char* name) {
         return std::find(layout_.names.begin(), layout_.names.end(), name) != layout_.names.end();
@@ -148,7 +148,7 @@ double NumberTable::clock_of(std::size_t column) const {
     return *value;
 }
 
-// Whether the row is whole.
+// Adds the present row to the frame of its time. Returns false where the file ends within the row.
 bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
     split_cells(lines_.text(), layout_.separator, layout_.closed, cells_);
     const std::optional<std::size_t> clock = time_ ? time_ : step_;

@@ -19,7 +19,8 @@ double beyond_range(std::string_view word) {
     return negative ? -size : size;
 }
 
-// Reads the rest of a word after the number that std::from_chars found in it.
+// The value of a word that goes on after the number which std::from_chars found. "#IND" after it makes NaN;
+// "d" or "D" begins an exponent of Fortran; any other rest is no number.
 std::optional<double> with_rest(std::string_view word, double value, std::string_view rest) {
     if (rest.empty()) return value;
     if (rest.front() == '#') return std::numeric_limits<double>::quiet_NaN();

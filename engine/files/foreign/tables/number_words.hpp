@@ -1,5 +1,4 @@
-// Words and numbers as programs write them into text files, and columns of a table that are filled with them
-// word by word.
+// Reads words and numbers as programs write them into text files, and fills columns of a table with them.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +14,9 @@
 namespace grainreel {
 
 // The number in "1.5", "+1.5", ".5", "1.5d0" (Fortran), "nan", "inf" or "-1.#IND" (NaN). A number too small
-// for a double is 0. None where the word is not a number as a whole.
+// for a double is 0, one too large is infinite. None where the whole word is not a number.
 std::optional<double> number_of(std::string_view word);
-// The number in "324" or "+324"; none for anything else and for numbers of more than 64 bits.
+// The number in "324", "+324" or "-324"; none for anything else and for numbers of more than 64 bits.
 std::optional<std::int64_t> whole_number_of(std::string_view word);
 
 // Removes the first word from the text and returns it; empty at the end.
@@ -65,7 +64,7 @@ class ColumnFiller {
     CellKind kind_;
     RawColumn column_;
     std::map<std::string, double, std::less<>>
-        numbers_;  // one for each word, in the order in which words came
+        numbers_;  // numbers of the words until finish(), in the order in which they came
 };
 
 // How a message names a word that is not of the kind: "no number".

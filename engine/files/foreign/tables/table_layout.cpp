@@ -16,8 +16,9 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-constexpr std::size_t most_rows = 40;  // so many rows are tried
+constexpr std::size_t most_rows = 40;  // rows from which the layout is found
 
+// A way in which a table can be written.
 struct Writing {
     char separator;
     bool decimal_comma;
@@ -173,8 +174,9 @@ bool must_be_numbers(const std::string& name) {
     return false;
 }
 
-// Finds out for each column whether it holds words. A word among places, velocities or radii is a mistake in
-// its row. None where a row has another number of cells.
+// Finds out for each column whether it holds words. A column of places, velocities or radii counts as one of
+// words only if at least half of its cells are words; otherwise a word there is a mistake in its row. Returns
+// none where a row has another number of cells than the others.
 std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
                                           const std::vector<std::string>& names, bool closed,
                                           bool last_may_be_cut) {
@@ -203,6 +205,7 @@ bool names_places(const std::vector<std::string>& names) {
     return has("x") && has("y");
 }
 
+// The layout of the sample if it is written in this way; none where it is not, or is no table of grains.
 std::optional<TableLayout> layout_by(const Sample& sample, const Writing& writing, bool whole) {
     Cells first;
     const bool closed =
@@ -248,6 +251,8 @@ std::ptrdiff_t word_columns(const TableLayout& layout) {
 std::optional<TableLayout> layout_of(std::string_view text, bool whole) {
     const std::optional<Sample> sample = sample_of(text, whole);
     if (!sample || sample->filled.empty()) return std::nullopt;
+    // The first separator that fits is taken. Of decimal point and comma, the one that makes fewer columns
+    // words is taken.
     for (const char separator : {';', '\t', ',', ' '}) {
         const std::optional<TableLayout> point = layout_by(*sample, {separator, false}, whole);
         const std::optional<TableLayout> comma =

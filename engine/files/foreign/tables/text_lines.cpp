@@ -132,8 +132,8 @@ void TextFrames::go_on(bool growing) {
         const Place begin = next_;
         const Passed passed = pass_over(lines_, moment);
         if (passed == Passed::end) break;
-        // A line without a line feed may be cut within its last number. In the only frame it is taken
-        // nevertheless.
+        // A line without a line feed may be cut within its last number. It is taken only if it ends the
+        // file's first and only frame.
         open_end_ = passed == Passed::frame && !lines_.ended();
         if (passed == Passed::cut || (open_end_ && (growing || !moments_.empty()))) {
             open_end_ = false;

@@ -1,6 +1,6 @@
 // TextLines gives the lines of a text file, packed or not, with their numbers and places. TextFrames is the
-// base of readers of text files in which frames follow each other. A format must say how one frame is skipped
-// and how it is read. (Dumps have a faster reader of their own, dumps/text_rows.hpp.)
+// base of readers of text files in which frames follow each other; a derived class says how one frame is
+// skipped and how it is read. (Dumps have a faster reader of their own, dumps/text_rows.hpp.)
 #pragma once
 
 #include <cstdint>
@@ -48,15 +48,15 @@ class TextLines {
     std::filesystem::path file_;
     std::unique_ptr<ByteSource> source_;
     std::vector<char> buffer_;
-    std::size_t at_ = 0, filled_ = 0;  // bytes of the buffer that were used, and that are there
+    std::size_t at_ = 0, filled_ = 0;  // bytes of the buffer that were used, and that it holds
     std::uint64_t place_ = 0;          // byte of the file where the buffer begins
     std::string_view text_;
     std::uint64_t number_ = 0, begin_ = 0;
     bool ended_ = true;
 };
 
-// The whole lines among the first bytes of a file, without blank ones and at most `most` of them. Formats are
-// recognised by these.
+// At most `most` whole lines from the first bytes of a file, without blank lines. A format is recognised by
+// them.
 std::vector<std::string_view> lines_of(const FileHead& head, std::size_t most);
 
 // A text file in which frames follow each other. One pass over the file finds where each frame begins.

@@ -43,7 +43,7 @@ struct XyzEntry {
 };
 
 constexpr std::string_view blanks = " \t";
-constexpr std::size_t most_columns = 4096;  // columns of one entry of Properties
+constexpr std::size_t most_columns = 4096;  // columns of all entries of Properties together
 
 std::string_view past_blanks(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -72,6 +72,8 @@ std::size_t length_of_enclosed(std::string_view text) {
     return text.size();
 }
 
+// Takes a value from the front of the text: what stands in quotes or brackets, or the text up to one of
+// `ends`.
 std::string take_value(std::string_view& text, std::string_view ends) {
     if (!text.empty() && std::string_view("\"'{[").find(text.front()) != std::string_view::npos) {
         const std::size_t length = length_of_enclosed(text);
@@ -187,7 +189,7 @@ std::vector<XyzEntry> xyz_entries(std::string_view line) {
     return entries;
 }
 
-// Whether the line is one of extended XYZ, which has Properties.
+// Whether the line is one of extended XYZ, which has Properties or a Lattice.
 bool is_extended_xyz(std::string_view line) {
     if (line.find('=') == std::string_view::npos) return false;
     const std::vector<XyzEntry> entries = xyz_entries(line);
@@ -196,7 +198,8 @@ bool is_extended_xyz(std::string_view line) {
     });
 }
 
-// Throws UserError that says what is wrong with the line, without the name of the file.
+// Reads the second line of a frame. Throws UserError that says what is wrong with the line; the caller adds
+// the name of the file.
 XyzHeader xyz_header_of(std::string_view line) {
     XyzHeader header;
     if (!is_extended_xyz(line)) {

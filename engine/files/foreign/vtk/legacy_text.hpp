@@ -14,7 +14,7 @@ namespace grainreel {
 
 class LegacyText {
   public:
-    // Both must outlive this object.
+    // File name and bytes must outlive this object.
     LegacyText(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
     // Whether arrays from here on are bytes.
@@ -23,7 +23,7 @@ class LegacyText {
 
     // The rest of the line, without its end.
     std::string_view line();
-    // The next word, also of a later line; empty at the end of the file.
+    // The next word, in this line or a later one; empty at the end of the file.
     std::string_view word();
     // The next word, which word() will give again.
     std::string_view peek();
@@ -41,7 +41,7 @@ class LegacyText {
     template <class T>
     std::vector<T> numbers(VtkType type, std::uint64_t count, bool finite);
     void skip(VtkType type, std::uint64_t count);
-    // Skips words. A text file has one on each line; a binary one has each behind its length.
+    // Skips words. A text file has one on each line; a binary file has the length before each word.
     void skip_words(std::uint64_t count);
     // Skips the lines after METADATA up to the next empty one or the next keyword.
     void skip_metadata();

@@ -1,4 +1,5 @@
-// Decodes and unpacks the bytes of a VTK XML array: base64, zlib and LZ4. No count in the file is believed.
+// Decodes and unpacks the bytes of a VTK XML array: base64, zlib and LZ4. Each count in the file is compared
+// with the bytes that follow before memory is asked for.
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
 
 #include <fmt/format.h>
@@ -16,9 +17,12 @@
 namespace grainreel {
 namespace {
 
-// The most bytes that one byte can become: 1032 in zlib, 255 in LZ4.
+// A block of n compressed bytes may claim up to most_growth * n + most_of_nothing bytes. One byte becomes at
+// most 1032 in zlib and 255 in LZ4.
 constexpr std::uint64_t most_growth = 1100, most_of_nothing = 64;
 
+// What letter_values has for characters other than the letters of base64; next_letter() returns no_more at
+// the end.
 constexpr int blank = -2, padding = -3, no_letter = -1, no_more = -4;
 
 constexpr std::array<signed char, 256> letters() {
@@ -37,6 +41,7 @@ constexpr std::array<signed char, 256> letters() {
 }
 constexpr std::array<signed char, 256> letter_values = letters();
 
+// The length number `index` in a header of lengths.
 std::uint64_t length_at(const std::string& header, std::size_t index, const VtkCoding& coding) {
     const std::string_view bytes =
         std::string_view(header).substr(index * coding.header_bytes, coding.header_bytes);
@@ -81,12 +86,15 @@ std::uint64_t plain_length(StoredStream& stream, const VtkCoding& coding, std::o
 }
 
 struct Blocks {
-    std::uint64_t full = 0, last = 0;  // bytes of a full block and of the last one
+    std::uint64_t full = 0, last = 0;  // unpacked bytes of a full block and of the last one
+    // Compressed bytes of each block.
     std::vector<std::uint64_t> packed;
     std::uint64_t size_of(std::size_t block) const { return block + 1 == packed.size() ? last : full; }
     std::uint64_t length() const { return packed.empty() ? 0 : (packed.size() - 1) * full + last; }
 };
 
+// Reads the header of compressed data: the number of blocks, the unpacked size of a block and of the last
+// block (0 if it is full), and the compressed size of each.
 Blocks blocks_of(StoredStream& stream, const VtkCoding& coding, const VtkPlace& place) {
     Blocks blocks;
     const std::uint64_t count = length_at(stream.take(coding.header_bytes), 0, coding);

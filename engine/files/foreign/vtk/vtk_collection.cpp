@@ -98,8 +98,9 @@ bool same_stems(const std::vector<Entry>& entries) {
                        [&](const Entry& entry) { return stem_of(entry.file) == stem_of(entries[0].file); });
 }
 
-// Entries with the same time are one moment. In a list without times, files with different stems or with
-// different parts are one moment, and files with the same stem are a moment each.
+// Entries with the same time are one moment; a later entry with the same part, group and stem replaces an
+// earlier one. In a list without times each file is a moment if all have the same part and the same stem;
+// otherwise all files together are one moment.
 void group(const fs::path& folder, const std::vector<Entry>& entries, CollectionList& list) {
     const bool timeless = std::none_of(entries.begin(), entries.end(),
                                        [](const Entry& entry) { return entry.time.has_value(); });
@@ -214,7 +215,7 @@ CollectionList collection_list(const fs::path& file) {
     return list;
 }
 
-// Whether a file begins as such a list does.
+// Whether a file begins as a list of VTK files does.
 bool takes_collection(const FileHead& head) {
     const std::string type = vtk_file_type(head.bytes);
     return type == "Collection" || is_block_type(type) || (type.empty() && is_series(head.bytes));
@@ -266,14 +267,16 @@ class VtkCollection : public RawFile {
   private:
     static std::ptrdiff_t done_of(std::size_t count) { return static_cast<std::ptrdiff_t>(count); }
 
-    // Takes the moments after the last one taken. A moment is whole when all of its files are there.
+    // Takes further moments, up to the last one that is whole: all of its files are there. The files of later
+    // ones may still be missing because the run goes on. A moment before it is taken with the files that are
+    // there.
     void take_moments() {
         const std::vector<CollectionMoment>& all = list_.moments;
         const auto whole = [](const CollectionMoment& moment) {
             return std::all_of(moment.files.begin(), moment.files.end(), is_there);
         };
         const auto last = std::find_if(all.rbegin(), all.rend(), whole);
-        // If no moment is whole, each is taken with the files that it has.
+        // If no moment is whole, all are taken.
         const std::size_t end = last == all.rend() ? all.size() : static_cast<std::size_t>(all.rend() - last);
         Missing missing;
         for (std::size_t i = taken_.empty() ? 0 : taken_.back() + 1; i < all.size(); ++i) {
@@ -307,6 +310,7 @@ class VtkCollection : public RawFile {
         const CollectionMoment& moment = list_.moments[index];
         VtkParts parts;
         try {
+            // The files of the last moment are always read, so that one that is cut off is noticed.
             const bool last = index + 1 == list_.moments.size();
             for (const VtkPartFile& file : moment.files)
                 if (is_there(file) && (last || !count_by_head(file, moment.time.has_value(), parts)))

@@ -1,6 +1,5 @@
-// A data set of VTK as its files hold it (points, cells on them, numbers at both), and how it becomes a
-// frame. What is a grain, a wall or a contact is decided here once for all of VTK's formats, which only make
-// VtkContents.
+// Turns a data set of VTK (points, cells on them, numbers at both) into a frame. The readers of VTK's formats
+// only make VtkContents; which points and cells are grains, walls and contacts is decided here.
 //
 // Source: Kitware, The VTK User's Guide, 11th edition (2010), chapter "VTK File Formats".
 #pragma once
@@ -105,8 +104,8 @@ void add_rows(RawTable& table, std::vector<RawColumn>&& columns, std::size_t row
 struct VtkCount {
     std::int64_t grains = 0, contacts = 0;
     bool walls = false;
-    std::int64_t points_left_out = 0;  // without a cell, while other points have vertex cells
-    std::int64_t lines_left_out = 0;   // with one point or more than two
+    std::int64_t points_left_out = 0;  // points without vertex cell, in pieces that have only vertex cells
+    std::int64_t lines_left_out = 0;   // lines of one point or of more than two
 };
 
 // Throws UserError for cells whose surface is not read.
@@ -143,7 +142,8 @@ std::vector<RawWall> walls_of(const VtkPiece& piece);
 // mesh one number. If the column fits neither way, all numbers are 0.
 std::vector<std::size_t> mesh_parts(const std::vector<double>& meshid);
 
-// Adds the second wall to the first and returns true, if both have the same columns.
+// Adds the second wall to the first. Returns false, and adds nothing, where their columns differ or they have
+// too many points together.
 bool join_walls(RawWall& wall, const RawWall& more);
 
 using VtkTriangle = std::array<std::int64_t, 3>;  // points of the piece

@@ -181,7 +181,8 @@ class LegacyReader {
                                      owner == Owner::points ? "points" : "cells", kWriteAgain));
     }
 
-    // Reads an array whose head was read.
+    // Reads the numbers of an array, or skips them if they are not wanted. The head of the array was read
+    // before.
     void array(const std::string& name, VtkType type, std::uint64_t components, std::uint64_t tuples) {
         if (components > 1024 || tuples > (std::uint64_t{1} << 48))
             text_.refuse(fmt::format("array \"{}\" of {} components; at most 1024 are read", excerpt(name),
@@ -290,7 +291,8 @@ class LegacyReader {
     VtkPart part_;
     VtkContents& contents_;
     VtkPiece piece_{};
-    LegacyCells parts_[4]{};  // vertices, lines, polygons, strips; the first holds all cells of a grid
+    LegacyCells parts_[4]{};  // vertices, lines, polygons, strips, in the order of the cell data; the first
+                              // holds all cells of an UnstructuredGrid
     std::vector<std::uint8_t> types_{};
     bool poly_data_ = false, known_ = false;
     Owner owner_ = Owner::file;

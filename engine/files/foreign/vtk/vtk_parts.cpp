@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr int most_depth = 4;  // most levels of lists within lists
 constexpr std::string_view domain_name = "Domain";
 
-// Reads the box, which LIGGGHTS writes as a rectilinear grid of one cell, or as a hexahedron if it is tilted.
+// The box that LIGGGHTS writes as a rectilinear grid of one cell.
 std::optional<WorldCell> box_of_grid(const fs::path& file, const std::string& bytes, const XmlTree& tree) {
     const XmlElement* grid = tree.root.child("RectilinearGrid");
     const XmlElement* piece = grid == nullptr ? nullptr : grid->child("Piece");
@@ -45,6 +45,7 @@ std::optional<WorldCell> box_of_grid(const fs::path& file, const std::string& by
     return box;
 }
 
+// The tilted box that LIGGGHTS writes as one hexahedron.
 std::optional<WorldCell> box_of_cell(const fs::path& file) {
     const VtkContents contents = read_vtk_xml(file, VtkPart::all);
     if (contents.pieces.size() != 1) return std::nullopt;
@@ -223,7 +224,7 @@ std::vector<RawWall> split(TriangleMesh&& mesh, const std::vector<Solid>& solids
     std::size_t all = 0;
     for (const Solid& solid : solids) all += solid.triangles;
     std::vector<RawWall> walls;
-    // Very many solids are not split, because for each of them all vertices are looked at.
+    // More than 1000 solids are not split: wall_of() goes through all vertices for each of them.
     if (solids.size() < 2 || solids.size() > 1000 || all != mesh.triangles.size()) {
         const std::size_t triangles = mesh.triangles.size();
         walls.push_back(
@@ -285,8 +286,8 @@ bool is_obj(std::string_view bytes) {
     return false;
 }
 
-// Whether the facets among the first bytes of a binary STL have places that walls can have. The unpacked size
-// of a packed file is not known.
+// Whether the facets among the first bytes of a binary STL have places that walls can have. This serves
+// packed files, whose unpacked size is not known.
 bool holds_facets(std::string_view bytes) {
     constexpr float farthest = 1e7F;
     if (bytes.size() < 84 + 50) return false;
@@ -309,7 +310,7 @@ bool takes_wall_surface(const FileHead& head) {
     if (bytes.size() >= 84 && !is_text(bytes)) {
         std::uint32_t count = 0;
         std::memcpy(&count, bytes.data() + 80, sizeof count);
-        // For a packed file this is the size of its packed bytes.
+        // `size` is that of the unpacked file; head.size is that of the packed bytes if the file is packed.
         const std::uint64_t size = 84 + 50 * std::uint64_t{count};
         return size == head.size || (bytes.size() < kHeadBytes && size == bytes.size()) ||
                (bytes.size() >= kHeadBytes && size > head.size && holds_facets(bytes)) ||

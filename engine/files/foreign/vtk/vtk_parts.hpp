@@ -1,5 +1,5 @@
-// The files of one moment, which a collection or a .vtm names: VTK files of any kind, and surfaces without
-// grains (STL, OBJ, PLY).
+// Reads the files of one moment, which a collection or a .vtm names: VTK files of any kind, and surfaces
+// without grains (STL, OBJ, PLY).
 #pragma once
 
 #include <filesystem>

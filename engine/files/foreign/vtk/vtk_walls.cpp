@@ -1,4 +1,4 @@
-// Makes walls from the cells of a VTK file: polygons and strips become triangles, and each body one wall.
+// Makes walls from the cells of a VTK file: surface cells become triangles, and each mesh becomes one wall.
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
 
-// The triangles of some cells, with only the points that they use.
+// A wall of these triangles, with only the points that they use. cells: the cell that each triangle is from.
 RawWall wall_of(const VtkPiece& piece, const std::vector<VtkTriangle>& triangles,
                 const std::vector<std::size_t>& cells) {
     RawWall wall;
@@ -61,7 +61,7 @@ std::vector<std::size_t> mesh_parts(const std::vector<double>& meshid) {
         numbered.push_back(first ? 0 : numbered.back() + (next ? 1 : 0));
         seen.insert(meshid[i]);
     }
-    // If there are as many meshes as triangles, the numbers are ids of triangles.
+    // If there are as many meshes as triangles, the column has ids of triangles and not of meshes.
     if (counts && !meshid.empty() && counted.back() + 1 < meshid.size()) return counted;
     if (numbers && !meshid.empty() && 2 * (numbered.back() + 1) <= meshid.size()) return numbered;
     return std::vector<std::size_t>(meshid.size(), 0);
@@ -134,7 +134,8 @@ void cut_strip(Corners corners, std::vector<VtkTriangle>& triangles) {
     }
 }
 
-// The faces of a solid cell by its own corners; -1 is the fourth corner of a face with three.
+// The faces of a solid cell. The numbers count the cell's corners from 0; -1 is the fourth corner of a face
+// with three.
 struct Solid {
     std::uint8_t type;
     std::size_t corners;

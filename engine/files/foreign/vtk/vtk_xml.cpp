@@ -39,7 +39,8 @@ bool is_list(std::string_view type) {
                     excerpt(type)));
 }
 
-// The word whose letters and final 0 are written as numbers. Empty where it is no word.
+// The words in a text of numbers: a word is the codes of its letters and a 0. Empty where the text is no list
+// of words.
 std::vector<std::string> words_of(std::string_view text) {
     std::vector<std::string> all(1);
     VtkWords numbers(text.data(), text.data() + text.size());
@@ -55,7 +56,7 @@ std::vector<std::string> words_of(std::string_view text) {
     return all;
 }
 
-// The names of species, if they are all different, look like names and can be typed.
+// The names of species. There are none unless all differ and each is valid UTF-8 and not empty.
 std::vector<std::string> species_of(const XmlArrays& arrays, const XmlElement& array) {
     const std::string_view format = array.attribute("format");
     if (!format.empty() && format != "ascii") return {};
@@ -67,7 +68,7 @@ std::vector<std::string> species_of(const XmlArrays& arrays, const XmlElement& a
     return fine && different.size() == names.size() ? names : std::vector<std::string>();
 }
 
-// Reads the element FieldData, wherever it is.
+// Takes time, step and the names of species from an element FieldData.
 void read_field(const XmlArrays& arrays, const XmlElement& field, VtkContents& contents) {
     for (const XmlElement& array : field.children) {
         const std::string_view name = array.attribute("Name");
@@ -195,7 +196,7 @@ const XmlElement& needed(const XmlArrays& arrays, const XmlElement& element, std
                     fmt::format("its array \"{}\" is missing from {}; {}", name, element.name, kWriteAgain));
 }
 
-// Adds the corners of cells; their types are added later.
+// Adds the ends and corners of cells, but not their types.
 void add_corners(const XmlArrays& arrays, const XmlElement& element, std::uint64_t count, VtkCells& cells) {
     const XmlElement& offsets = needed(arrays, element, "offsets");
     const std::vector<std::int64_t> ends = arrays.whole(offsets, count);
@@ -288,7 +289,7 @@ void add_data(const XmlArrays& arrays, const XmlElement& piece, const char* name
     const XmlElement* element = piece.child(name);
     if (element == nullptr) return;
     for (const XmlElement& array : element->children) {
-        // Words are skipped.
+        // Arrays of words are skipped.
         if (array.name != "DataArray" || array.attribute("type") == "String") continue;
         const std::uint64_t components =
             std::max<std::uint64_t>(arrays.count_in(array, "NumberOfComponents"), 1);

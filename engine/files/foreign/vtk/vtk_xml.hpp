@@ -22,8 +22,7 @@ std::optional<double> time_in_words(std::string_view words);
 // Reads a Piece element. Throws UserError with the line.
 VtkPiece xml_piece(const XmlArrays& arrays, const XmlElement& piece, bool poly_data, VtkPart part);
 
-// Throws UserError where the ends of cells do not rise, or a corner is not a point. Polyhedra are checked
-// when they are split.
+// Throws UserError where a corner is no point of the piece. Polyhedra are checked when they are split.
 void check_cells(const VtkPiece& piece);
 
 }  // namespace grainreel

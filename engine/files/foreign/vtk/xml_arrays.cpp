@@ -64,7 +64,7 @@ std::uint64_t XmlArrays::count_in(const XmlElement& element, std::string_view at
     if (text.empty()) return 0;
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    // A count is limited, so that three doubles for each item are a possible number of bytes.
+    // A count is limited, so that the bytes of three doubles for each item do not overflow.
     if (error != std::errc() || end != text.data() + text.size() || count > (std::uint64_t{1} << 48))
         refuse_vtk_line(file_, element.line, fmt::format("{}=\"{}\" is no count", attribute, excerpt(text)));
     return count;
@@ -212,7 +212,7 @@ bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& part
         const XmlTree tree = xml_tree(part_file.file, head.bytes);
         const XmlElement* set = tree.root.child("PolyData");
         if (set == nullptr) return false;
-        // The number of the time may stand far behind the head.
+        // The time of the file may stand in the appended data, far behind the head.
         const bool own_time = set->child("FieldData") != nullptr || tree.root.child("FieldData") != nullptr;
         if (own_time && !time_known) return false;
         const XmlArrays arrays(part_file.file, head.bytes, tree);

@@ -1,5 +1,5 @@
-// Arrays of numbers in VTK's XML files: as text, as base64, or appended after the XML; plain or in compressed
-// blocks. stored_bytes.cpp gets the bytes, xml_arrays.cpp turns them into numbers.
+// Reads the arrays of numbers in VTK's XML files: as text, as base64, or appended after the XML; plain or in
+// compressed blocks. stored_bytes.cpp gets the bytes, xml_arrays.cpp turns them into numbers.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ enum class VtkCompressor { none, zlib, lz4, lzma, unknown };
 // What the head of a file says about all its arrays.
 struct VtkCoding {
     bool big_endian = false;
-    std::size_t header_bytes = 4;  // size of a length: UInt32 or UInt64
+    std::size_t header_bytes = 4;  // bytes of a length: 4 (UInt32) or 8 (UInt64)
     VtkCompressor compressor = VtkCompressor::none;
     std::string compressor_name{};
 };
@@ -98,9 +98,9 @@ class XmlArrays {
 };
 
 // Counts the grains of a file by its head only, so that a long list of large files is opened without reading
-// them. It adds to the counts of a moment and returns true if the head says all: in PolyData with appended
-// numbers whose points are all vertices, or which has only polygons. The rest of the file is not checked
-// then. time_known: the list says the time, so that the time in the file does not matter.
+// them. It adds to the counts of a moment and returns true if the head tells them all: in PolyData with
+// appended numbers whose points are all grains, or which has only polygons. The rest of the file is not
+// checked then. time_known: the list says the time, so that the time in the file is not needed.
 bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& parts);
 
 }  // namespace grainreel

@@ -31,14 +31,15 @@ struct XmlTree {
     // The bytes of the file after the "_" of AppendedData; both are equal where there are none.
     std::size_t appended_begin = 0, appended_end = 0;
     bool appended_base64 = false;
-    bool cut_off = false;  // ends before its last element is closed
+    bool cut_off = false;  // the file ends before its last element is closed
 };
 
 // Raw appended data are not XML, so only the part before them is parsed. Throws UserError with the line where
 // the XML is damaged. may_end_early: a file that ends within an element is used as far as it goes.
 XmlTree xml_tree(const std::filesystem::path& file, std::string_view bytes, bool may_end_early = false);
 
-// The attribute `type` of VTKFile near the beginning of a file, "PolyData"; empty where it is no VTK file.
+// The attribute `type` of VTKFile near the beginning of a file, "PolyData"; "unknown" where VTKFile has none,
+// empty where the file is no VTK file.
 std::string vtk_file_type(std::string_view head);
 
 }  // namespace grainreel

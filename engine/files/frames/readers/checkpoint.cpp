@@ -42,7 +42,7 @@ CheckpointFile whole_file(const fs::path& path) {
     return file;
 }
 
-// Sorts grains by rising id, as in all frames.
+// The grains by rising id, as in all frames, with x within the period along the depth (0: not periodic).
 Frame frame_of(const Grains& grains, double period) {
     std::vector<std::size_t> order(grains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int32_t most_types = 1000;
 
-// Sorts the rows by rising id, because questions find grains by their ids.
+// The rows by rising id, as in all frames: Frame::row_of() finds a grain by its id.
 Frame by_id(const Frame& table) {
     std::vector<std::size_t> order(table.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -37,7 +37,7 @@ Frame by_id(const Frame& table) {
     return frame;
 }
 
-// The species of a table without a scene.
+// The species of a table without a scene: named by their numbers, with the mean diameter of their grains.
 std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
     std::vector<WorldSpecies> types(static_cast<std::size_t>(last) + 1);
     for (std::size_t type = 0; type < types.size(); ++type)
@@ -104,7 +104,8 @@ class GrainTable final : public FrameArchive {
         check_all_are_there();
     }
 
-    // If no grain comes or goes, the table has as many grains as the scene.
+    // Throws UserError where a final.csv has another number of grains than its scene. It may have one only if
+    // grains come or go.
     void check_all_are_there() const {
         const bool traffic = !scene_->feeds.empty() || grains_leave(*scene_);
         const auto grains = static_cast<std::int64_t>(frame_.size());

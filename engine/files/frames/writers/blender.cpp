@@ -1,4 +1,5 @@
-// A folder for Blender (3.4 or newer). bed.bin has every frame, and the script bed.py builds the moving bed:
+// Writes a folder for Blender (3.4 or newer). bed.bin has every frame, and the script bed.py builds the
+// moving bed:
 //     blender --python bed.py            (or blender -b --python bed.py -- --render 10 picture.png)
 
 #include <fmt/format.h>
@@ -196,7 +197,8 @@ class Blender final : public FrameWriter {
         }
         head_["frames"] = nlohmann::json::array();
     }
-    // A frame is species and id of each grain (int32), then x, y, z and radius of each grain (float32).
+    // A frame is the species of all grains, their ids (int32), then x, y, z and radius of each grain
+    // (float32). frame_of() in the script above reads this layout.
     void frame(const Frame& frame) override {
         nlohmann::json poses = nlohmann::json::array();
         for (const WorldSurface& surface : surfaces_) {

@@ -1,5 +1,5 @@
-// GSD files: file layer 2.0, schema hoomd 1.4 (gsd.readthedocs.io, "File layer" and "HOOMD Schema"). Numbers
-// are floats and the box is centred at 0. GSD knows grains by their rows; ours have their ids in
+// Writes GSD files: file layer 2.0, schema hoomd 1.4 (gsd.readthedocs.io, "File layer" and "HOOMD Schema").
+// Numbers are floats and the box is centred at 0. GSD knows grains by their rows, so their ids are written to
 // log/particles/id.
 #include <algorithm>
 #include <cstdint>
@@ -19,6 +19,7 @@ namespace {
 
 enum Type : std::uint8_t { kUint8 = 1, kUint32 = 3, kUint64 = 4, kInt8 = 5, kFloat = 9, kDouble = 10 };
 
+// An entry of the index with the fields, and in the order, of the file format.
 struct Entry {
     std::uint64_t frame, rows;
     std::int64_t location;
@@ -114,6 +115,8 @@ class Gsd final : public FrameWriter {
         const std::uint64_t list = place_, parts = names.size() / 64 + 1;
         names.resize(parts * 64, '\0');
         put(names);
+        // The head of the file in the order of the format: magic, index, names, versions of schema and file
+        // layer.
         std::string head;
         for (const std::uint64_t one : {std::uint64_t{0x65DF65DF65DF65DF}, index, room, list, parts})
             append(head, one);

@@ -58,7 +58,7 @@ class LammpsData final : public FrameWriter {
     }
 
   private:
-    // read_data refuses atoms outside a box.
+    // The place moved into the box along periodic axes, because read_data refuses atoms outside a box.
     static Vec3 inside(Vec3 place, const WorldCell& box) {
         for (std::size_t edge = 3; edge-- > 0;) {
             const auto axis = static_cast<Eigen::Index>(edge);

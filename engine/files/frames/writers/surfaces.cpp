@@ -92,6 +92,7 @@ class Glb {
     }
     void node(Json one) { json_["nodes"].push_back(std::move(one)); }
 
+    // The whole file: "glTF", version and length, then the chunk "JSON" and the chunk "BIN".
     std::string bytes() {
         Json all = Json::array();
         for (std::size_t k = 0; k < json_["nodes"].size(); ++k) all.push_back(k);
@@ -133,7 +134,7 @@ struct Sphere {
     std::vector<std::uint32_t> corners;
 };
 
-// An icosahedron, each triangle of which is divided into four, twice. It has 320 triangles then.
+// A sphere of 320 triangles: each triangle of an icosahedron is divided into four, twice.
 Sphere unit_sphere() {
     const double g = (1 + std::sqrt(5.0)) / 2;
     std::vector<Vec3> points;

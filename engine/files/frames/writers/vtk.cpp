@@ -1,6 +1,6 @@
-// A folder for ParaView and VTK. grains.pvd, walls.pvd and contacts.pvd list a .vtp file for each moment;
-// run.pvd lists all of them as parts; fields.pvd lists a .vti file for each record of fields.nc. Arrays have
-// the names that other programs read: id, type (from 1, as in LAMMPS), omega.
+// Writes a folder for ParaView and VTK. grains.pvd, walls.pvd and contacts.pvd list a .vtp file for each
+// moment; run.pvd lists all of them as parts; fields.pvd lists a .vti file for each record of fields.nc.
+// Arrays have the names that other programs read: id, type (from 1, as in LAMMPS), omega.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -208,7 +208,7 @@ std::size_t row_of(const Frame& frame, std::int32_t id) {
     return frame.row_of(id).value_or(frame.size());
 }
 
-// The shortest of all vectors that differ by edges of the periodic cell.
+// Subtracts whole edges of the periodic cell from a vector, so that it leads to the nearest image.
 Vec3 shortest(Vec3 way, const World& world) {
     if (!world.cell) return way;
     for (std::size_t edge = 3; edge-- > 0;) {

@@ -33,12 +33,12 @@ struct VtkFacts {
     std::vector<std::pair<std::string, std::vector<std::string>>> words;  // "species": names
 };
 
-// A piece of PolyData with cells of one kind: vertices, lines or triangles. Connectivity and offsets are
-// VTK's.
+// A piece of PolyData with cells of one kind: vertices, lines or triangles.
 struct VtkPolyData {
     enum class Cells { vertices, lines, triangles };
     Cells cells = Cells::vertices;
-    std::vector<double> points;  // x y z
+    std::vector<double> points;  // x, y, z of each
+    // Points of the cells, points_a_cell of each.
     std::vector<std::int64_t> connectivity;
     std::int64_t points_a_cell = 1;
     std::vector<VtkList> point_data, cell_data;
@@ -54,7 +54,7 @@ struct VtkImage {
 };
 
 // The whole content of the file. Blocks are packed on so many threads (0: as many as there are processors);
-// the bytes do not depend on that.
+// the bytes do not depend on their number.
 std::string vtk_bytes(const VtkPolyData& data, int threads = 0);
 std::string vtk_bytes(const VtkImage& image, int threads = 0);
 

@@ -15,6 +15,7 @@ namespace grainreel {
 
 namespace {
 
+// accuracy_drawing() repeats these names. Their order gives the colours, here and in gas_drift_drawing().
 std::vector<Method> methods() {
     using I = Integrator;
     const auto slip = TangentialLaw::incremental_slip;
@@ -41,8 +42,8 @@ std::vector<double> restitutions(bool quick) {
     return {0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98};
 }
 
-// Settings that change one factor at a time from the default: step, corrections, integrator, stiffness,
-// arms, law.
+// Settings that change one factor at a time from the default: step, corrections, precision, stiffness, arms,
+// law. The reference must stand first: bed_differences() compares with the first row of the table.
 std::vector<BedSetting> bed_settings(bool quick) {
     const auto step = [](double share) {
         return fmt::format("run.step={:.10g}", share * default_bed_step());
@@ -64,7 +65,7 @@ std::vector<BedSetting> bed_settings(bool quick) {
     return all;
 }
 
-// Adds what is still missing for one point of the chart.
+// Adds the rows that are still missing for one method, restitution and number of forces.
 void add_contact_rows(const Method& method, double e, double forces, bool quick, double cost,
                       ResultTable& table) {
     const double steps = forces / method.forces_a_step();
@@ -88,6 +89,7 @@ void add_contact_rows(const Method& method, double e, double forces, bool quick,
     if (e == 0.9 && missing("energy drift")) add("energy drift", bounce_drift(method, steps, 1000));
 }
 
+// Whether the table has the row that add_contact_rows() adds last: "spin", or "energy drift" where e is 0.9.
 bool all_there(const Method& method, double e, double forces, const ResultTable& table) {
     return table.has({method.name, "spin", number(e), number(forces)}) &&
            (e != 0.9 || table.has({method.name, "energy drift", number(e), number(forces)}));

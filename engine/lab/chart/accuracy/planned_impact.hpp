@@ -1,4 +1,5 @@
-// Two grains, or a grain and a plane, with the stiffness and the step that the plan chooses for them.
+// Computes the impact of two grains, or of a grain and a plane, with the stiffness that the plan chooses for
+// them. Also moves one contact along a given path.
 #pragma once
 
 #include <string>
@@ -19,23 +20,22 @@ struct ImpactScene {
 // The plan of the impact. Species 0 is the first grain, species 1 the second.
 Plan plan_of(const ImpactScene& impact);
 
-// The step (s) that the plan chooses for two grains of default restitution and friction with the stiffness
-// bench_stiffness.
+// The step (s) that the plan chooses for two grains with restitution 0.9 and friction 0.5, converted to the
+// stiffness bench_stiffness.
 double usual_step();
 
 struct Impact {
     Vec3 velocity[2], spin[2];             // m/s, rad/s, after the impact; zero for the plane
     double energy = 0, energy_before = 0;  // J
-    double momentum_change = 0;            // of the total momentum, divided by that of the first grain
-    double angular_change = 0;  // of the total angular momentum about the origin, divided by momentum times
-                                // radius of the first grain
+    double momentum_change = 0;            // change of the total momentum, divided by that of the first grain
+    double angular_change = 0;  // change of the total angular momentum about the origin, divided by momentum
+                                // times radius of the first grain
 };
 // Makes the impact: the first grain flies at the second, or down on the plane, at `angle` (rad) from the
 // normal. `phase` is the share of a step, 0 to 1, that is left before the first touch. `step` is in s.
 Impact make_impact(const ImpactScene& impact, const Plan& plan, double step, double angle, double phase);
 
 // One contact that is moved along a path by hand, through the same law as in the step loop.
-
 class DrivenContact {
   public:
     explicit DrivenContact(const PairPlan& pair);

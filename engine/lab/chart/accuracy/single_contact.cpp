@@ -25,7 +25,8 @@ double mass() {
     return bench_mass();
 }
 
-// The plan of contacts by this method. `effective_mass` is that of the contacts that matter.
+// The plan of contacts by this method. `effective_mass` (kg) is that of the contact whose restitution is to
+// be right.
 PairPlan pair_of(const Method& method, double restitution, double effective_mass) {
     PairPlan pair;
     pair.model = {method.normal, method.tangential, false, method.precision};

@@ -17,6 +17,7 @@ struct Method {
     TangentialLaw tangential = TangentialLaw::incremental_slip;
     Precision precision = Precision::full;
 
+    // How many times a step evaluates the forces.
     int forces_a_step() const;
 };
 

@@ -1,4 +1,5 @@
-// Beds as scenes make them: at rest with too long a step, shaken gently sideways, and shaken hard.
+// Limits of beds as scenes make them: at rest with too long a step, shaken gently sideways, and shaken hard.
+// Also errors of the drive, and round-off of positions.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -45,7 +46,8 @@ double restlessness(double step, int grains) {
            (grains * bench_mass() * scene.gravity.norm() * 2 * bench_radius);
 }
 
-// A loose bed with losses: finds the step from which on the health check stops it.
+// A loose bed with losses: finds the step from which on the health check stops it. The theory is the limit of
+// a dense crystal (limits_of_step.cpp).
 Finding resting_bed(bool quick) {
     Finding finding;
     finding.theory = 2 / std::sqrt(8.0);
@@ -83,8 +85,8 @@ direction = [0, 1, 0]
 trajectory = false
 )";
 
-// How far a grain moves in a period, divided by its diameter: the mean from the end of the tenth period to
-// the end of the last.
+// How far a grain creeps in a period: its displacement from the end of the tenth period to the end of the
+// last, divided by its diameter and the number of periods; the mean over all grains.
 double creep_of(LeverArms arms, int seed, int periods) {
     constexpr int settled = 10;
     const Scene scene = read_scene_text(
@@ -115,8 +117,8 @@ Finding creep(LeverArms arms, bool quick) {
     return finding;
 }
 
-// The largest overlap seen, divided by the largest that the plan expects. Throws when the health check stops
-// a run.
+// The largest overlap seen in any of the runs, divided by the one that the plan expects there. Throws when
+// the health check stops a run.
 Finding hard_shaking(bool quick) {
     Finding finding;
     finding.theory = 1;
@@ -157,7 +159,8 @@ std::vector<Experiment> bed_experiments() {
              "the plan's stiffness; health check", hard_shaking}};
 }
 
-// Errors of the drive: the kick of one that starts at once, and the place of walls within a step.
+// Errors of the drive: without a ramp at its start the plate hits the grains (a kick), and walls may be at a
+// wrong place within a step.
 
 namespace {
 
@@ -182,9 +185,9 @@ std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period,
     return whole;
 }
 
-// A ball at rest on a plate that is shaken below 1 g: its largest speed relative to the plate, divided by
-// a omega, in every twentieth of the first three periods. If the drive starts without a ramp, the plate hits
-// the ball at a omega, and the ball leaves at e times that.
+// A ball at rest on a plate that is shaken below 1 g: its largest speed relative to the plate, divided by a
+// omega, in each twentieth of a period, for three periods. If the drive starts without a ramp, the plate hits
+// the ball with the speed a omega, and the ball leaves with e times that.
 Finding kick(double ramp) {
     constexpr double e = 0.9, level = 0.9;
     constexpr int steps = 40000, points = 60;

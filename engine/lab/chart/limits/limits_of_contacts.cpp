@@ -1,5 +1,6 @@
-// How accurate one impact is at the step that the plan chooses: restitution from nearly 0 to nearly 1, sizes
-// and masses far apart, and what happens when the step is too long.
+// How accurate one impact is at the step that the plan chooses: restitution from nearly 0 to nearly 1, and
+// sizes and masses far apart. Also what happens when the step is too long, or when impacts follow each other
+// too fast.
 
 #include <algorithm>
 #include <numbers>
@@ -81,8 +82,8 @@ Finding momenta(bool) {
 }
 
 // Error of the slip after an oblique impact, divided by the speed. The reference is the same impact with a
-// hundredth of the step. Schemes that mix time levels go wrong here from a size ratio of 3 on (Vyas et al.,
-// Comput. Phys. Commun. 310, 109524).
+// hundredth of the step. Schemes that mix positions and velocities of different times go wrong here from a
+// size ratio of 3 on (Vyas et al., Comput. Phys. Commun. 310, 109524).
 Finding oblique_sizes(bool quick) {
     Finding finding;
     finding.theory = 1;
@@ -111,8 +112,8 @@ Finding oblique_sizes(bool quick) {
     return finding;
 }
 
-// Plain Verlet's error, the largest of 200 phases of the first touch, and the numbers that were derived by
-// hand (docs/reference/accuracy.md).
+// Plain Verlet's error, the largest of 200 phases of the first touch (40 in a quick chart). `derived` has the
+// numbers that were derived by hand (docs/reference/accuracy.md); the one for 12 steps must be among them.
 Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, bool quick) {
     const Method plain{"", Integrator::velocity_verlet, NormalForce::walton_braun, TangentialLaw::none};
     Finding finding;
@@ -248,7 +249,7 @@ Experiment detachment(NormalForce law, double e, const std::string& name) {
                     const double soft = soft_energy_left(law, e, gap * time * speed);
                     const double hard = HardColumn(gap, e).energy_left(), excess = soft / hard;
                     finding.curve.push_back({1 / gap, soft, hard});
-                    if (excess > 1.2) finding.measured = 1 / gap;  // in the end: the shortest that fails
+                    if (excess > 1.2) finding.measured = 1 / gap;  // the last is the smallest that fails
                 }
                 // At an overlap of 1 % a grain crosses its own diameter in some 30 contact times.
                 const Plan plan = plan_of(ImpactScene());

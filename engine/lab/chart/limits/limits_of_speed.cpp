@@ -1,5 +1,5 @@
-// Grains that are too fast: they go through each other, through a wall, past each other between two steps,
-// or out of reach of the neighbour lists.
+// Limits of fast grains: they go through each other, through a wall, past each other between two steps, or
+// out of reach of the neighbour lists. Also contacts that last too long for their drive.
 
 #include <algorithm>
 #include <complex>
@@ -80,9 +80,9 @@ Finding through_a_wall(bool) {
 Finding past_each_other(bool quick) {
     Finding finding;
     finding.theory = 1;
-    const auto missed = [&](double chord) {  // share of phases at which the meeting is missed. chord: way of
-                                             // a step divided by 2 (r_i + r_j)
-        constexpr double step = 1e-3;        // forces hardly matter here
+    // The share of phases at which the meeting is missed. chord: way of a step divided by 2 (r_i + r_j).
+    const auto missed = [&](double chord) {
+        constexpr double step = 1e-3;  // forces hardly matter here
         const int phases = quick ? 20 : 100;
         int count = 0;
         for (int phase = 0; phase < phases; ++phase)

@@ -36,8 +36,9 @@ struct Disturbance {
     int steps;   // number of steps in which an unstable disturbance grows ten-thousandfold
 };
 
-// Factor by which the amplitude grows in a step; 1 for no growth. It is measured while the energy is more
-// than ten thousand times that of the start, or over all steps where it stays below.
+// Factor by which the amplitude grows in a step; 1 for no growth. It is measured from where the energy has
+// become 1e4 times that at the start. If the energy never becomes 1e8 times as large, the factor is the mean
+// over all steps.
 double growth_of(SmallWorld& world, const Disturbance& disturbance) {
     Random random(1, Stream::centres);
     const double speed = 1e-9 * overlap / unit();
@@ -155,7 +156,8 @@ Finding sideways_limit(bool) {
     return find_limit(build, {{1, 0, 0}, 2000}, 2 / std::sqrt(3.5 * ratio));
 }
 
-// A face-centred cubic block, twelve contacts a grain inside, pressed by its six walls and brought to rest.
+// A face-centred cubic block with twelve contacts a grain inside, pressed by its six walls. block_at_rest()
+// brings it to rest.
 std::unique_ptr<SmallWorld> block(int planes, const PairPlan& pair, double step) {
     auto whole = std::make_unique<SmallWorld>(pair, step);
     SmallWorld& world = *whole;

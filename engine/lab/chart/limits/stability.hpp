@@ -1,6 +1,5 @@
-// `grainreel chart stability`: where each method fails, measured beside theory. It has two tables:
-// limits.csv with one row for each experiment, and curves.csv with the measurements on the way to the
-// limit.
+// `grainreel chart stability`: where each method fails, measured beside theory. The chart has two tables:
+// limits.csv with one row for each experiment, and curves.csv with the measurements on the way to the limit.
 #pragma once
 
 #include <cmath>
@@ -24,8 +23,8 @@ struct CurvePoint {
     double theory = unknown;
 };
 
-// The result: the limit in the unit of `Experiment::varied`. If a method has an error instead of a limit,
-// `theory` is the allowed error and `measured` the largest error found.
+// The result of an experiment: the limit in the unit of `Experiment::varied`. If a method has an error
+// instead of a limit, `theory` is the allowed error and `measured` the largest error found.
 struct Finding {
     double theory = unknown, measured = unknown;
     double usual = unknown;  // value of the varied quantity in a usual run, if the plan chooses it
@@ -36,6 +35,7 @@ struct Finding {
 // before the run, or the user's care, helps.
 enum class Failure { loud, silent };
 
+// stability_drawing() picks curves by the names of experiments.
 struct Experiment {
     std::string name, varied;  // varied: the quantity that is varied, with its unit
     Failure failure;
@@ -54,7 +54,7 @@ std::vector<Experiment> drive_experiments();
 std::vector<Experiment> bed_experiments();
 std::vector<Experiment> number_experiments();
 
-// The value where a condition ceases to hold that holds at `low` and not at `high`.
+// Finds by halving where a condition ceases to hold. It must hold at `low` and not at `high`.
 template <class Holds>
 double last_that_holds(double low, double high, int halvings, const Holds& holds) {
     for (int k = 0; k < halvings; ++k) {

@@ -25,7 +25,8 @@ struct JammedPacking {
     Precision precision = Precision::full;
 };
 
-// The packing at one pressure, away from the walls.
+// The packing at one pressure, away from the walls. The chart fills it from the columns of packing.csv in
+// this order.
 struct PackingState {
     double pressure = 0;        // p d / K, with the diameter d at the start and the stiffness K
     double solid_fraction = 0;  // of the measured volume; includes rattlers and parts of grains at its border

@@ -20,7 +20,8 @@ using std::numbers::pi;
 constexpr double diameter = 0.004, radius = diameter / 2, density = bench_density;  // m, m, kg/m3
 constexpr double gravity = 9.81, stiffness = 2e3;                                   // m/s2, N/m
 constexpr double loose = 0.5, expected = 0.58;                                      // solid fractions
-constexpr double sinking = 0.05, way = 0.5 * diameter;  // of the floor: speed in sqrt(g d), and m
+// How the floor sinks: its speed divided by sqrt(g d), and its way (m).
+constexpr double sinking = 0.05, way = 0.5 * diameter;
 
 double mass() {
     return density * sphere_volume(radius);

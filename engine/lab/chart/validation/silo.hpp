@@ -21,6 +21,7 @@ struct SiloColumn {
     Precision precision = Precision::full;
 };
 
+// The chart fills it from the columns of silo.csv in this order.
 struct SiloLoad {
     double filling = 0;   // mass of the grains, in units of rho_b pi D^3 / 4, a column as high as the bore D
     double apparent = 0;  // mass that the floor carries, in the same unit

@@ -21,7 +21,6 @@ struct ValidationPart {
 extern const ValidationPart impact_part, packing_part, silo_part, gas_part;
 
 // Mean over a few seeds and its standard error.
-
 struct SeedMean {
     double mean = 0, error = 0;
 };
