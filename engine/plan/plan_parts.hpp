@@ -1,5 +1,5 @@
 // The parts of the plan: what the bed is like, the contacts' numbers, the step. make_plan() puts them
-// together; what is handed over to another engine asks for contacts one by one.
+// together; code that hands a scene over to another engine plans contacts one by one.
 #pragma once
 
 #include <string>
@@ -39,7 +39,9 @@ struct Touching {
     double effective_mass;
     double effective_radius;
 };
-std::vector<Touching> extremes(const Species& a, const Species* b);  // b: nullptr for a wall
+std::vector<Touching> extremes(const Species& a, const Species* b);  // smallest, mean and largest grains of
+                                                                     // both, the smallest first; b: nullptr
+                                                                     // for a wall
 Touching mean_touching(const Species& a, const Species* b);          // both of mean size
 double mean_effective_mass(const Species& a, const Species* b);
 

@@ -1,5 +1,5 @@
-// Values that can be run, but that nobody means: a unit left out, a factor of a thousand, a sign. Each line
-// has the figure and the likely slip.
+// Values that can be run, but that nobody means: a unit left out, a factor of a thousand, a sign. Each
+// warning names the figure and the likely slip.
 
 #include <fmt/format.h>
 #include <algorithm>

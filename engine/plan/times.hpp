@@ -32,7 +32,7 @@ struct FieldTimes {
     bool ends_record(std::int64_t step) const;
     // The first end of a record at or after `step`; kNever after the last one.
     std::int64_t next_end(std::int64_t step) const;
-    // The step at which the record began that ends at this one.
+    // The step at which the record began that ends at step `end_of_it`.
     std::int64_t begin_of_record(std::int64_t end_of_it) const;
 
   private:
@@ -59,7 +59,8 @@ struct Rhythm {
 
     Rhythm(double every_steps, double every_periods = 0) : steps(every_steps), periods(every_periods) {}
 
-    // The first step, from `step` (not negative) on, that is nearest to a multiple.
+    // The first step, from `step` (not negative) on, that is nearest to a multiple of `steps` or of
+    // `periods`.
     std::int64_t next(std::int64_t step, const Clock& clock) const {
         if (periods > 0) {
             // The count begins one lower, so that rounding skips none.

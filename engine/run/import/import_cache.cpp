@@ -68,6 +68,8 @@ std::vector<fs::path> files_behind(const fs::path& from, const ReadingOptions& o
     return files;
 }
 
+// All options as a text for the key. An import made with an option that is missing here would be found again
+// for any value of it.
 std::string text_of(const ReadingOptions& o) {
     std::string text = fmt::format("{} {} {} {} {} {} {} {}", o.one, o.units, o.radius.value_or(0),
                                    o.time_step.value_or(0), o.density.value_or(0), o.walls_scale.value_or(0),

@@ -145,7 +145,7 @@ bool is_smooth(const fs::path& file, const std::string& wall, std::vector<std::s
     }
 }
 
-// The tables of the scene's text for its walls and their motions.
+// The scene's gravity and the tables for its walls and their motions, taken from the scene's text.
 std::string walls_and_drive(const std::string& text) {
     std::string kept;
     bool keep = false;
