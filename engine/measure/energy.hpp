@@ -40,10 +40,11 @@ double total_energy(const Surroundings& around, const Grains& grains, const Step
 // The energy balance of a run, term by term. The energy that walls give and contacts take is measured at the
 // contacts; no term is inferred from the others. The residual is the error of the finite step.
 //
-// Latching takes the area between the slopes of its law, (K1/2)(1 - e^2) a_max^2, as a_max grows. Friction
-// takes T . ds minus the energy that its springs keep. Dashpots take their force times velocity, and walls
-// give their force times the wall's velocity. These three are summed by the trapezoidal rule over the steps.
-// With velocity Verlet the step itself follows this rule: sum dt F . v is the change of m v^2 / 2 to the last
+// Latching is unloading along a steeper line than loading, as in the law of Walton and Braun. It takes the
+// area between the two lines, (K1/2)(1 - e^2) a_max^2, as the largest overlap a_max grows. Friction takes T .
+// ds minus the energy that its springs keep. Dashpots take their force times velocity, and walls give their
+// force times the wall's velocity. These three are summed by the trapezoidal rule over the steps. With
+// velocity Verlet the step itself follows this rule: sum dt F . v is the change of m v^2 / 2 to the last
 // digit, except for m (dt a)^2 / 8 at either end (by expanding Swope et al. 1982, J. Chem. Phys. 76, 637).
 struct EnergyTerms {
     double kinetic = 0, rotational = 0, gravitational = 0, stored = 0;  // J, at the last step noted

@@ -7,8 +7,9 @@
 
 namespace grainreel {
 
-// Top of the bed at rest: m above the floor's rest position. Empty where the grains' volume does not tell
-// it: in empty space, without gravity along -z, or with planes of the scene's own.
+// Top of the bed at rest: m above the floor's rest position. Empty where the grains' volume does not tell it:
+// in empty space, without gravity about along -z, with planes, with meshes beside the container, or where the
+// container turns.
 std::optional<double> resting_top(const Scene& scene);
 
 // The height that grains reach in flight: m above the floor's rest position. Empty as above.

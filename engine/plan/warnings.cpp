@@ -32,7 +32,8 @@ bool only_the_drive_moves(const Scene& scene) {
     return !scene.container.outlet && scene.feeds.empty() && scene.start.method != Start::Method::grains;
 }
 
-// Whether a stage that begins at once takes the drive's place. A stage grows by itself.
+// Whether a stage that begins at once takes the drive's place. The change to a stage lets its amplitude grow,
+// without drive.ramp.
 bool is_replaced(const Drive& drive) {
     return drive.changes() && drive.stages.front().from <= 0;
 }

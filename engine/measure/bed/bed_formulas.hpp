@@ -37,7 +37,7 @@ class Fabric {
     // All NaN without contacts.
     Eigen::Matrix3d tensor() const { return sum_ / contacts_; }
     // Largest minus smallest eigenvalue of F: 0 without a preferred direction, 1 when all normals are
-    // parallel.
+    // parallel. NaN without contacts.
     double anisotropy() const;
     // F_zz, the mean square of the cosine between a normal and the vertical: 1/3 without a preferred
     // direction, 1 when all normals are vertical.
