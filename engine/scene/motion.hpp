@@ -1,11 +1,11 @@
-// MotionPath, the motion of a body along a path from a file: places and orientations at rising times, joined
-// by a curve whose velocity and acceleration are continuous. BodyTurn, the steady turn of a body.
+// Motions that a body may have of its own. MotionPath follows a path from a file: places and orientations at
+// rising times, joined by a curve whose velocity and acceleration are continuous. BodyTurn is a steady turn.
 //
-// The file is CSV: a header of names, then rows. Its columns are time_s (or t), x_m, y_m, z_m (or x, y, z)
-// and, if wanted, qw, qx, qy, qz. Places count from the body's place at rest. The quaternion turns the body
-// about its pivot, which moves with it. The curve is a natural cubic spline (de Boor 1978, A Practical
-// Guide to Splines, ch. IV); the quaternion's four numbers have splines too and are then scaled to length
-// 1. Before the first time and after the last one the body stands still.
+// The file of a path is CSV: a header of names, then rows. Its columns are time_s (or t), x_m, y_m, z_m (or
+// x, y, z) and, if wanted, qw, qx, qy, qz. Places count from the body's place at rest. The quaternion turns
+// the body about its pivot, which moves with it. The curve is a natural cubic spline (de Boor 1978, A
+// Practical Guide to Splines, ch. IV). The quaternion's four numbers have splines too and are then scaled to
+// unit length. Before the first time and after the last one the body stands still.
 #pragma once
 
 #include <cstddef>
@@ -112,7 +112,8 @@ struct PathRows {
     std::vector<int> lines;  // line number in the file, from 1
     std::vector<double> times;
     std::vector<Vec3> places;
-    std::vector<Eigen::Vector4d> turns;  // unit, w first, each on the side of the one before; or none at all
+    std::vector<Eigen::Vector4d> turns;  // unit, w first, each with the sign that is nearer to the one
+                                         // before; empty if the body does not turn
 };
 
 // Throws UserError as MotionPath::read does.

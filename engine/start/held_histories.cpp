@@ -147,8 +147,8 @@ class HeldHistories {
     const ContactRules rules_, rules_there_;
     const bool same_glued_;
     const std::vector<std::int32_t> mesh_;   // the number here of each mesh of the origin; -1 for none
-    std::vector<Bodies> in_several_places_;  // pairs of a grain and a mesh with several contacts: no history
-                                             // can be told from the others
+    std::vector<Bodies> in_several_places_;  // pairs of a grain and a mesh with several contacts, whose
+                                             // histories cannot be told apart
     const std::vector<KeptContacts> kept_;
     std::unordered_map<Bodies, Held, HashOfBodies> held_;
 };

@@ -77,6 +77,8 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
 void save_checkpoint(const std::filesystem::path& path, const std::string& kept,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
                      const std::string& gathered, const std::vector<std::int64_t>& given) {
+    // CheckpointFile::read() and label_of_checkpoint() rely on this order. Another order needs another
+    // kVersion (checkpoint_file.cpp).
     std::ostringstream body;
     write_vector(body, std::vector<char>(kept.begin(), kept.end()));
     write_value(body, header);

@@ -24,10 +24,10 @@ struct Face {
     // Whether the face is a plate that ends. A grain touches such a plate, from either side, at its nearest
     // point, which may lie on an edge.
     bool ends = false;
-    Vec3 along{0, 0,
-               0};       // unit, in the face and perpendicular to its lower edge; zero if it has no such edge
-    Vec3 edge{0, 0, 0};  // m, a point of the lower edge
-    double gap = 0;      // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
+    Vec3 along{0, 0, 0};  // unit, in the face, from the edge where it ends into the face; zero if it has no
+                          // such edge
+    Vec3 edge{0, 0, 0};   // m, a point of this edge
+    double gap = 0;       // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
     bool round_gap = false;
 
     // Only for a face whose body turns; see set_reach().

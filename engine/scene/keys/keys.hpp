@@ -1,7 +1,7 @@
 // Keys of a scene file: what a key is, how lists of keys are made and searched, paths of keys, the words of
 // choices, and assignments from the command line. The reader, the search for the nearest key and the table in
 // docs/reference/scenes.md use one list, scene_keys(). Another kind of file (a study) has its own list. New
-// keys are added in the chapters, not here.
+// keys are added in engine/scene/chapters, not here.
 #pragma once
 
 #include <cstddef>
