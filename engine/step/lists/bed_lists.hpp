@@ -67,7 +67,8 @@ class BedLists {
     void renew_shares();
     bool are_made() const { return !shares_.empty(); }
 
-    // To each contact that touches, gives the history that history_of fills in. Call it between two runs.
+    // Gives each touching contact the history that history_of() fills in. Where that returns false, the
+    // contact keeps its own. Call it between two runs.
     using HistoryOf =
         std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
     void take_histories(const HistoryOf& history_of);
