@@ -157,7 +157,7 @@ bool lies_in(std::string_view key, std::string_view table) {
 
 using Value = std::pair<std::string, std::string>;
 
-// The keys and values in a text of the scene's writer, one a line, in its order.
+// The keys and values in a text that the scene's writer made, in its order. It writes one key on a line.
 std::vector<Value> values_of(std::string_view text) {
     std::vector<Value> values;
     std::map<std::string, int> elements;

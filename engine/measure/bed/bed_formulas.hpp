@@ -83,7 +83,7 @@ class Flight {
     // The last flight that has ended.
     std::optional<Times> last() const { return state_.any ? std::optional(state_.last) : std::nullopt; }
 
-    // Everything it knows, for the checkpoint.
+    // Everything that a Flight knows. Checkpoints hold it as it lies in memory.
     struct State {
         bool flying = false;
         std::int64_t since = 0;  // step at which the present flight began
@@ -126,7 +126,7 @@ class PeriodMultiple {
     // Root mean square difference (m) between a period and the one before it.
     double difference() const { return difference_; }
 
-    // Everything it knows, for the checkpoint.
+    // Saves and loads everything that it knows, for the checkpoint.
     void save(std::ostream& out) const;
     void load(Bytes& in);
 

@@ -54,7 +54,7 @@ struct FieldContact {
     Vec3 begin;   // m, the grain's centre
     Vec3 branch;  // m, from there to the other grain's centre, or to the point of the wall that it touches
     Vec3 force;   // N, on the other body
-    double radius = 0, other_radius = 0;  // m, of both grains; at a wall both are the grain's
+    double radius = 0, other_radius = 0;  // m, radii of the two grains; at a wall both are that of the grain
 };
 
 // The grains and contacts of one moment.

@@ -160,7 +160,8 @@ ImportedRun cached_import(ImportRequest request) {
     std::error_code error;
     if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kImportNews, error))
         return found(place / name);
-    // Each process makes its own import, and the first that is finished gives it its name.
+    // Each process makes the import in a folder of its own. It then renames this folder to `place`, where it
+    // replaces what another process may have put there.
     const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
     fs::remove_all(part, error);
     request.folder = part / name;

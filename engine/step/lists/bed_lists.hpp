@@ -3,10 +3,10 @@
 //
 // The bits of a run do not depend on the number of threads, for three reasons. The grains have one spatial
 // order, whatever the team. Every thread computes all contacts of its own grains. Every grain sums its
-// contacts in one order: meshes before walls before pairs, law by law. Within a law, the contacts that began
-// since the last refresh come first, in the order in which they began. Then come the contacts in which the
-// grain is the second body, by rising first body, then those in which it is the first body, by rising second
-// body.
+// contacts in one order: meshes before glued grains before walls before pairs, law by law. Within a law, the
+// contacts that began since the last refresh come first, in the order in which they began. Then come the
+// contacts in which the grain is the second body, by rising first body, then those in which it is the first
+// body, by rising second body.
 #pragma once
 
 #include <cstdint>
