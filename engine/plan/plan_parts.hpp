@@ -63,9 +63,10 @@ double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& 
 // (pi / 12)^4, e < 0.9976.
 bool nearly_elastic(double restitution);
 
-// Number of steps in a free impact. At standard accuracy velocity Verlet then keeps the restitution within
-// 0.005: without contact corrections when the number is whole, with them at any number. Nearly elastic
-// grains keep their energy as well as those of a spring-dashpot do.
+// Number of steps in a free impact. At standard accuracy velocity Verlet then keeps the restitution of Walton
+// and Braun's law within 0.005: without contact corrections when the number is whole, with them at any
+// number. That of a spring-dashpot is up to 0.016 off (plan_step.cpp). Nearly elastic grains keep their
+// energy as well as those of a spring-dashpot do.
 int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy = Accuracy::standard);
 
 // The longest stable step times the fastest angular frequency: 2 for Verlet in all its forms, sqrt 2 for

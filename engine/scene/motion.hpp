@@ -71,9 +71,10 @@ class MotionPath {
   public:
     // `pivot` (m, at rest) is the mesh's position. Throws UserError with file and line for: values that are
     // not numbers, times that do not rise or begin after 0, fewer than 4 rows, a quaternion that is no
-    // rotation, and jumps. A jump is a step of more than a twentieth of the path's size that is more than 20
-    // times as fast as those before and after it; a single row that lies as far from both its neighbours; or
-    // a turn of more than 2 rad from row to row, whose sense would be unclear.
+    // rotation, a path that at 0 s is not where the mesh rests, and jumps. A jump is a step of more than a
+    // twentieth of the path's size that is more than 20 times as fast as those before and after it; a single
+    // row that lies as far from both its neighbours; or a turn of more than 2 rad from row to row, whose
+    // sense would be unclear. Jumps of places are looked for only in files of 8 rows or more.
     static std::shared_ptr<const MotionPath> read(const std::filesystem::path& file,
                                                   const Vec3& pivot = Vec3(0, 0, 0));
 
@@ -81,8 +82,8 @@ class MotionPath {
     const Vec3& pivot() const { return pivot_; }     // m, at rest
     double first() const { return times_.front(); }  // s
     double last() const { return times_.back(); }    // s
-    // Largest speeds, looked up at sixteen times between every two rows. No point at a distance r from the
-    // pivot is faster than top_speed() + r * top_spin().
+    // Largest speeds, looked up at sixteen times between every two rows. A point at a distance r from the
+    // pivot is at most top_speed() + r * top_spin() fast at these times.
     double top_speed() const { return top_speed_; }  // m/s, of the pivot
     double top_spin() const { return top_spin_; }    // rad/s
     bool turns() const { return !turns_.empty(); }

@@ -13,9 +13,9 @@
 namespace grainreel {
 
 // Returns all grains of the scene at rest. Ids count from 0 in the order of the species; diameters are
-// drawn from the spread of each species. Centres are random in the species' layer, at least a quarter
-// radius (half a radius beside meshes) inside the container or the start's region, and outside meshes and
-// glued grains.
+// drawn from the spread of each species. Centres are random in the species' layer, at least a quarter radius
+// (in scenes with meshes half a radius) inside the container or the start's region, outside meshes and, where
+// a place is found, outside glued grains. In thin layers and narrow rooms they may lie closer to walls.
 // The layers divide the container's lower part in proportion to the solid volumes of the species, so all are
 // equally dense. The species with the largest mean diameter lies lowest. The lower part is as high as a loose
 // crowd of the grains needs (a third of its volume is solid), and at most the whole container. From higher up

@@ -100,9 +100,9 @@ std::vector<Face> tray_faces(const Scene& scene);
 // `faces` are those of container_faces(), perhaps with others after them, which stay as they are.
 void open_outlet(const Container& container, std::vector<Face>& faces);
 
-// The names of a scene's walls in the columns of measures and files: container and planes, in the order of
-// the surroundings' faces, then the meshes. Each is a part of a column's name ("left_slant"). No name comes
-// twice: the second of two walls with the same name is "NAME_2".
+// The names of a scene's walls in the columns of measures and files: container, planes and tray, in the order
+// of the surroundings' faces, then the meshes. Each is a part of a column's name ("left_slant"). No name
+// comes twice: the second of two walls with the same name is "NAME_2".
 std::vector<std::string> face_names(const Scene& scene);
 
 }  // namespace grainreel

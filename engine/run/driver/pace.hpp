@@ -19,7 +19,7 @@ class Pace {
 
     // Notes that the last stretch had `steps` steps and took `seconds` seconds.
     void took(std::int64_t steps, double seconds) {
-        // At most four times more than before: one quick stretch says little about the next.
+        // At most four times as many as before: one quick stretch says little about the next.
         const double most = 4.0 * static_cast<double>(steps_);
         const double wanted = seconds > 0 ? static_cast<double>(steps) * stretch / seconds : most;
         steps_ = std::clamp(static_cast<std::int64_t>(std::min(wanted, most)), std::int64_t{1}, longest);

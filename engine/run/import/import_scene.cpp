@@ -90,7 +90,8 @@ void add_row(std::string& text, double time, const BodyPose& pose) {
                         pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
 }
 
-// A name that a [[mesh]] may have: no face of the container, species or other mesh has it.
+// A name that a [[mesh]] may have: no face of the container, species or other mesh has it. The list of faces
+// holds the names that container_faces.cpp gives.
 std::string mesh_name(const std::string& wanted, const std::vector<std::string>& taken) {
     std::string bare = wanted;
     std::replace(bare.begin(), bare.end(), '_', ' ');
