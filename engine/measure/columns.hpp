@@ -33,7 +33,7 @@ struct ColumnAxis {
 
 ColumnAxis axis_of_column(const Scene& scene, const std::string& column);
 
-// The columns that cannot be negative; a new one has to be named there. Columns with the name of a species
+// The columns that cannot be negative; columns.cpp lists them. Columns with the name of a species
 // are not in this list, but axis_of_column() knows them.
 const std::vector<std::string>& columns_from_zero();
 

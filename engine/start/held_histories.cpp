@@ -295,6 +295,7 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
         const PairPlan& pair = *found->second.pair;
         std::fill_n(to, group.history_size(), 0.0);
         to[0] = latched(pair, found->second.overlap, share);  // a_max, the first number of each such history
+        // The third number of WaltonBraunCorrected::History is the softness 1 / K2.
         if (pair.model.normal == NormalForce::walton_braun_corrected) to[2] = 1 / pair.unloading_stiffness;
         return true;
     });
